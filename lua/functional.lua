@@ -1,0 +1,153 @@
+--[[
+Functions over functions and tables: map, filter, reduce and their kin, and the operators as functions.
+
+Base makes them global. They work on arrays; nothing here is lazy.
+]]
+
+local M = {}
+
+--- range(to), range(from, to), range(from, to, step): the numbers, both ends included.
+function M.range(from, to, step)
+    if to == nil then from, to = 1, from end
+    local result = {}
+    for i = from, to, step or 1 do result[#result + 1] = i end
+    return result
+end
+
+local function shortest(tables)
+    local n = math.huge
+    for i = 1, #tables do n = math.min(n, #tables[i]) end
+    return n == math.huge and 0 or n
+end
+
+local function row(tables, i)
+    local values = {}
+    for k = 1, #tables do values[k] = tables[k][i] end
+    return values
+end
+
+--- Table of f(a[i], b[i], ...).
+function M.map(f, ...)
+    local tables, result = {...}, {}
+    for i = 1, shortest(tables) do result[i] = f(table.unpack(row(tables, i), 1, #tables)) end
+    return result
+end
+
+--- Folds from the left; without an initial value the first element is the start.
+function M.reduce(f, t, initial)
+    local first = 1
+    if initial == nil then initial, first = t[1], 2 end
+    for i = first, #t do initial = f(initial, t[i]) end
+    return initial
+end
+
+function M.filter(f, t)
+    local result = {}
+    for _, value in ipairs(t) do
+        if f(value) then result[#result + 1] = value end
+    end
+    return result
+end
+
+function M.foreach(f, ...)
+    local tables = {...}
+    for i = 1, shortest(tables) do f(table.unpack(row(tables, i), 1, #tables)) end
+end
+
+function M.identity(...) return ... end
+
+--- Rows of several tables: zip({1, 2}, {3, 4}) is {{1, 3}, {2, 4}}.
+function M.zip(...)
+    local tables, result = {...}, {}
+    for i = 1, shortest(tables) do result[i] = row(tables, i) end
+    return result
+end
+
+function M.negate(f) return function(...) return not f(...) end end
+
+--- Calls f with the elements of the last argument appended to the others.
+function M.apply(f, ...)
+    local values = {...}
+    local last = table.remove(values)
+    for _, value in ipairs(last) do values[#values + 1] = value end
+    return f(table.unpack(values))
+end
+
+function M.partial(f, ...)
+    local fixed = table.pack(...)
+    return function(...)
+        local values, more = table.move(fixed, 1, fixed.n, 1, {}), table.pack(...)
+        table.move(more, 1, more.n, fixed.n + 1, values)
+        return f(table.unpack(values, 1, fixed.n + more.n))
+    end
+end
+
+--- Whether f (default: the value itself) is true for some element.
+function M.any(f, t)
+    if t == nil then f, t = M.identity, f end
+    for _, value in ipairs(t) do
+        if f(value) then return true end
+    end
+    return false
+end
+
+function M.all(f, t)
+    if t == nil then f, t = M.identity, f end
+    for _, value in ipairs(t) do
+        if not f(value) then return false end
+    end
+    return true
+end
+
+--- Iterator over the elements, without the index.
+function M.iter(t)
+    local i = 0
+    return function()
+        i = i + 1
+        return t[i]
+    end
+end
+
+local reified = 0
+
+--- Makes a function global, for interfaces that want a name, and returns the name.
+function M.reify(f, name)
+    if type(f) == 'string' then return f end
+    if not name then
+        reified = reified + 1
+        name = '__reified' .. reified
+    end
+    _G[name] = f
+    return name
+end
+
+M.operator = {
+    add = function(a, b) return a + b end,
+    sub = function(a, b) return a - b end,
+    mul = function(a, b) return a * b end,
+    div = function(a, b) return a / b end,
+    mod = function(a, b) return a % b end,
+    idiv = function(a, b) return a // b end,
+    pow = function(a, b) return a ^ b end,
+    unm = function(a) return -a end,
+    land = function(a, b) return a & b end,
+    lor = function(a, b) return a | b end,
+    lxor = function(a, b) return a ~ b end,
+    lnot = function(a) return ~a end,
+    lshl = function(a, b) return a << b end,
+    lshr = function(a, b) return a >> b end,
+    concat = function(a, b) return a .. b end,
+    len = function(a) return #a end,
+    eq = function(a, b) return a == b end,
+    neq = function(a, b) return a ~= b end,
+    gt = function(a, b) return a > b end,
+    ge = function(a, b) return a >= b end,
+    lt = function(a, b) return a < b end,
+    le = function(a, b) return a <= b end,
+}
+
+function M.sum(t) return M.reduce(M.operator.add, t, 0) end
+
+function M.prod(t) return M.reduce(M.operator.mul, t, 1) end
+
+return M

@@ -1,0 +1,51 @@
+--[[
+Less common ways to load code: import, rerequire, and require with the handle of a script object.
+
+Does not search for files: that stays with package.searchers.
+]]
+
+local M = {}
+
+--- Runs the text of a script object as a chunk and returns its results; nothing is cached.
+function M.fromScript(handle)
+    local sim = package.loaded.sim
+    local code = sim.getStringProperty(handle, 'code', {noError = true})
+    if not code then error("module '" .. handle .. "' not found: no script object has this handle", 0) end
+    local chunk, message = load(code, sim.getObjectAlias(handle, 5))
+    if not chunk then error(message, 0) end
+    setYieldAllowed(false)
+    local results = table.pack(xpcall(chunk, function(text) return text end, handle))
+    setYieldAllowed(true)
+    if not results[1] then error(results[2], 0) end
+    return table.unpack(results, 2, results.n)
+end
+
+--- Loads a module again even if it was loaded before.
+function M.rerequire(name)
+    package.loaded[name] = nil
+    return require(name)
+end
+
+local function namesToImport(module, first, ...)
+    if first == '*' then
+        local names = {}
+        for name in pairs(module) do names[#names + 1] = name end
+        return names
+    end
+    return {first, ...}
+end
+
+--- Loads a module and makes it, or some of its functions, global.
+-- import(name) sets a global of the module's name; import(name, 'f', 'g') sets f and g; import(name, '*') sets all;
+-- import(name, {as = 'short'}) sets a global of another name.
+function M.import(moduleName, first, ...)
+    local module = require(moduleName)
+    if first == nil or type(first) == 'table' then
+        _G[first and first.as or moduleName:match('[^.]*$')] = module
+    else
+        for _, name in ipairs(namesToImport(module, first, ...)) do _G[name] = module[name] end
+    end
+    return module
+end
+
+return M

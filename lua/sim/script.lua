@@ -1,0 +1,184 @@
+--[[
+Calling other scripts by name, looking objects up, and what a script can ask about itself.
+
+Does not resolve paths or pass values between states: that is native (sim._getObject, sim.callScriptFunction).
+]]
+
+local sim = ...
+local M = {}
+
+--- Handle of the object at a path.
+-- @api int objectHandle = sim.getObject(string path, map options = {})
+-- @param path /a/b from the top, ./a below this script's object, .. for the parent, : for the model
+-- @param options index: take another match; proxy: object to start from; noError: -1 instead of an error
+-- @return objectHandle the first match
+function M.getObject(path, options)
+    -- Not a tail call: error texts of 4.10 carry the line of this wrapper, not of the caller.
+    local handle = sim._getObject(path, options)
+    return handle
+end
+
+--- Handle of the object at a path or with an old-style name.
+-- @api int objectHandle = sim.getObjectHandle(string path, map options = {})
+-- @param path as in sim.getObject, or an old name such as robot#0
+-- @param options noError: -1 instead of an error
+-- @return objectHandle the object
+function M.getObjectHandle(path, options)
+    if type(path) == 'string' and not path:find('^[/.:]') then
+        addLog(
+            sim.verbosity_scriptwarnings | sim.verbosity_once,
+            'sim.getObjectHandle is deprecated. Use sim.getObject instead.'
+        )
+    end
+    local handle = sim._getObjectHandle(path, options)
+    return handle
+end
+
+--- Handle of an object by name, -1 if there is none.
+-- @api int objectHandle = sim.getObjectHandle_noErrorNoSuffixAdjustment(string name)
+-- @param name path or old-style name
+-- @return objectHandle or -1
+function M.getObjectHandle_noErrorNoSuffixAdjustment(name)
+    local handle = sim._getObjectHandle(name, {noError = true})
+    return handle
+end
+
+local function scriptOf(target, scriptType)
+    if type(target) == 'string' then target = M.getObject(target) end
+    if not sim.isHandle(target) then return target end -- a script that is no scene object
+    if sim.getObjectType(target) == sim.sceneobject_script then return target end
+    return sim.getScript(scriptType or sim.scripttype_customization, target)
+end
+
+local function method(handle, name)
+    return function(proxy, ...)
+        local meta = type(proxy) == 'table' and getmetatable(proxy)
+        if type(meta) ~= 'table' or not meta.isScriptFunctions then
+            error('methods must be called with object:method(args...)', 2)
+        end
+        return sim.callScriptFunction(name, handle, ...)
+    end
+end
+
+--- An object whose methods are the global functions of another script: proxy:name(...).
+-- @api map proxy = sim.getScriptFunctions(int handle, int scriptType = sim.scripttype_customization)
+-- @param handle script, object that has a script, or path to one
+-- @param scriptType which script of an object that is none itself
+-- @return proxy calls through sim.callScriptFunction
+function M.getScriptFunctions(handle, scriptType)
+    local script = scriptOf(handle, scriptType)
+    return setmetatable({}, {
+        isScriptFunctions = true,
+        __index = function(_, name) return method(script, name) end,
+        __tostring = function() return 'functions of script ' .. tostring(script) end,
+    })
+end
+
+-- Globals a script has not set itself but that are not in a fresh state either.
+local ENGINE_GLOBALS = {
+    sim_script_handle = true, sim_plugin_namespaces = true, sim_script_name_index = true, __coroutine__ = true,
+    operator = true, arg = true,
+}
+
+local function isUserVariable(name, value)
+    if type(name) ~= 'string' or ENGINE_GLOBALS[name] then return false end
+    if type(value) == 'function' or package.loaded[name] == value then return false end
+    return not (type(value) == 'table' and name:find('^sim%u?%w*$') or name:find('^_'))
+end
+
+--- Names of the global variables of this script that are not functions.
+-- @api string[] variables = sim.getUserVariables()
+-- @return variables sorted
+function M.getUserVariables()
+    local names = {}
+    for name, value in next, _G do
+        if isUserVariable(name, value) then names[#names + 1] = name end
+    end
+    table.sort(names)
+    return names
+end
+
+--- Runs Lua code in this script.
+-- @api bool success, any value = sim.executeLuaCode(string code)
+-- @param code text of a chunk
+-- @return success false if the code does not compile or raises
+-- @return value first result, or the error
+function M.executeLuaCode(code)
+    local chunk, message = load(code)
+    if not chunk then return false, message end
+    return pcall(chunk)
+end
+
+--- Names of the plugins this script has loaded.
+-- @api string[] names = sim.getLoadedPlugins()
+-- @return names sorted
+function M.getLoadedPlugins()
+    local names = {}
+    for name in pairs(sim_plugin_namespaces or {}) do names[#names + 1] = name end
+    table.sort(names)
+    return names
+end
+
+--- Whether a plugin was loaded by this script.
+-- @api bool loaded = sim.isPluginLoaded(string name)
+-- @param name for instance simIK
+-- @return loaded true if so
+function M.isPluginLoaded(name)
+    if sim_plugin_namespaces and sim_plugin_namespaces[name] then return true end
+    return type(package.loaded[name]) == 'table' or package.preload[name] ~= nil
+end
+
+--- Loads a plugin of this simulator.
+-- @api int handle = sim.loadPlugin(string name)
+-- @param name for instance simIK
+-- @return handle 0
+function M.loadPlugin(name)
+    loadPlugin(name)
+    return 0
+end
+
+--- Lets the idle loop run without pauses; it always does here, so this does nothing.
+-- @api sim.fastIdleLoop(bool enable)
+-- @param enable ignored
+function M.fastIdleLoop(_) end
+
+local function includeFile(path)
+    local chunk, message = loadfile(path)
+    if not chunk then error(message, 3) end
+    return chunk()
+end
+
+--- Runs a file, given by its absolute path.
+-- @api any result = sim.includeAbs(string path)
+-- @param path of a Lua file
+-- @return result of the file
+function M.includeAbs(path)
+    local result = includeFile(path)
+    return result
+end
+
+local function scenePath(path)
+    local folder = sim.getStringProperty(sim.handle_scene, 'scenePath', {noError = true}) or ''
+    folder = folder:match('^(.*)[/\\]') or '.'
+    return folder .. '/' .. path
+end
+
+--- Runs a file, given by its path relative to the folder of the scene.
+-- @api any result = sim.includeRel(string path)
+-- @param path of a Lua file
+-- @return result of the file
+function M.includeRel(path)
+    local result = includeFile(scenePath(path))
+    return result
+end
+
+--- Same as sim.includeRel.
+-- @api any result = sim.include(string path)
+-- @param path of a Lua file
+-- @return result of the file
+function M.include(path)
+    local result = includeFile(scenePath(path))
+    return result
+end
+
+return M

@@ -1,0 +1,115 @@
+--[[
+Shared by sim/motion.lua and sim/pose.lua: limits of a motion, and the trajectory object behind it.
+
+Not a group of sim functions: those are in lua/sim.
+]]
+
+local sim = package.loaded.sim or require 'sim'
+local M = {}
+
+-- What 4.10 uses when no limit is given at all: the motion becomes a jump.
+local UNLIMITED <const> = {maxVel = 9999.0, maxAccel = 99999.0, maxJerk = 9999999.0}
+local UNLIMITED_STEP <const> = 10.0
+local BASE_CYCLE <const> = 0.0001
+
+function M.fill(value, n)
+    local result = {}
+    for i = 1, n do result[i] = value end
+    return result
+end
+
+function M.copy(value)
+    if type(value) ~= 'table' then return value end
+    local result = {}
+    for key, item in pairs(value) do result[key] = M.copy(item) end
+    return setmetatable(result, getmetatable(value))
+end
+
+function M.functionOf(callback)
+    if type(callback) == 'string' then return require('var').getvar(callback) end
+    return callback or function() end
+end
+
+local function completeMaximum(data, field, n, scalar, level)
+    local value = data[field]
+    if value == nil then error("missing '" .. field .. "' field.", level) end
+    if type(value) == 'number' and scalar then
+        data[field] = M.fill(value, n)
+    elseif type(value) ~= 'table' or #value ~= n then
+        error("invalid '" .. field .. "' field.", level)
+    end
+end
+
+local function completeMinimum(data, field, maximum, n, level)
+    local value = data[field]
+    if value == nil then
+        data[field] = {}
+        for i = 1, n do data[field][i] = -maximum[i] end
+    elseif type(value) == 'number' then
+        data[field] = M.fill(value, n)
+    elseif type(value) ~= 'table' or #value ~= n then
+        error("invalid '" .. field .. "' field.", level)
+    end
+end
+
+--- Fills in and checks maxVel, maxAccel, maxJerk, minVel and minAccel.
+-- scalarVel: whether maxVel may be one number; 4.10 refuses that in moveToConfig and accepts it in moveToPose.
+function M.completeLimits(data, n, scalarVel, level)
+    if data.maxVel == nil and data.maxAccel == nil and data.maxJerk == nil then
+        for field, value in pairs(UNLIMITED) do data[field] = M.fill(value, n) end
+        data.timeStep = UNLIMITED_STEP
+    end
+    completeMaximum(data, 'maxVel', n, scalarVel, level + 1)
+    completeMaximum(data, 'maxAccel', n, true, level + 1)
+    completeMaximum(data, 'maxJerk', n, true, level + 1)
+    completeMinimum(data, 'minVel', data.maxVel, n, level + 1)
+    completeMinimum(data, 'minAccel', data.maxAccel, n, level + 1)
+    data.timeStep = data.timeStep or 0
+end
+
+--- The maxima of the older form, and the minima behind them if the flag announces any.
+function M.splitLegacy(limits, n, flags, flag)
+    local maxima = table.move(limits, 1, n, 1, {})
+    if flags < 0 or flags & flag == 0 or #limits < 2 * n then return maxima, nil end
+    return maxima, table.move(limits, n + 1, 2 * n, 1, {})
+end
+
+local function timeStep(data) return data.timeStep == 0 and sim.getSimulationTimeStep() or data.timeStep end
+
+-- The trajectory object accepts only multiples of its base cycle; time steps such as 1/240 s are none of 0.1 ms.
+local function baseCycle(dt)
+    local cycles = math.max(1, math.floor(dt / BASE_CYCLE + 0.5))
+    local exact = math.abs(dt - cycles * BASE_CYCLE) < 1e-9
+    return exact and BASE_CYCLE or dt / cycles
+end
+
+local function joined(tables, n)
+    local result = {}
+    for i, t in ipairs(tables) do table.move(t, 1, n, (i - 1) * n + 1, result) end
+    return result
+end
+
+--- Creates the trajectory object for n degrees of freedom.
+function M.start(data, n, current, targetPos, targetVel)
+    local flags = (data.flags < 0 and sim.ruckig_phasesync or data.flags) | sim.ruckig_minvel | sim.ruckig_minaccel
+    return sim.ruckigPos(
+        n, baseCycle(timeStep(data)), flags, joined(current, n),
+        joined({data.maxVel, data.maxAccel, data.maxJerk, data.minVel, data.minAccel}, n),
+        M.fill(1, n), joined({targetPos, targetVel}, n)
+    )
+end
+
+--- One time step: result and positions, velocities, accelerations; keeps data.timeLeft up to date.
+function M.advance(data)
+    local dt = timeStep(data)
+    local result, state, remaining = sim.ruckigStep(data.ruckigObj, dt)
+    if result == 0 then data.timeLeft = dt - remaining end
+    return result, state
+end
+
+function M.finish(data)
+    if data.ruckigObj then sim.ruckigRemove(data.ruckigObj) end
+    data.ruckigObj = nil
+end
+
+return M

@@ -1,0 +1,56 @@
+--[[
+Variables by dotted name, local variables of a running function, and texts with values in braces.
+]]
+
+local M = {}
+
+local function parts(name)
+    local names = {}
+    for part in name:gmatch('[^.]+') do names[#names + 1] = tonumber(part) or part end
+    return names
+end
+
+--- Value of a.b.c, starting in context (default: the globals); nil where a part is missing.
+function M.getvar(name, context)
+    local value = context or _G
+    for _, part in ipairs(parts(name)) do
+        if type(value) ~= 'table' then return nil end
+        value = value[part]
+    end
+    return value
+end
+
+--- Sets a.b.c; missing tables on the way are created.
+function M.setvar(name, value, context)
+    local owner, names = context or _G, parts(name)
+    for i = 1, #names - 1 do
+        if owner[names[i]] == nil then owner[names[i]] = {} end
+        owner = owner[names[i]]
+    end
+    owner[names[#names]] = value
+end
+
+--- Local variables of the function at a level of the stack (1: the caller), by name.
+function M.getlocals(level)
+    local result, i = {}, 1
+    while true do
+        local name, value = debug.getlocal((level or 1) + 1, i)
+        if not name then return result end
+        if name:sub(1, 1) ~= '(' then result[name] = value end
+        i = i + 1
+    end
+end
+
+--- 'x is {x}' with the local or global variables of the caller; {x:%.3f} formats.
+function M.f(text)
+    local locals = M.getlocals(2)
+    return (text:gsub('{([^{}]+)}', function(field)
+        local name, format = field:match('^(.-):(%%.*)$')
+        name = name or field
+        local value = M.getvar(name, locals)
+        if value == nil then value = M.getvar(name) end
+        return format and format:format(value) or getAsDisplayString(value)
+    end))
+end
+
+return M

@@ -1,0 +1,5 @@
+//! `sim.*`: names and paths of objects.
+
+use super::{ApiFn, functions};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![];

@@ -1,0 +1,5 @@
+//! `sim.*`: forces, velocities, contacts.
+
+use super::{ApiFn, functions};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![];

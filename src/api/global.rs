@@ -1,0 +1,200 @@
+//! Global functions: hooks, yield levels, the log.
+
+use api_macro::api;
+
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::Data;
+use crate::script::{
+    Args, FromScript, Hook, LevelChange, Rest, Results, ScriptFunction, SysCall, auto_level, changed_level,
+    set_auto_level,
+};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    register_script_func_hook,
+    set_auto_yield,
+    get_auto_yield,
+    set_yield_allowed,
+    get_yield_allowed,
+    add_log,
+    aux_func,
+    quit_simulator,
+    print_line,
+    used_module,
+    load_plugin,
+    unload_plugin,
+    register_code_editor_infos,
+];
+
+/// Runs a function before or after a callback of this script, whether or not the script defines the callback. Registering the
+/// same pair again removes it. An empty function name removes all hooks of the callback, an empty callback name all hooks.
+///
+/// @param systemCallback name of the callback, e.g. `sysCall_actuation`
+/// @param userFunction a function, or the dotted name of a global one
+/// @param execBefore before (in reverse order of registration) or after the callback
+/// @return result 1 when registered, 0 when removed
+#[api("registerScriptFuncHook")]
+fn register_script_func_hook(
+    cx: &mut Cx,
+    system_callback: String,
+    user_function: ScriptFunction,
+    exec_before: bool,
+) -> Result<i64> {
+    let mut hooks = cx.env().hooks.borrow_mut();
+    let list = if exec_before { &mut hooks.before } else { &mut hooks.after };
+    if system_callback.is_empty() {
+        list.clear();
+        return Ok(0);
+    }
+    let call =
+        SysCall::from_name(&system_callback).ok_or_else(|| ApiError::Other("invalid system callback.".into()))?;
+    let entries = list.entry(call).or_default();
+    let hook = match user_function {
+        ScriptFunction::Name(name) if name.is_empty() => {
+            entries.clear();
+            return Ok(0);
+        }
+        ScriptFunction::Name(name) => Hook { name, function: None },
+        ScriptFunction::Value(kept) => Hook { name: String::new(), function: Some(kept.0) },
+    };
+    let known =
+        entries.iter().position(|entry| hook.function.is_none() && entry.name == hook.name && entry.function.is_none());
+    match known {
+        Some(at) => {
+            entries.remove(at);
+            Ok(0)
+        }
+        None => {
+            entries.push(hook);
+            Ok(1)
+        }
+    }
+}
+
+impl FromScript for LevelChange {
+    const TYPE: &'static str = "any";
+
+    fn from_script(args: &Args<'_>) -> Result<Self> {
+        Ok(match Data::from_script(args)? {
+            Data::Int(level) => Self::Set(level),
+            Data::Float(level) => Self::Set(level as i64),
+            other if other.truthy() => Self::Allow,
+            _ => Self::Forbid,
+        })
+    }
+}
+
+/// Allows or forbids that the running coroutine is pre-empted.
+///
+/// @param allow false raises the level, true lowers it, a number sets it; pre-emption happens at level 0
+/// @return level the previous level
+#[api("setAutoYield")]
+fn set_auto_yield(cx: &mut Cx, allow: LevelChange) -> Result<i64> {
+    let level = auto_level(cx.stack());
+    set_auto_level(cx.stack(), changed_level(level, allow));
+    Ok(level)
+}
+
+/// Whether the running coroutine may be pre-empted.
+///
+/// @return allowed, level
+#[api("getAutoYield")]
+fn get_auto_yield(cx: &Cx) -> Result<(bool, i64)> {
+    let level = auto_level(cx.stack());
+    Ok((level == 0, level))
+}
+
+/// Allows or forbids yielding altogether, in this script.
+///
+/// @param allow false raises the level, true lowers it, a number sets it; yielding is possible at level 0
+/// @return level the previous level
+#[api("setYieldAllowed")]
+fn set_yield_allowed(cx: &mut Cx, allow: LevelChange) -> Result<i64> {
+    let overall = &cx.env().yields.overall;
+    Ok(overall.replace(changed_level(overall.get(), allow)))
+}
+
+/// Whether this script may yield now.
+///
+/// @return allowed, level
+#[api("getYieldAllowed")]
+fn get_yield_allowed(cx: &Cx) -> Result<(bool, i64)> {
+    let level = cx.env().yields.overall.get();
+    Ok((level == 0, level))
+}
+
+/// Writes a line to the log in the name of this script.
+///
+/// @param verbosityLevel sim.verbosity_*
+/// @param logMessage the line; nil clears a graphical log and does nothing here
+#[api("addLog")]
+fn add_log(cx: &Cx, verbosity_level: i64, log_message: Option<String>) -> Result<()> {
+    if let Some(text) = log_message {
+        cx.env().log(verbosity_level, &text);
+    }
+    Ok(())
+}
+
+/// Small services of the host: `headless`, `useBuffers`. Other commands return nothing.
+///
+/// @param cmd the service
+/// @return result what it gives
+#[api("auxFunc")]
+fn aux_func(cx: &Cx, cmd: String, _arguments: Rest) -> Result<Results> {
+    let _ = cx;
+    Ok(Results(match cmd.as_str() {
+        "headless" | "useBuffers" => vec![Data::Bool(true)],
+        _ => Vec::new(),
+    }))
+}
+
+/// Ends the program after the current pass.
+#[api("quitSimulator")]
+fn quit_simulator(cx: &mut Cx) -> Result<()> {
+    cx.sim().quit.set(true);
+    Ok(())
+}
+
+/// Prints a line as it is: what `print` ends in.
+///
+/// @param text the line
+#[api("_print")]
+fn print_line(cx: &Cx, text: crate::script::Bytes) -> Result<()> {
+    cx.sim().console.borrow_mut().print(&text.0);
+    Ok(())
+}
+
+/// Told of every module a script loads.
+///
+/// @param name the module
+#[api("_usedModule")]
+fn used_module(cx: &Cx, _name: String) -> Result<()> {
+    let _ = cx;
+    Ok(())
+}
+
+/// Native plugins of CoppeliaSim cannot be loaded; the error says so.
+///
+/// @param name the plugin
+#[api("loadPlugin")]
+fn load_plugin(cx: &mut Cx, name: String) -> Result<()> {
+    let _ = cx;
+    Err(ApiError::Other(format!("native plugins cannot be loaded in Swanilda: '{name}'.")))
+}
+
+/// The counterpart of loadPlugin.
+///
+/// @param name the plugin
+#[api("unloadPlugin")]
+fn unload_plugin(cx: &mut Cx, name: String) -> Result<()> {
+    let _ = cx;
+    Err(ApiError::Other(format!("native plugins cannot be loaded in Swanilda: '{name}'.")))
+}
+
+/// Accepted for scripts that describe themselves to the original's editor.
+///
+/// @param moduleName, infos ignored
+#[api("registerCodeEditorInfos")]
+fn register_code_editor_infos(cx: &Cx, _module_name: String, _infos: Rest) -> Result<()> {
+    let _ = cx;
+    Ok(())
+}

@@ -1,0 +1,5 @@
+//! `sim.*`: joints: position, interval, targets, dependency.
+
+use super::{ApiFn, functions};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![];

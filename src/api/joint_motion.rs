@@ -1,0 +1,14 @@
+//! `sim.*`: kinematic motion of joints.
+
+use api_macro::api;
+
+use super::{ApiFn, Cx, Result, functions};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![handle_joint_motion];
+
+/// Moves kinematic joints towards their targets by one step. For the main script.
+#[api("sim.handleJointMotion")]
+fn handle_joint_motion(cx: &mut Cx) -> Result<()> {
+    super::simulation::main_script_only(cx)?;
+    Ok(())
+}

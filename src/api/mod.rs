@@ -1,0 +1,192 @@
+//! What scripts can call: one file per category of the manual.
+//!
+//! A function is said once, with `#[api]`; its row joins the table of its file, and the tables join here. Names that need no code of
+//! their own stand in tables: constants, aliases, deprecations, old names, and the reference that tells what is missing.
+
+mod alias;
+mod collection;
+mod colour;
+mod custom_data;
+mod dummy;
+mod dynamics;
+mod engine_param;
+mod force_sensor;
+mod global;
+mod joint;
+mod joint_motion;
+mod object_copy;
+mod object_param;
+mod object_pose;
+mod object_property;
+mod object_tree;
+mod packing;
+mod param;
+mod pose_maths;
+mod property;
+mod ruckig;
+mod scene_file;
+mod scripts;
+mod sensors;
+mod shape;
+mod shape_group;
+mod shape_mass;
+mod signal;
+mod simulation;
+
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
+use crate::script::{Bound, Embedded, FILES, Member, Registry};
+
+pub(crate) use crate::script::{ApiError, ApiResult as Result};
+pub use crate::script::{ApiFn, Args, Cx, FromScript, IntoScript, Param};
+
+/// The table of contents of an API file.
+macro_rules! functions {
+    ($($name:ident),* $(,)?) => { &[$($name::API),*] };
+}
+use functions;
+
+/// All native functions, file by file.
+pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
+    ("Globals", global::FUNCTIONS),
+    ("Scripts", scripts::FUNCTIONS),
+    ("Simulation", simulation::FUNCTIONS),
+    ("Names and paths", alias::FUNCTIONS),
+    ("Poses of objects", object_pose::FUNCTIONS),
+    ("Pose maths", pose_maths::FUNCTIONS),
+    ("Object tree", object_tree::FUNCTIONS),
+    ("Copies and models", object_copy::FUNCTIONS),
+    ("Object properties", object_property::FUNCTIONS),
+    ("Object parameters", object_param::FUNCTIONS),
+    ("Collections", collection::FUNCTIONS),
+    ("Shapes", shape::FUNCTIONS),
+    ("Mass of shapes", shape_mass::FUNCTIONS),
+    ("Groups of shapes", shape_group::FUNCTIONS),
+    ("Colours", colour::FUNCTIONS),
+    ("Joints", joint::FUNCTIONS),
+    ("Joint motion", joint_motion::FUNCTIONS),
+    ("Dummies", dummy::FUNCTIONS),
+    ("Force sensors", force_sensor::FUNCTIONS),
+    ("Sensors", sensors::FUNCTIONS),
+    ("Ruckig", ruckig::FUNCTIONS),
+    ("Dynamics", dynamics::FUNCTIONS),
+    ("Engine parameters", engine_param::FUNCTIONS),
+    ("Properties", property::FUNCTIONS),
+    ("Simulator parameters", param::FUNCTIONS),
+    ("Custom data", custom_data::FUNCTIONS),
+    ("Signals", signal::FUNCTIONS),
+    ("Packing", packing::FUNCTIONS),
+    ("Scene files", scene_file::FUNCTIONS),
+];
+
+/// `name<TAB>value` of every constant of `sim`.
+const CONSTANTS: &str = include_str!("constants.tsv");
+/// `old<TAB>new`: names that do exactly what another does.
+const ALIASES: &str = include_str!("aliases.tsv");
+/// `name<TAB>replacement`: names that log their deprecation at the first call.
+const DEPRECATED: &str = include_str!("deprecated.tsv");
+/// `simName<TAB>name`: old global names that follow no rule.
+const OLD_NAMES: &str = include_str!("old_names.tsv");
+/// `name<TAB>category<TAB>deprecated<TAB>signature` of every function CoppeliaSim's reference has.
+pub(crate) const REFERENCE: &str = include_str!("reference.tsv");
+
+/// Everything scripts can reach, by name. One per process.
+pub(crate) fn registry() -> &'static Registry {
+    static REGISTRY: LazyLock<Registry> = LazyLock::new(build);
+    &REGISTRY
+}
+
+fn build() -> Registry {
+    let mut registry = Registry { modules: embedded_modules(), ..Registry::default() };
+    let notices = notices();
+    add_missing(&mut registry);
+    add_constants(&mut registry);
+    add_lua_functions(&mut registry, &notices);
+    for function in CATEGORIES.iter().flat_map(|(_, functions)| *functions) {
+        match function.name.strip_prefix("sim.") {
+            Some(name) => {
+                registry.members.insert(name, native(function.name, function, &notices));
+            }
+            None => registry.globals.push(Bound { name: function.name, function, deprecation: None }),
+        }
+    }
+    add_aliases(&mut registry, &notices);
+    registry.old_names = pairs(OLD_NAMES).collect();
+    registry
+}
+
+type Notices = HashMap<&'static str, &'static str>;
+
+/// The line logged at the first call of a deprecated name. Made once per process and kept.
+fn notices() -> Notices {
+    pairs(DEPRECATED).map(|(name, replacement)| (name, notice(name, replacement))).collect()
+}
+
+fn notice(name: &str, replacement: &str) -> &'static str {
+    let advice = match replacement {
+        "" => " and the related functionality will disappear in a future release.".to_owned(),
+        _ => format!(". please use {replacement} instead."),
+    };
+    Box::leak(
+        format!("sim.{name} is deprecated{advice} (control verbosity via notifyDeprecated in usrset.txt)")
+            .into_boxed_str(),
+    )
+}
+
+fn native(name: &'static str, function: &'static ApiFn, notices: &Notices) -> Member {
+    let deprecation = name.strip_prefix("sim.").and_then(|member| notices.get(member)).copied();
+    Member::Native(Bound { name, function, deprecation })
+}
+
+fn embedded_modules() -> HashMap<&'static str, Embedded> {
+    FILES.iter().map(|&(name, source)| (name, Embedded::new(source))).collect()
+}
+
+fn add_missing(registry: &mut Registry) {
+    for (name, _) in REFERENCE.lines().filter_map(|line| line.split_once('\t')) {
+        registry.members.insert(name, Member::Missing { name });
+    }
+}
+
+fn add_constants(registry: &mut Registry) {
+    for (name, value) in pairs(CONSTANTS) {
+        let value = value.parse().expect("constants.tsv holds integers");
+        registry.members.insert(name, Member::Constant(value));
+    }
+}
+
+/// Functions of the files in `lua/sim`: each is a line `function M.name(`.
+fn add_lua_functions(registry: &mut Registry, notices: &Notices) {
+    for (module, source) in FILES.iter().filter(|(module, _)| module.starts_with("sim/")) {
+        for name in
+            source.lines().filter_map(|line| line.strip_prefix("function M.")).filter_map(|l| l.split('(').next())
+        {
+            let deprecation = notices.get(name).copied();
+            registry.members.insert(name, Member::Lua { module, function: name, deprecation });
+        }
+    }
+}
+
+fn add_aliases(registry: &mut Registry, notices: &Notices) {
+    for (old, new) in pairs(ALIASES) {
+        let global = registry.globals.iter().find(|bound| bound.name == new).map(|bound| bound.function);
+        let member = match (registry.members.get(new).filter(|_| old != new), global) {
+            (Some(Member::Native(bound)), _) => native(full_name(old), bound.function, notices),
+            (None, Some(function)) => native(full_name(old), function, notices),
+            (Some(Member::Lua { module, function, .. }), _) => {
+                Member::Lua { module, function, deprecation: notices.get(old).copied() }
+            }
+            _ => continue,
+        };
+        registry.members.insert(old, member);
+    }
+}
+
+fn full_name(member: &str) -> &'static str {
+    Box::leak(format!("sim.{member}").into_boxed_str())
+}
+
+fn pairs(table: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    table.lines().filter_map(|line| line.split_once('\t'))
+}

@@ -1,0 +1,5 @@
+//! `sim.*`: copying objects, models, scaling.
+
+use super::{ApiFn, functions};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![];

@@ -1,0 +1,5 @@
+//! `sim.*`: numbered parameters of the simulator.
+
+use super::{ApiFn, functions};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![];

@@ -1,0 +1,5 @@
+//! `sim.*`: typed properties of objects, scene and application.
+
+use super::{ApiFn, functions};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![];

@@ -1,0 +1,5 @@
+//! `sim.*`: motion profiles.
+
+use super::{ApiFn, functions};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![];

@@ -1,0 +1,5 @@
+//! `sim.*`: loading, saving and closing scenes.
+
+use super::{ApiFn, functions};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![];

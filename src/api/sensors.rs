@@ -1,0 +1,59 @@
+//! `sim.*`: proximity and vision sensors, cameras, lights, graphs, voxels.
+//!
+//! They exist as data; what they measure is not built yet. Handling all of them, as the main script does, says so once.
+
+use api_macro::api;
+
+use super::{ApiFn, Cx, Result, functions};
+use crate::scene::Kind;
+use crate::script::verbosity;
+
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![handle_proximity_sensor, handle_vision_sensor, reset_proximity_sensor, reset_vision_sensor];
+
+/// Handles proximity sensors. They detect nothing yet.
+///
+/// @param sensorHandle a sensor, sim.handle_all or sim.handle_all_except_explicit
+/// @return result number of detections
+#[api("sim.handleProximitySensor")]
+fn handle_proximity_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<i64> {
+    let _ = sensor_handle;
+    warn_if_any(cx, "proximity sensors", |kind| matches!(kind, Kind::ProximitySensor(_)));
+    Ok(0)
+}
+
+/// Handles vision sensors. They see nothing yet.
+///
+/// @param sensorHandle a sensor, sim.handle_all or sim.handle_all_except_explicit
+/// @return result number of detections
+#[api("sim.handleVisionSensor")]
+fn handle_vision_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<i64> {
+    let _ = sensor_handle;
+    warn_if_any(cx, "vision sensors", |kind| matches!(kind, Kind::VisionSensor(_)));
+    Ok(0)
+}
+
+fn warn_if_any(cx: &Cx, what: &str, is: impl Fn(&Kind) -> bool) {
+    if cx.scene().has_sensors() && cx.scene().objects().any(|object| is(&object.kind)) {
+        let text = format!("{what} measure nothing: not implemented in Swanilda.");
+        cx.sim().log(verbosity::WARNINGS | verbosity::ONCE, &text);
+    }
+}
+
+/// Forgets what proximity sensors detected.
+///
+/// @param sensorHandle a sensor, sim.handle_all or sim.handle_all_except_explicit
+#[api("sim.resetProximitySensor")]
+fn reset_proximity_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<()> {
+    let _ = (cx, sensor_handle);
+    Ok(())
+}
+
+/// Forgets what vision sensors saw.
+///
+/// @param sensorHandle a sensor, sim.handle_all or sim.handle_all_except_explicit
+#[api("sim.resetVisionSensor")]
+fn reset_vision_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<()> {
+    let _ = (cx, sensor_handle);
+    Ok(())
+}

@@ -1,0 +1,5 @@
+//! `sim.*`: creating shapes, their meshes and boxes.
+
+use super::{ApiFn, functions};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![];

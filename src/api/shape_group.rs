@@ -1,0 +1,5 @@
+//! `sim.*`: grouping, merging and dividing.
+
+use super::{ApiFn, functions};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![];

@@ -1,0 +1,5 @@
+//! `sim.*`: signals.
+
+use super::{ApiFn, functions};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![];

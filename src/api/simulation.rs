@@ -1,0 +1,164 @@
+//! `sim.*`: running the simulation, and what the main script calls.
+
+use std::rc::Rc;
+
+use api_macro::api;
+
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::script_object::ScriptType;
+use crate::script::{Group, Rest, SysCall};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    start_simulation,
+    pause_simulation,
+    request_stop,
+    get_simulation_state,
+    get_simulation_time,
+    get_simulation_time_step,
+    handle_simulation_start,
+    handle_sensing_start,
+    handle_embedded_scripts,
+    handle_simulation_scripts,
+    handle_customization_scripts,
+    handle_add_on_scripts,
+    handle_sandbox_script,
+    handle_dynamics,
+];
+
+/// Starts the simulation, or resumes a paused one.
+#[api("sim.startSimulation")]
+fn start_simulation(cx: &mut Cx) -> Result<()> {
+    cx.sim().clone().start();
+    Ok(())
+}
+
+/// Asks for a pause. Nothing happens when the simulation is not running or is about to stop.
+#[api("sim.pauseSimulation")]
+fn pause_simulation(cx: &mut Cx) -> Result<()> {
+    cx.sim().pause();
+    Ok(())
+}
+
+/// Asks for the end of the simulation.
+#[api("sim._stopSimulation")]
+fn request_stop(cx: &mut Cx) -> Result<()> {
+    cx.sim().clone().stop();
+    Ok(())
+}
+
+/// State of the simulation.
+///
+/// @return state one of sim.simulation_*
+#[api("sim.getSimulationState")]
+fn get_simulation_state(cx: &Cx) -> Result<i64> {
+    Ok(cx.sim().clock.state.get() as i64)
+}
+
+/// Simulated time since the start.
+///
+/// @return time seconds
+#[api("sim.getSimulationTime")]
+fn get_simulation_time(cx: &Cx) -> Result<f64> {
+    Ok(cx.sim().clock.time.get())
+}
+
+/// Length of a simulation step.
+///
+/// @return timeStep seconds
+#[api("sim.getSimulationTimeStep")]
+fn get_simulation_time_step(cx: &Cx) -> Result<f64> {
+    Ok(cx.scene().settings().time_step)
+}
+
+pub(super) fn main_script_only(cx: &Cx) -> Result<()> {
+    if cx.script().script_type == ScriptType::Main { Ok(()) } else { Err(ApiError::MainScriptOnly) }
+}
+
+/// Begins a run: primes the measurement of velocities. For the main script.
+#[api("sim.handleSimulationStart")]
+fn handle_simulation_start(cx: &mut Cx) -> Result<()> {
+    main_script_only(cx)?;
+    Ok(())
+}
+
+/// Begins the sensing part of a step: measures the velocities of objects. For the main script.
+#[api("sim.handleSensingStart")]
+fn handle_sensing_start(cx: &mut Cx) -> Result<()> {
+    main_script_only(cx)?;
+    Ok(())
+}
+
+/// The callback with that number, `sim.syscb_*`.
+fn callback(number: i64) -> Result<SysCall> {
+    let known = SysCall::ALL.iter().copied().find(|call| *call as i64 == number);
+    known.ok_or_else(|| ApiError::Other("invalid callback.".into()))
+}
+
+/// Calls a callback of all simulation scripts, then of all customization scripts. For the main script.
+///
+/// @param callType sim.syscb_*
+/// @return count how many scripts ran it
+#[api("sim.handleEmbeddedScripts")]
+fn handle_embedded_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<i64> {
+    main_script_only(cx)?;
+    let sim = Rc::clone(cx.sim());
+    Ok(sim.deliver_to_embedded(callback(call_type)?, &arguments.0))
+}
+
+/// Calls a callback of all simulation scripts. For the main script; others get -1.
+///
+/// @param callType sim.syscb_*
+/// @return count how many scripts ran it
+#[api("sim.handleSimulationScripts")]
+fn handle_simulation_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<i64> {
+    if main_script_only(cx).is_err() {
+        return Ok(-1);
+    }
+    deliver_to(cx, Group::Simulation, call_type, &arguments)
+}
+
+/// Calls a callback of all customization scripts. For the main script.
+///
+/// @param callType sim.syscb_*
+/// @return count how many scripts ran it
+#[api("sim.handleCustomizationScripts")]
+fn handle_customization_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<i64> {
+    main_script_only(cx)?;
+    deliver_to(cx, Group::Customization, call_type, &arguments)
+}
+
+/// Calls a callback of all add-ons. For the main script.
+///
+/// @param callType sim.syscb_*
+/// @return count how many add-ons ran it
+#[api("sim.handleAddOnScripts")]
+fn handle_add_on_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<i64> {
+    main_script_only(cx)?;
+    deliver_to(cx, Group::AddOn, call_type, &arguments)
+}
+
+/// Calls a callback of the sandbox. For the main script.
+///
+/// @param callType sim.syscb_*
+#[api("sim.handleSandboxScript")]
+fn handle_sandbox_script(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<()> {
+    main_script_only(cx)?;
+    deliver_to(cx, Group::Sandbox, call_type, &arguments).map(drop)
+}
+
+fn deliver_to(cx: &mut Cx, group: Group, call_type: i64, arguments: &Rest) -> Result<i64> {
+    let sim = Rc::clone(cx.sim());
+    Ok(sim.deliver_to(group, callback(call_type)?, &arguments.0))
+}
+
+/// Advances the physics. For the main script or a simulation script.
+///
+/// @param deltaTime seconds
+/// @return passes number of sub-steps
+#[api("sim.handleDynamics")]
+fn handle_dynamics(cx: &mut Cx, delta_time: f64) -> Result<i64> {
+    if !matches!(cx.script().script_type, ScriptType::Main | ScriptType::Simulation) {
+        return Err(ApiError::MainOrSimulationScriptOnly);
+    }
+    Ok(Rc::clone(cx.sim()).handle_dynamics(delta_time))
+}

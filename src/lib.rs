@@ -1,0 +1,11 @@
+//! Swanilda: a headless robot simulator that runs CoppeliaSim's Lua scripts and scenes unchanged.
+
+pub mod api;
+pub mod cli;
+mod dynamics;
+pub mod scene;
+pub mod script;
+mod simulator;
+
+pub use script::{Console, LogLine, Options, Silent, SimulationState};
+pub use simulator::{Error, ScriptKind, ScriptRef, Simulator};

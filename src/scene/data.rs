@@ -1,0 +1,87 @@
+//! A value on its way between two Lua states, into custom data or over the wire: owned, stateless.
+
+/// Any value a script can pass on. Tables with the keys `1..n` are arrays, all others are maps.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Data {
+    Nil,
+    Bool(bool),
+    Int(i64),
+    Float(f64),
+    /// A Lua string: any bytes, not necessarily UTF-8.
+    Text(Vec<u8>),
+    /// A CoppeliaSim buffer: bytes that stay distinguishable from text.
+    Buffer(Vec<u8>),
+    Array(Vec<Data>),
+    Map(Vec<(Key, Data)>),
+}
+
+/// A table key that can leave its Lua state.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Key {
+    Bool(bool),
+    Int(i64),
+    Float(f64),
+    Text(Vec<u8>),
+}
+
+impl Data {
+    /// The text `text`, as a script would write it.
+    pub fn text(text: &str) -> Self {
+        Self::Text(text.as_bytes().to_vec())
+    }
+
+    /// A map with text keys.
+    pub fn map<const N: usize>(entries: [(&str, Data); N]) -> Self {
+        Self::Map(entries.into_iter().map(|(k, v)| (Key::Text(k.as_bytes().to_vec()), v)).collect())
+    }
+
+    /// The entry `name` of a map.
+    pub fn field(&self, name: &str) -> Option<&Data> {
+        let Self::Map(entries) = self else { return None };
+        entries.iter().find(|(key, _)| matches!(key, Key::Text(k) if k == name.as_bytes())).map(|(_, value)| value)
+    }
+
+    /// Lua truth: everything but nil and false.
+    pub fn truthy(&self) -> bool {
+        !matches!(self, Self::Nil | Self::Bool(false))
+    }
+
+    /// The number, if this is one.
+    pub fn as_f64(&self) -> Option<f64> {
+        match *self {
+            Self::Int(i) => Some(i as f64),
+            Self::Float(f) => Some(f),
+            _ => None,
+        }
+    }
+}
+
+impl From<bool> for Data {
+    fn from(value: bool) -> Self {
+        Self::Bool(value)
+    }
+}
+
+impl From<i64> for Data {
+    fn from(value: i64) -> Self {
+        Self::Int(value)
+    }
+}
+
+impl From<f64> for Data {
+    fn from(value: f64) -> Self {
+        Self::Float(value)
+    }
+}
+
+impl<T: Into<Data>> From<Vec<T>> for Data {
+    fn from(values: Vec<T>) -> Self {
+        Self::Array(values.into_iter().map(Into::into).collect())
+    }
+}
+
+impl<T: Into<Data>, const N: usize> From<[T; N]> for Data {
+    fn from(values: [T; N]) -> Self {
+        Self::Array(values.into_iter().map(Into::into).collect())
+    }
+}

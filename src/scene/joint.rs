@@ -1,0 +1,156 @@
+//! Joints as data: type, mode, limits, position, control parameters.
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use std::f64::consts::{PI, TAU};
+
+use super::{Handle, Pose};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointType {
+    Revolute = 10,
+    Prismatic = 11,
+    Spherical = 12,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointMode {
+    Kinematic = 0,
+    Dependent = 4,
+    Dynamic = 5,
+}
+
+/// How a dynamic joint is driven (`sim.jointdynctrl_*`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Control {
+    Free = 0,
+    Force = 1,
+    Velocity = 4,
+    Position = 8,
+    Spring = 12,
+    Callback = 16,
+}
+
+/// A joint: revolute values in rad, prismatic ones in m.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    pub joint_type: JointType,
+    pub mode: JointMode,
+    pub control: Control,
+    pub cyclic: bool,
+    /// Lower limit and width of the interval.
+    pub min: f64,
+    pub range: f64,
+    pub enforce_limits: bool,
+    pub position: f64,
+    /// Position of a spherical joint.
+    pub spherical: UnitQuaternion<f64>,
+    /// Last known velocity: of the profile, of the physics, or of the master.
+    pub velocity: f64,
+    pub accel: f64,
+    pub target_position: f64,
+    pub target_velocity: f64,
+    /// Signed, N or N m.
+    pub target_force: f64,
+    pub max_vel: f64,
+    pub max_accel: f64,
+    pub max_jerk: f64,
+    /// Gains of position control: P, I, D.
+    pub pid: [f64; 3],
+    /// K and C of spring control.
+    pub spring: [f64; 2],
+    pub velocity_profile: bool,
+    pub position_profile: bool,
+    pub motor_lock: bool,
+    /// Metres per turn; revolute joints only.
+    pub screw_lead: f64,
+    pub dependency: Option<Dependency>,
+    /// The kinematic motion in progress.
+    pub motion: Option<Motion>,
+    /// Length and diameter, for display.
+    pub size: [f64; 2],
+    /// Deviation of the physics engine's result from the ideal joint.
+    pub error: Option<Pose>,
+    /// Effort of the last dynamics call: mean over its sub-steps, and of the last sub-step.
+    pub force: Option<f64>,
+    pub raw_force: Option<f64>,
+}
+
+/// q = offset + coefficient * position of the master.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dependency {
+    pub master: Handle,
+    pub offset: f64,
+    pub coefficient: f64,
+}
+
+/// What a kinematic joint is moving towards.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Motion {
+    ToPosition,
+    AtVelocity { initial: Option<f64> },
+}
+
+impl Joint {
+    /// A joint as `sim.createJoint` makes it.
+    pub fn new(joint_type: JointType, mode: JointMode) -> Self {
+        let revolute = joint_type == JointType::Revolute;
+        let (min, range, force, limits) = match joint_type {
+            JointType::Revolute => (-PI, TAU, 2.5, TAU),
+            JointType::Prismatic => (-0.5, 1.0, 50.0, 1.0),
+            JointType::Spherical => (0.0, PI, 0.0, 1.0),
+        };
+        Self {
+            joint_type,
+            mode,
+            control: Control::Free,
+            cyclic: revolute || joint_type == JointType::Spherical,
+            min,
+            range,
+            enforce_limits: false,
+            position: 0.0,
+            spherical: UnitQuaternion::identity(),
+            velocity: 0.0,
+            accel: 0.0,
+            target_position: 0.0,
+            target_velocity: 0.0,
+            target_force: force,
+            max_vel: limits,
+            max_accel: limits,
+            max_jerk: limits,
+            pid: [0.1, 0.0, 0.0],
+            spring: [0.1, 0.0],
+            velocity_profile: false,
+            position_profile: false,
+            motor_lock: false,
+            screw_lead: 0.0,
+            dependency: None,
+            motion: None,
+            size: [0.15, 0.02],
+            error: None,
+            force: None,
+            raw_force: None,
+        }
+    }
+
+    /// Transform from the joint frame to its moving (child) side, physics error included.
+    pub fn intrinsic_pose(&self) -> Pose {
+        let ideal = self.ideal_pose();
+        self.error.map_or(ideal, |error| ideal * error)
+    }
+
+    /// Transform from the joint frame to its moving side as the joint position alone tells.
+    pub fn ideal_pose(&self) -> Pose {
+        match self.joint_type {
+            JointType::Revolute => Isometry3::from_parts(
+                Translation3::new(0.0, 0.0, self.position * self.screw_lead / TAU),
+                UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.position),
+            ),
+            JointType::Prismatic => Isometry3::translation(0.0, 0.0, self.position),
+            JointType::Spherical => Isometry3::from_parts(Translation3::identity(), self.spherical),
+        }
+    }
+
+    pub fn is_revolute(&self) -> bool {
+        self.joint_type == JointType::Revolute
+    }
+}

@@ -1,0 +1,36 @@
+//! The scene: objects, handles, poses, names. Pure data and maths: no Lua, no physics, no I/O, no clock.
+//!
+//! [`Scene`] owns every object in one store indexed by [`Handle`]. Reading gives `&Object`; every mutation is a method of `Scene` and
+//! ends in [`Changes`], so that events, caches and the physics learn of it in one place.
+
+pub mod change;
+pub mod data;
+pub mod dummy;
+pub mod error;
+pub mod force_sensor;
+pub mod handle;
+pub mod joint;
+pub mod mass;
+pub mod mesh;
+mod object;
+pub mod pose;
+mod poses;
+pub mod primitive;
+mod restore;
+pub mod ruckig;
+pub mod script_object;
+pub mod sensors;
+pub mod settings;
+pub mod shape;
+mod store;
+mod tree;
+
+pub use change::{Change, Changes, Field};
+pub use data::{Data, Key};
+pub use error::{SceneError, SceneResult};
+pub use handle::{Handle, Uid, flag, special};
+pub use object::{Kind, Measured, NOT_MODEL, Object};
+pub use pose::Pose;
+pub use poses::Frame;
+pub use settings::{DynamicsSettings, Settings};
+pub use store::{CustomData, Scene};

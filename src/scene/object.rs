@@ -1,0 +1,216 @@
+//! A scene object: what all objects have, and what its type adds.
+
+use super::dummy::Dummy;
+use super::force_sensor::ForceSensor;
+use super::joint::Joint;
+use super::restore::InitialState;
+use super::script_object::ScriptObject;
+use super::sensors::{Camera, Graph, Light, OcTree, PointCloud, ProximitySensor, VisionSensor};
+use super::shape::Shape;
+use super::store::CustomData;
+use super::{Handle, Pose, SceneError, SceneResult, Uid};
+
+/// The value of [`Object::model_property`] of an object that is no model base.
+pub const NOT_MODEL: i64 = 0xf000;
+
+/// A scene object.
+#[derive(Debug, Clone)]
+pub struct Object {
+    pub(super) handle: Handle,
+    pub(super) uid: Uid,
+    pub(super) alias: String,
+    pub(super) parent: Option<Handle>,
+    pub(super) children: Vec<Handle>,
+    /// In the parent's full frame (its moving side, for joints and force sensors).
+    pub(super) pose: Pose,
+    /// `sim.objectproperty_*` bits.
+    pub object_property: i64,
+    /// `sim.objectspecialproperty_*` bits.
+    pub special_property: i64,
+    /// `sim.modelproperty_*` bits; [`NOT_MODEL`] for objects that are no model base.
+    pub model_property: i64,
+    pub layer: i64,
+    pub size_factor: f64,
+    /// Order among siblings for scripts (`sim.scriptexecorder_*`).
+    pub priority: i64,
+    pub custom_data: CustomData,
+    /// Tagged lists of handles: `(tag, handles)`; -1 stands for an object that is gone.
+    pub references: Vec<(String, Vec<i64>)>,
+    pub original_references: Vec<(String, Vec<i64>)>,
+    /// What the physics uses of this object: shapes 1 respondable | 2 dynamic, joints 4, force sensors 32, dummies 64.
+    pub dynamic_flag: i64,
+    /// Asks the physics to build this object anew.
+    pub dynamics_reset: bool,
+    /// World poses at the last two sensing passes, for the measured velocity.
+    pub measured: Measured,
+    /// The state to come back to when the simulation ends.
+    pub initial: Option<Box<InitialState>>,
+    pub kind: Kind,
+}
+
+/// What `sim.getObjectVelocity` tells.
+#[derive(Debug, Clone, Default)]
+pub struct Measured {
+    pub previous: Option<Pose>,
+    pub linear: [f64; 3],
+    /// Euler triple of the increment in the object's previous frame, over the step.
+    pub euler_rate: [f64; 3],
+    /// Axis times angle over the step, world axes.
+    pub angular: [f64; 3],
+}
+
+/// The type of an object with the data of that type.
+#[derive(Debug, Clone)]
+pub enum Kind {
+    Shape(Box<Shape>),
+    Joint(Box<Joint>),
+    Graph(Box<Graph>),
+    Camera(Box<Camera>),
+    Dummy(Dummy),
+    ProximitySensor(Box<ProximitySensor>),
+    VisionSensor(Box<VisionSensor>),
+    ForceSensor(Box<ForceSensor>),
+    Light(Box<Light>),
+    OcTree(Box<OcTree>),
+    PointCloud(Box<PointCloud>),
+    Script(Box<ScriptObject>),
+}
+
+impl Kind {
+    /// `sim.sceneobject_*`.
+    pub fn type_number(&self) -> i64 {
+        match self {
+            Self::Shape(_) => 0,
+            Self::Joint(_) => 1,
+            Self::Graph(_) => 2,
+            Self::Camera(_) => 3,
+            Self::Dummy(_) => 4,
+            Self::ProximitySensor(_) => 5,
+            Self::VisionSensor(_) => 9,
+            Self::ForceSensor(_) => 12,
+            Self::Light(_) => 13,
+            Self::OcTree(_) => 15,
+            Self::PointCloud(_) => 16,
+            Self::Script(_) => 17,
+        }
+    }
+
+    fn default_layer(&self) -> i64 {
+        match self {
+            Self::Shape(_) => 0x0001,
+            Self::Joint(_) => 0x0002,
+            Self::Dummy(_) => 0x0004,
+            Self::ProximitySensor(_) | Self::VisionSensor(_) | Self::ForceSensor(_) => 0x0008,
+            Self::Camera(_) | Self::Light(_) => 0x0010,
+            Self::Graph(_) => 0x0020,
+            Self::OcTree(_) | Self::PointCloud(_) => 0x0040,
+            Self::Script(_) => 0x0400,
+        }
+    }
+
+    /// Collidable, measurable, detectable and renderable for what has a surface, nothing otherwise.
+    fn default_special_property(&self) -> i64 {
+        match self {
+            Self::Shape(_) | Self::OcTree(_) | Self::PointCloud(_) => 0x1 | 0x2 | 0x1f0 | 0x200,
+            _ => 0,
+        }
+    }
+}
+
+impl Object {
+    pub(super) fn new(handle: Handle, uid: Uid, alias: &str, kind: Kind) -> Self {
+        Self {
+            handle,
+            uid,
+            alias: alias.to_owned(),
+            parent: None,
+            children: Vec::new(),
+            pose: Pose::identity(),
+            object_property: 0x20,
+            special_property: kind.default_special_property(),
+            model_property: NOT_MODEL,
+            layer: kind.default_layer(),
+            size_factor: 1.0,
+            priority: 1,
+            custom_data: CustomData::default(),
+            references: Vec::new(),
+            original_references: Vec::new(),
+            dynamic_flag: 0,
+            dynamics_reset: false,
+            measured: Measured::default(),
+            initial: None,
+            kind,
+        }
+    }
+
+    pub fn handle(&self) -> Handle {
+        self.handle
+    }
+
+    pub fn uid(&self) -> Uid {
+        self.uid
+    }
+
+    pub fn alias(&self) -> &str {
+        &self.alias
+    }
+
+    pub fn parent(&self) -> Option<Handle> {
+        self.parent
+    }
+
+    pub fn children(&self) -> &[Handle] {
+        &self.children
+    }
+
+    /// Pose in the parent's full frame.
+    pub fn pose(&self) -> Pose {
+        self.pose
+    }
+
+    pub fn is_model(&self) -> bool {
+        self.model_property & NOT_MODEL != NOT_MODEL
+    }
+
+    /// From the object's frame to the frame its children live in.
+    pub fn intrinsic_pose(&self) -> Option<Pose> {
+        match &self.kind {
+            Kind::Joint(joint) => Some(joint.intrinsic_pose()),
+            Kind::ForceSensor(sensor) => sensor.error,
+            _ => None,
+        }
+    }
+}
+
+macro_rules! kind_access {
+    ($($get:ident, $get_mut:ident, $variant:ident, $ty:ty, $word:literal;)*) => {
+        impl Object {
+            $(
+                #[doc = concat!("The ", $word, ", or the error scripts see.")]
+                pub fn $get(&self) -> SceneResult<&$ty> {
+                    match &self.kind { Kind::$variant(data) => Ok(data), _ => Err(SceneError::WrongType($word)) }
+                }
+
+                #[doc = concat!("The ", $word, ", or the error scripts see.")]
+                pub fn $get_mut(&mut self) -> SceneResult<&mut $ty> {
+                    match &mut self.kind { Kind::$variant(data) => Ok(data), _ => Err(SceneError::WrongType($word)) }
+                }
+            )*
+        }
+    };
+}
+
+kind_access! {
+    shape, shape_mut, Shape, Shape, "shape";
+    joint, joint_mut, Joint, Joint, "joint";
+    graph, graph_mut, Graph, Graph, "graph";
+    camera, camera_mut, Camera, Camera, "camera";
+    dummy, dummy_mut, Dummy, Dummy, "dummy";
+    proximity_sensor, proximity_sensor_mut, ProximitySensor, ProximitySensor, "proximity sensor";
+    vision_sensor, vision_sensor_mut, VisionSensor, VisionSensor, "vision sensor";
+    force_sensor, force_sensor_mut, ForceSensor, ForceSensor, "force sensor";
+    light, light_mut, Light, Light, "light";
+    octree, octree_mut, OcTree, OcTree, "octree";
+    point_cloud, point_cloud_mut, PointCloud, PointCloud, "point cloud";
+    script, script_mut, Script, ScriptObject, "script";
+}

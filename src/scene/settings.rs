@@ -1,0 +1,60 @@
+//! Settings of a scene: what the simulation dialog of CoppeliaSim holds.
+
+/// Scene-wide settings. Times in seconds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Simulation step, 0.0001 to 10 s.
+    pub time_step: f64,
+    pub real_time: bool,
+    pub real_time_factor: f64,
+    pub remove_new_objects_at_end: bool,
+    pub pause_at_error: bool,
+    pub pause_at_time: bool,
+    pub time_to_pause: f64,
+    pub dynamics: DynamicsSettings,
+    pub visibility_layers: i64,
+    pub acknowledgment: String,
+}
+
+/// Settings of the physics.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DynamicsSettings {
+    pub enabled: bool,
+    /// Wished length of a sub-step, seconds; the real one divides the simulation step.
+    pub step: f64,
+    /// m/s^2, world axes. Kept in 32 bits as the original does, so that it reads back the same.
+    pub gravity: [f32; 3],
+    /// Engine number and version (`sim.physics_*`). Kept for scripts that ask; rapier does the work.
+    pub engine: [i64; 2],
+    pub show_contact_points: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            time_step: 0.05,
+            real_time: false,
+            real_time_factor: 1.0,
+            remove_new_objects_at_end: true,
+            pause_at_error: true,
+            pause_at_time: false,
+            time_to_pause: 3600.0,
+            dynamics: DynamicsSettings::default(),
+            visibility_layers: 0x00ff,
+            acknowledgment: String::new(),
+        }
+    }
+}
+
+impl Default for DynamicsSettings {
+    fn default() -> Self {
+        Self { enabled: true, step: 0.005, gravity: [0.0, 0.0, -9.81], engine: [0, 0], show_contact_points: false }
+    }
+}
+
+impl DynamicsSettings {
+    /// How many sub-steps make up a simulation step of `time_step` seconds.
+    pub fn passes(&self, time_step: f64) -> u32 {
+        (time_step / self.step + 0.5).floor().max(1.0) as u32
+    }
+}

@@ -1,0 +1,159 @@
+//! Shapes as data: geometry, mass, material, appearance.
+
+use std::rc::Rc;
+
+use super::Pose;
+use super::mass::MassProperties;
+use super::mesh::{BoundingBox, Mesh};
+use super::primitive::PrimitiveKind;
+
+/// A shape: one or several meshes that move as one body.
+#[derive(Debug, Clone)]
+pub struct Shape {
+    /// In the shape frame: one part for a simple shape, several for a compound.
+    pub parts: Vec<Part>,
+    /// Pose of the bounding box in the shape frame, and its full extents.
+    pub bounding_box: BoundingBox,
+    /// In the shape frame.
+    pub mass: MassProperties,
+    pub dynamics: ShapeDynamics,
+    pub material: Material,
+    /// The last velocities of the physics, world axes, at the centre of mass.
+    pub velocity: Velocity,
+    /// Force and torque asked for by scripts since the last dynamics call, world axes, at the centre of mass.
+    pub force: [f64; 3],
+    pub torque: [f64; 3],
+}
+
+/// One mesh of a shape.
+#[derive(Debug, Clone)]
+pub struct Part {
+    /// In the frame `pose`; shared between copies.
+    pub mesh: Rc<Mesh>,
+    /// Frame of the part in the shape frame.
+    pub pose: Pose,
+    /// Known when physics may use the analytic form ("pure"), which then lies centred in the part's frame.
+    pub primitive: Option<Primitive>,
+    pub convex: bool,
+    pub mass: MassProperties,
+    pub appearance: Appearance,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Primitive {
+    pub kind: PrimitiveKind,
+    /// Full extents.
+    pub size: [f64; 3],
+    /// Only of height fields.
+    pub heights: Option<Rc<HeightField>>,
+}
+
+/// Heights of a terrain, row by row (y grows with the row), metres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeightField {
+    pub columns: usize,
+    pub rows: usize,
+    pub heights: Vec<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Velocity {
+    pub linear: [f64; 3],
+    pub angular: [f64; 3],
+}
+
+/// How a shape takes part in the dynamics.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShapeDynamics {
+    pub is_static: bool,
+    pub respondable: bool,
+    pub kinematic: bool,
+    pub start_asleep: bool,
+    pub dynamic_when_parented: bool,
+    /// Low byte: local mask, high byte: global mask. Kept as written.
+    pub respondable_mask: i64,
+    pub respondable_suspend_count: i64,
+    pub initial_velocity: Velocity,
+}
+
+impl Default for ShapeDynamics {
+    fn default() -> Self {
+        Self {
+            is_static: true,
+            respondable: false,
+            kinematic: false,
+            start_asleep: false,
+            dynamic_when_parented: false,
+            respondable_mask: 0xffff,
+            respondable_suspend_count: 0,
+            initial_velocity: Velocity::default(),
+        }
+    }
+}
+
+/// Surface properties. Only those the physics here uses have fields; scripts may set any engine
+/// parameter, and reads it back, through [`Scene::engine_params`](super::Scene).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    pub friction: f64,
+    pub restitution: f64,
+    pub linear_damping: f64,
+    pub angular_damping: f64,
+}
+
+impl Default for Material {
+    /// The material of a mesh.
+    fn default() -> Self {
+        Self { friction: 0.71, restitution: 0.0, linear_damping: 0.0, angular_damping: 0.0 }
+    }
+}
+
+/// Colours in 32 bits as the original keeps them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Appearance {
+    pub colour_name: String,
+    pub ambient_diffuse: [f32; 3],
+    pub specular: [f32; 3],
+    pub emission: [f32; 3],
+    pub auxiliary: [f32; 3],
+    /// 1 is opaque.
+    pub opacity: f32,
+    pub culling: bool,
+    pub wireframe: bool,
+    pub edges: bool,
+    /// Radians.
+    pub shading_angle: f64,
+    pub edge_angle: f64,
+}
+
+impl Appearance {
+    pub fn new(ambient_diffuse: [f32; 3]) -> Self {
+        Self {
+            colour_name: String::new(),
+            ambient_diffuse,
+            specular: [0.25; 3],
+            emission: [0.0; 3],
+            auxiliary: [0.5, 0.0, 0.0],
+            opacity: 1.0,
+            culling: false,
+            wireframe: false,
+            edges: true,
+            shading_angle: 30f64.to_radians(),
+            edge_angle: 30f64.to_radians(),
+        }
+    }
+}
+
+impl Shape {
+    pub fn is_compound(&self) -> bool {
+        self.parts.len() > 1
+    }
+
+    pub fn is_pure(&self) -> bool {
+        self.parts.iter().all(|part| part.primitive.is_some())
+    }
+
+    pub fn is_convex(&self) -> bool {
+        self.parts.iter().all(|part| part.convex)
+    }
+}

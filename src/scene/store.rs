@@ -1,0 +1,202 @@
+//! The object store: adding, finding and changing objects.
+
+use std::collections::BTreeMap;
+
+use super::object::{Kind, Object};
+use super::{Change, Changes, Data, Field, Handle, SceneError, SceneResult, Settings, Uid};
+
+/// Named values of an object or of the scene, in the order they were created.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct CustomData {
+    entries: Vec<(String, Data)>,
+}
+
+impl CustomData {
+    pub fn get(&self, name: &str) -> Option<&Data> {
+        self.entries.iter().find(|(n, _)| n == name).map(|(_, value)| value)
+    }
+
+    /// Sets `name`; tells whether anything changed.
+    pub fn set(&mut self, name: &str, value: Data) -> bool {
+        match self.entries.iter_mut().find(|(n, _)| n == name) {
+            Some((_, old)) if *old == value => false,
+            Some((_, old)) => {
+                *old = value;
+                true
+            }
+            None => {
+                self.entries.push((name.to_owned(), value));
+                true
+            }
+        }
+    }
+
+    /// Removes `name`; tells whether it existed.
+    pub fn remove(&mut self, name: &str) -> bool {
+        let before = self.entries.len();
+        self.entries.retain(|(n, _)| n != name);
+        self.entries.len() != before
+    }
+
+    pub fn clear(&mut self) {
+        self.entries.clear();
+    }
+
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().map(|(name, _)| name.as_str())
+    }
+}
+
+/// A scene: its objects and its settings.
+#[derive(Debug, Default)]
+pub struct Scene {
+    slots: Vec<Option<Box<Object>>>,
+    live: usize,
+    next_handle: u32,
+    by_uid: BTreeMap<Uid, Handle>,
+    next_uid: Uid,
+    sensors: usize,
+    pub(super) roots: Vec<Handle>,
+    pub(super) selection: Vec<Handle>,
+    pub(super) collections: BTreeMap<i64, super::tree::Collection>,
+    settings: Settings,
+    changes: Changes,
+    /// Custom data of the scene itself (`sim.handle_scene`).
+    pub custom_data: CustomData,
+    /// Engine parameters that have no meaning for rapier, kept as they were set: `(parameter, object or -1)`.
+    pub engine_params: BTreeMap<(i64, i64), Data>,
+}
+
+impl Scene {
+    /// An empty scene.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds an object as the last root, at the world's origin.
+    ///
+    /// # Errors
+    /// When all handles are in use.
+    pub fn add(&mut self, alias: &str, kind: Kind) -> SceneResult<Handle> {
+        let handle = self.free_handle()?;
+        let uid = self.new_uid();
+        let index = handle.index();
+        if index >= self.slots.len() {
+            self.slots.resize_with(index + 1, || None);
+        }
+        self.sensors += usize::from(is_sensor(&kind));
+        self.slots[index] = Some(Box::new(Object::new(handle, uid, alias, kind)));
+        self.live += 1;
+        self.by_uid.insert(uid, handle);
+        self.roots.push(handle);
+        self.changes.note(Change::Added(handle));
+        Ok(handle)
+    }
+
+    /// Handles rise and start over at the end of the range, so that a freed one is not met again soon.
+    fn free_handle(&mut self) -> SceneResult<Handle> {
+        if self.live >= Handle::END as usize {
+            return Err(SceneError::TooManyObjects);
+        }
+        loop {
+            let handle = Handle(self.next_handle);
+            self.next_handle = (self.next_handle + 1) % Handle::END;
+            if self.slots.get(handle.index()).is_none_or(Option::is_none) {
+                return Ok(handle);
+            }
+        }
+    }
+
+    /// A fresh unique identifier; meshes and scripts draw from the same counter.
+    pub fn new_uid(&mut self) -> Uid {
+        self.next_uid += 1;
+        self.next_uid
+    }
+
+    pub fn object(&self, handle: Handle) -> SceneResult<&Object> {
+        self.slots.get(handle.index()).and_then(Option::as_deref).ok_or(SceneError::NoSuchObject)
+    }
+
+    pub fn exists(&self, handle: Handle) -> bool {
+        self.object(handle).is_ok()
+    }
+
+    /// Changes one aspect of an object: the one gate for everything that is not a change of the tree.
+    pub fn modify<R>(&mut self, handle: Handle, field: Field, change: impl FnOnce(&mut Object) -> R) -> SceneResult<R> {
+        let result = change(self.object_mut(handle)?);
+        self.changes.note(Change::Modified(handle, field));
+        Ok(result)
+    }
+
+    /// Like [`modify`](Self::modify) for changes that may be refused; a refused one is not recorded.
+    pub fn try_modify<R>(
+        &mut self,
+        handle: Handle,
+        field: Field,
+        change: impl FnOnce(&mut Object) -> SceneResult<R>,
+    ) -> SceneResult<R> {
+        let result = change(self.object_mut(handle)?)?;
+        self.changes.note(Change::Modified(handle, field));
+        Ok(result)
+    }
+
+    /// Unrecorded access, for the operations of this module that note their change themselves.
+    pub(super) fn object_mut(&mut self, handle: Handle) -> SceneResult<&mut Object> {
+        self.slots.get_mut(handle.index()).and_then(Option::as_deref_mut).ok_or(SceneError::NoSuchObject)
+    }
+
+    /// Forgets an object that is in no list any more.
+    pub(super) fn erase(&mut self, handle: Handle) {
+        if let Some(object) = self.slots.get_mut(handle.index()).and_then(Option::take) {
+            self.live -= 1;
+            self.sensors -= usize::from(is_sensor(&object.kind));
+            self.by_uid.remove(&object.uid());
+            self.changes.note(Change::Removed(handle));
+        }
+    }
+
+    /// All objects in the order of their creation.
+    pub fn objects(&self) -> impl Iterator<Item = &Object> {
+        self.by_uid.values().filter_map(|&handle| self.object(handle).ok())
+    }
+
+    /// Whether there are proximity or vision sensors.
+    pub fn has_sensors(&self) -> bool {
+        self.sensors > 0
+    }
+
+    /// Number of objects.
+    pub fn len(&self) -> usize {
+        self.live
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.live == 0
+    }
+
+    pub fn by_uid(&self, uid: Uid) -> Option<Handle> {
+        self.by_uid.get(&uid).copied()
+    }
+
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    pub fn modify_settings<R>(&mut self, change: impl FnOnce(&mut Settings) -> R) -> R {
+        let result = change(&mut self.settings);
+        self.changes.note(Change::Settings);
+        result
+    }
+
+    pub fn changes(&self) -> &Changes {
+        &self.changes
+    }
+
+    pub fn changes_mut(&mut self) -> &mut Changes {
+        &mut self.changes
+    }
+}
+
+fn is_sensor(kind: &Kind) -> bool {
+    matches!(kind, Kind::ProximitySensor(_) | Kind::VisionSensor(_))
+}

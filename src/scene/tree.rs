@@ -1,0 +1,235 @@
+//! The object tree: parents, order among siblings, enumeration, removal.
+
+use std::collections::{BTreeSet, VecDeque};
+
+use super::{Change, Field, Handle, Scene, SceneError, SceneResult};
+
+/// A named set of objects that scripts build up (`sim.createCollection`).
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Collection {
+    /// Whether checks of the collection against itself count.
+    pub overrides: bool,
+    pub items: Vec<CollectionItem>,
+}
+
+/// One instruction of a collection: what to add or subtract.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CollectionItem {
+    /// `sim.handle_all`, `_single`, `_tree` or `_chain`.
+    pub what: i64,
+    pub base: Option<Handle>,
+    pub subtract: bool,
+    pub exclude_base: bool,
+}
+
+impl Scene {
+    /// Selected objects, the last selected one last.
+    pub fn selection(&self) -> &[Handle] {
+        &self.selection
+    }
+
+    /// The path of an object as log lines show it.
+    pub fn print_path(&self, handle: Handle) -> SceneResult<String> {
+        let mut path = format!("/{}", self.object(handle)?.alias());
+        for above in self.ancestors(handle) {
+            path.insert_str(0, &format!("/{}", self.object(above)?.alias()));
+        }
+        Ok(path)
+    }
+
+    /// Root objects in scene order.
+    pub fn roots(&self) -> &[Handle] {
+        &self.roots
+    }
+
+    /// The list `handle` is a member of: its parent's children, or the roots.
+    pub fn siblings(&self, handle: Handle) -> SceneResult<&[Handle]> {
+        match self.object(handle)?.parent() {
+            Some(parent) => Ok(self.object(parent)?.children()),
+            None => Ok(&self.roots),
+        }
+    }
+
+    fn siblings_mut(&mut self, parent: Option<Handle>) -> SceneResult<&mut Vec<Handle>> {
+        match parent {
+            Some(parent) => Ok(&mut self.object_mut(parent)?.children),
+            None => Ok(&mut self.roots),
+        }
+    }
+
+    /// Whether `ancestor` is `handle` or lies above it.
+    pub fn is_ancestor_or_self(&self, ancestor: Handle, handle: Handle) -> bool {
+        std::iter::once(handle).chain(self.ancestors(handle)).any(|h| h == ancestor)
+    }
+
+    /// Parent, grandparent, ... up to the root.
+    pub fn ancestors(&self, handle: Handle) -> impl Iterator<Item = Handle> {
+        let parent = move |h: Handle| self.object(h).ok().and_then(super::Object::parent);
+        std::iter::successors(parent(handle), move |&h| parent(h))
+    }
+
+    /// The root of the tree `handle` belongs to.
+    pub fn root_of(&self, handle: Handle) -> Handle {
+        self.ancestors(handle).last().unwrap_or(handle)
+    }
+
+    /// Makes `handle` the last child of `parent` (None: the last root). With `keep_in_place` it stays where it is in the world,
+    /// otherwise its local pose is kept.
+    ///
+    /// # Errors
+    /// When one of them does not exist, or `handle` is `parent` or an ancestor of it.
+    pub fn set_parent(&mut self, handle: Handle, parent: Option<Handle>, keep_in_place: bool) -> SceneResult<()> {
+        let old = self.object(handle)?.parent();
+        if let Some(parent) = parent {
+            self.object(parent)?;
+            if self.is_ancestor_or_self(handle, parent) {
+                return Err(SceneError::AncestorOfParent);
+            }
+        }
+        if old == parent {
+            return Ok(());
+        }
+        let world = self.world_pose(handle)?;
+        self.siblings_mut(old)?.retain(|&h| h != handle);
+        self.siblings_mut(parent)?.push(handle);
+        self.object_mut(handle)?.parent = parent;
+        for end in [old, parent].into_iter().flatten() {
+            self.clear_physics_error(end)?;
+        }
+        if keep_in_place {
+            let local = self.parent_frame(handle)?.inverse() * world;
+            self.object_mut(handle)?.pose = local;
+        }
+        self.changes_mut().note(Change::Modified(handle, Field::Parent));
+        Ok(())
+    }
+
+    /// (Un)linking below a joint or force sensor ends the deviation the physics had left there.
+    fn clear_physics_error(&mut self, handle: Handle) -> SceneResult<()> {
+        match &mut self.object_mut(handle)?.kind {
+            super::Kind::Joint(joint) => joint.error = None,
+            super::Kind::ForceSensor(sensor) => sensor.error = None,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Moves `handle` to `position` among its siblings; negative positions count from the end.
+    ///
+    /// # Errors
+    /// When the position lies outside of the list.
+    pub fn set_hierarchy_order(&mut self, handle: Handle, position: i64) -> SceneResult<()> {
+        let parent = self.object(handle)?.parent();
+        let siblings = self.siblings_mut(parent)?;
+        let len = siblings.len() as i64;
+        let target = if position < 0 { len + position } else { position };
+        if !(0..len).contains(&target) {
+            return Err(SceneError::OperationFailed);
+        }
+        siblings.retain(|&h| h != handle);
+        siblings.insert(target as usize, handle);
+        self.changes_mut().note(Change::Modified(handle, Field::Parent));
+        Ok(())
+    }
+
+    /// `base` and everything below it, breadth first, children in order.
+    pub fn subtree(&self, base: Handle) -> Vec<Handle> {
+        self.breadth_first([base])
+    }
+
+    /// Every object, breadth first from the roots.
+    pub fn all_breadth_first(&self) -> Vec<Handle> {
+        self.breadth_first(self.roots.iter().copied())
+    }
+
+    fn breadth_first(&self, start: impl IntoIterator<Item = Handle>) -> Vec<Handle> {
+        let mut queue: VecDeque<Handle> = start.into_iter().collect();
+        let mut out = Vec::new();
+        while let Some(handle) = queue.pop_front() {
+            out.push(handle);
+            if let Ok(object) = self.object(handle) {
+                queue.extend(object.children());
+            }
+        }
+        out
+    }
+
+    /// Flags of all model bases from `handle` up to its root, OR-ed.
+    pub fn calculated_model_property(&self, handle: Handle) -> i64 {
+        std::iter::once(handle)
+            .chain(self.ancestors(handle))
+            .filter_map(|h| self.object(h).ok())
+            .filter(|object| object.is_model())
+            .fold(0, |flags, object| flags | object.model_property)
+    }
+
+    /// Removes objects. Their children survive: they go to the nearest surviving ancestor and keep their place in the world, object
+    /// by object in the order of their creation.
+    ///
+    /// # Errors
+    /// When a handle is unknown or given twice; nothing is removed then.
+    pub fn remove(&mut self, handles: &[Handle]) -> SceneResult<()> {
+        let doomed: BTreeSet<Handle> = handles.iter().copied().collect();
+        if doomed.len() != handles.len() || handles.iter().any(|&h| !self.exists(h)) {
+            return Err(SceneError::InvalidHandles);
+        }
+        for orphan in self.children_outside(&doomed) {
+            let heir = self.ancestors(orphan).find(|h| !doomed.contains(h));
+            self.set_parent(orphan, heir, true)?;
+        }
+        self.forget_references(&doomed);
+        for &handle in handles {
+            let parent = self.object(handle)?.parent();
+            self.siblings_mut(parent)?.retain(|&h| h != handle);
+            // Children of the doomed are doomed too by now; they must not be looked up through this parent.
+            for child in std::mem::take(&mut self.object_mut(handle)?.children) {
+                self.object_mut(child)?.parent = None;
+                self.roots.push(child);
+            }
+            self.erase(handle);
+        }
+        Ok(())
+    }
+
+    fn children_outside(&self, doomed: &BTreeSet<Handle>) -> Vec<Handle> {
+        let mut orphans: Vec<&super::Object> = doomed
+            .iter()
+            .filter_map(|&h| self.object(h).ok())
+            .flat_map(|object| object.children().iter())
+            .filter(|child| !doomed.contains(child))
+            .filter_map(|&child| self.object(child).ok())
+            .collect();
+        orphans.sort_by_key(|object| object.uid());
+        orphans.into_iter().map(super::Object::handle).collect()
+    }
+
+    /// Drops what other objects know of the doomed: links, dependencies, selection, collections, referenced handles.
+    fn forget_references(&mut self, doomed: &BTreeSet<Handle>) {
+        self.selection.retain(|h| !doomed.contains(h));
+        for collection in self.collections.values_mut() {
+            collection.items.retain(|item| item.base.is_none_or(|base| !doomed.contains(&base)));
+        }
+        let all: Vec<Handle> = self.objects().map(super::Object::handle).collect();
+        for handle in all {
+            if let Ok(object) = self.object_mut(handle) {
+                forget(object, doomed);
+            }
+        }
+    }
+}
+
+fn forget(object: &mut super::Object, doomed: &BTreeSet<Handle>) {
+    let gone = |h: Handle| doomed.contains(&h);
+    match &mut object.kind {
+        super::Kind::Joint(joint) if joint.dependency.is_some_and(|d| gone(d.master)) => joint.dependency = None,
+        super::Kind::Dummy(dummy) if dummy.link.is_some_and(gone) => dummy.link = None,
+        super::Kind::Camera(camera) if camera.tracked.is_some_and(gone) => camera.tracked = None,
+        _ => {}
+    }
+    let lists = object.references.iter_mut().chain(object.original_references.iter_mut());
+    for handle in lists.flat_map(|(_, list)| list.iter_mut()) {
+        if Handle::from_raw(*handle).is_some_and(gone) {
+            *handle = -1;
+        }
+    }
+}

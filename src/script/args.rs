@@ -1,0 +1,243 @@
+//! Decoding: from the values on a Lua stack to the parameters of an API function.
+//!
+//! Every type that scripts can pass in implements [`FromScript`]. Typing rules are those of SPEC-1 1.5: a number may be a numeric
+//! string, an integer must be one, a string may be a number or a buffer, anything is a bool, tables may be longer than needed.
+
+use std::ffi::c_int;
+
+use super::cx::Cx;
+use super::data::{read_data, read_function};
+use super::error::{ApiError, ApiResult};
+use super::lua::{FunctionRef, Stack, Type};
+use super::returns::IntoScript;
+use crate::scene::{Data, Frame, Handle};
+
+/// Reads the arguments of one call in order.
+pub struct Args<'a> {
+    stack: Stack<'a>,
+    position: c_int,
+    count: c_int,
+}
+
+/// A type that scripts can pass in.
+pub trait FromScript: Sized {
+    /// The type in the words of the reference.
+    const TYPE: &'static str;
+
+    /// The value of argument `args.position()`.
+    ///
+    /// # Errors
+    /// When the argument is of another type.
+    fn from_script(args: &Args<'_>) -> ApiResult<Self>;
+}
+
+impl<'a> Args<'a> {
+    pub(crate) fn new(stack: Stack<'a>) -> Self {
+        Self { stack, position: 0, count: stack.top() }
+    }
+
+    /// Number of the argument being decoded, from 1.
+    pub fn position(&self) -> c_int {
+        self.position
+    }
+
+    pub(crate) fn stack(&self) -> Stack<'a> {
+        self.stack
+    }
+
+    pub(crate) fn kind(&self) -> Type {
+        if self.position > self.count { Type::None } else { self.stack.kind(self.position) }
+    }
+
+    /// Fails unless there are `count` arguments.
+    pub fn require(&self, count: usize) -> ApiResult<()> {
+        if (self.count as usize) < count { Err(ApiError::MoreArguments) } else { Ok(()) }
+    }
+
+    /// The next argument, which must be there.
+    pub fn next<T: FromScript>(&mut self) -> ApiResult<T> {
+        self.position += 1;
+        T::from_script(self)
+    }
+
+    /// The next argument, or the default when it is missing or nil.
+    pub fn next_or<T: FromScript>(&mut self, default: impl FnOnce() -> T) -> ApiResult<T> {
+        self.position += 1;
+        match self.kind() {
+            Type::None | Type::Nil => Ok(default()),
+            _ => T::from_script(self),
+        }
+    }
+
+    /// The context of the call.
+    pub fn context(&self) -> ApiResult<Cx<'a>> {
+        Cx::of(self.stack)
+    }
+
+    /// Encodes the results.
+    pub fn finish<T: IntoScript>(&self, results: T) -> ApiResult<c_int> {
+        let before = self.stack.top();
+        results.into_script(self.stack)?;
+        Ok(self.stack.top() - before)
+    }
+
+    /// The error for an argument of the wrong type.
+    pub fn not_a(&self, expected: &'static str) -> ApiError {
+        match self.kind() {
+            Type::None => ApiError::MoreArguments,
+            Type::Nil => ApiError::ArgumentType,
+            _ => ApiError::NotA { position: self.position, expected },
+        }
+    }
+
+    fn number(&self) -> ApiResult<f64> {
+        match self.kind() {
+            Type::Number | Type::String => self.stack.number(self.position).ok_or_else(|| self.not_a("number")),
+            _ => Err(self.not_a("number")),
+        }
+    }
+
+    /// The first `count` numbers of a table.
+    fn numbers(&self, count: usize) -> ApiResult<Vec<f64>> {
+        let mut numbers = vec![0.0; count];
+        self.fill(&mut numbers)?;
+        Ok(numbers)
+    }
+
+    fn table_len(&self) -> ApiResult<usize> {
+        if self.kind() == Type::Table { Ok(self.stack.raw_len(self.position)) } else { Err(self.not_a("table")) }
+    }
+
+    fn fill(&self, out: &mut [f64]) -> ApiResult<()> {
+        if self.table_len()? < out.len() {
+            return Err(ApiError::TableSize);
+        }
+        for (i, slot) in out.iter_mut().enumerate() {
+            let element = self.stack.number_at(self.position, i as i64 + 1);
+            *slot = element.ok_or(ApiError::NotA { position: -1, expected: "number" })?;
+        }
+        Ok(())
+    }
+}
+
+macro_rules! scalars {
+    ($($ty:ty, $name:literal, |$args:ident| $decode:expr;)*) => { $(
+        impl FromScript for $ty {
+            const TYPE: &'static str = $name;
+            fn from_script($args: &Args<'_>) -> ApiResult<Self> { $decode }
+        }
+    )* };
+}
+
+scalars! {
+    f64, "float", |args| args.number();
+    i64, "int", |args| args.stack.integer(args.position).ok_or_else(|| args.not_a("integer"));
+    bool, "bool", |args| Ok(args.stack.truthy(args.position));
+    String, "string", |args| Ok(String::from_utf8_lossy(&Bytes::from_script(args)?.0).into_owned());
+    Number, "int", |args| Ok(Number(args.number()? as i64));
+    Bytes, "buffer", |args| match read_data(args.stack, args.position) {
+        Data::Text(bytes) | Data::Buffer(bytes) => Ok(Bytes(bytes)),
+        Data::Int(_) | Data::Float(_) => Ok(Bytes(args.stack.text(args.position).unwrap_or_default())),
+        _ => Err(args.not_a("string/buffer")),
+    };
+    Data, "any", |args| Ok(read_data(args.stack, args.position));
+    Frame, "int", |args| Ok(Frame::from_raw(args.number()? as i64)?);
+    Handle, "int", |args| Handle::from_raw(args.number()? as i64).ok_or(crate::scene::SceneError::NoSuchObject.into());
+    ObjectRef, "int", |args| ObjectRef::from_raw(args.number()? as i64);
+    Handles, "int[]", |args| {
+        let numbers = args.numbers(args.table_len()?)?;
+        Ok(Handles(numbers.into_iter().map(|n| n as i64).collect()))
+    };
+    Vec<f64>, "float[]", |args| args.numbers(args.table_len()?);
+    Vec<i64>, "int[]", |args| Ok(args.numbers(args.table_len()?)?.into_iter().map(|n| n as i64).collect());
+    Table, "table", |args| match read_data(args.stack, args.position) {
+        data @ (Data::Array(_) | Data::Map(_)) => Ok(Table(data)),
+        _ => Err(args.not_a("table")),
+    };
+    ScriptFunction, "function", |args| match args.kind() {
+        Type::Function => Ok(ScriptFunction::Value(read_function(args.stack, args.position))),
+        _ => Ok(ScriptFunction::Name(String::from_script(args)?)),
+    };
+    Rest, "any...", |args| Ok(Rest((args.position..=args.count).map(|at| read_data(args.stack, at)).collect()));
+}
+
+macro_rules! number_arrays {
+    ($($n:literal $name:literal),*) => { $(
+        impl FromScript for [f64; $n] {
+            const TYPE: &'static str = $name;
+            fn from_script(args: &Args<'_>) -> ApiResult<Self> {
+                let mut out = [0.0; $n];
+                args.fill(&mut out)?;
+                Ok(out)
+            }
+        }
+    )* };
+}
+number_arrays!(2 "float[2]", 3 "float[3]", 4 "float[4]", 6 "float[6]", 7 "float[7]", 9 "float[9]", 12 "float[12]");
+
+impl<T: FromScript> FromScript for Option<T> {
+    const TYPE: &'static str = T::TYPE;
+
+    fn from_script(args: &Args<'_>) -> ApiResult<Self> {
+        match args.kind() {
+            Type::None | Type::Nil => Ok(None),
+            _ => T::from_script(args).map(Some),
+        }
+    }
+}
+
+/// An integer that older functions read as a number: 2.7 is 2, and "2" is 2.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Number(pub i64);
+
+impl From<i64> for Number {
+    fn from(value: i64) -> Self {
+        Self(value)
+    }
+}
+
+/// Bytes given as a string, a buffer or a number.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Bytes(pub Vec<u8>);
+
+/// A table by value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table(pub Data);
+
+/// Object handles as given: flags, special and unknown values included.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Handles(pub Vec<i64>);
+
+/// An object handle with the flag bits a script added to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ObjectRef {
+    pub handle: Handle,
+    flags: i64,
+}
+
+impl ObjectRef {
+    fn from_raw(raw: i64) -> ApiResult<Self> {
+        let handle = Handle::from_raw(raw).ok_or(crate::scene::SceneError::NoSuchObject)?;
+        Ok(Self { handle, flags: raw & !Handle::MASK })
+    }
+
+    /// Whether all bits of `flag` were added.
+    pub fn has(self, flag: i64) -> bool {
+        self.flags & flag == flag
+    }
+}
+
+/// A function given as such or by the name of a global.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum ScriptFunction {
+    Name(String),
+    Value(#[doc(hidden)] KeptFunction),
+}
+
+/// A Lua function held in the registry of the state it came from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct KeptFunction(pub(crate) FunctionRef);
+
+/// All remaining arguments.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rest(pub Vec<Data>);

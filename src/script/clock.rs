@@ -1,0 +1,72 @@
+//! Simulation time and the seven states of a run (SPEC-7).
+
+use std::cell::Cell;
+
+/// The state of the simulation; numbers are `sim.simulation_*` of 4.10.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SimulationState {
+    Stopped = 0x00,
+    Paused = 0x08,
+    FirstAfterStop = 0x10,
+    Running = 0x11,
+    LastBeforePause = 0x13,
+    FirstAfterPause = 0x14,
+    AboutToStop = 0x15,
+    LastBeforeStop = 0x16,
+}
+
+impl SimulationState {
+    /// Whether passes of the main script run.
+    pub fn is_advancing(self) -> bool {
+        self as i64 & 0x10 != 0
+    }
+
+    /// What `sim.getSimulationStopping` tells.
+    pub fn is_stopping(self) -> bool {
+        matches!(self, Self::Stopped | Self::AboutToStop | Self::LastBeforeStop)
+    }
+}
+
+/// Time and requests.
+pub(crate) struct Clock {
+    pub state: Cell<SimulationState>,
+    /// Seconds since the start, by repeated addition of the step.
+    pub time: Cell<f64>,
+    pub steps: Cell<u64>,
+    pub stop_requested: Cell<bool>,
+    pub pause_requested: Cell<bool>,
+}
+
+impl Clock {
+    pub(crate) fn new() -> Self {
+        Self {
+            state: Cell::new(SimulationState::Stopped),
+            time: Cell::new(0.0),
+            steps: Cell::new(0),
+            stop_requested: Cell::new(false),
+            pause_requested: Cell::new(false),
+        }
+    }
+
+    /// Back to time zero, for a start.
+    pub(crate) fn reset(&self) {
+        self.time.set(0.0);
+        self.steps.set(0);
+        self.stop_requested.set(false);
+        self.pause_requested.set(false);
+        self.state.set(SimulationState::FirstAfterStop);
+    }
+
+    /// The state after a pass (SPEC-7 7.2). `LastBeforeStop` stays: the caller runs the end procedure. A stop beats a pause.
+    pub(crate) fn state_after_pass(&self) -> SimulationState {
+        use SimulationState as S;
+        match self.state.get() {
+            S::FirstAfterStop | S::FirstAfterPause => S::Running,
+            S::Running if self.stop_requested.get() => S::AboutToStop,
+            S::Running if self.pause_requested.take() => S::LastBeforePause,
+            S::AboutToStop => S::LastBeforeStop,
+            S::LastBeforePause => S::Paused,
+            same => same,
+        }
+    }
+}

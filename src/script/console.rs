@@ -1,0 +1,44 @@
+//! Where prints and log lines of a simulator go.
+
+use super::verbosity;
+
+/// One line of the log.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LogLine<'a> {
+    /// Who speaks: a script's path, `sandboxScript`, `CoppeliaSim`'s place taken by `Swanilda`, ...
+    pub origin: &'a str,
+    /// `sim.verbosity_*` with its flag bits.
+    pub level: i64,
+    pub text: &'a str,
+    /// Simulated time, seconds.
+    pub time: f64,
+    /// Said by the simulator about itself, not by or about a script.
+    pub chatter: bool,
+}
+
+impl LogLine<'_> {
+    /// The line as it is shown.
+    pub fn decorated(&self) -> String {
+        if self.level & verbosity::UNDECORATED == verbosity::UNDECORATED {
+            return self.text.to_owned();
+        }
+        format!("[{}:{}]   {}", self.origin, verbosity::word(self.level), self.text)
+    }
+}
+
+/// Receives what a simulator and its scripts say. Lines below the verbosity asked for do not arrive here.
+pub trait Console {
+    /// One call of a script's `print`: the line without its end.
+    fn print(&mut self, line: &[u8]);
+
+    fn log(&mut self, line: &LogLine<'_>);
+}
+
+/// Swallows everything.
+pub struct Silent;
+
+impl Console for Silent {
+    fn print(&mut self, _: &[u8]) {}
+
+    fn log(&mut self, _: &LogLine<'_>) {}
+}

@@ -1,0 +1,50 @@
+//! The context of one API call.
+
+use std::cell::{Ref, RefMut};
+use std::rc::Rc;
+
+use super::env::Env;
+use super::error::{ApiError, ApiResult};
+use super::lua::Stack;
+use super::script::Script;
+use super::sim::Sim;
+use crate::scene::Scene;
+
+/// What an API function gets: `&Cx` to read, `&mut Cx` to write the scene or call scripts. A function cannot hold a borrow of the
+/// scene while it calls a script, because both need the context.
+pub struct Cx<'a> {
+    sim: Rc<Sim>,
+    stack: Stack<'a>,
+}
+
+impl<'a> Cx<'a> {
+    pub(crate) fn of(stack: Stack<'a>) -> ApiResult<Self> {
+        let sim = Env::of(stack).sim.upgrade().ok_or_else(|| ApiError::Other("the simulator is gone.".into()))?;
+        Ok(Self { sim, stack })
+    }
+
+    /// The script that is calling.
+    pub(crate) fn script(&self) -> &Rc<Script> {
+        &self.env().script
+    }
+
+    pub(crate) fn env(&self) -> &'a Env {
+        Env::of(self.stack)
+    }
+
+    pub(crate) fn stack(&self) -> Stack<'a> {
+        self.stack
+    }
+
+    pub(crate) fn sim(&self) -> &Rc<Sim> {
+        &self.sim
+    }
+
+    pub(crate) fn scene(&self) -> Ref<'_, Scene> {
+        self.sim.scene.borrow()
+    }
+
+    pub(crate) fn scene_mut(&mut self) -> RefMut<'_, Scene> {
+        self.sim.scene.borrow_mut()
+    }
+}

@@ -1,0 +1,168 @@
+//! Values between a Lua stack and [`Data`] (SPEC-4 4.3).
+
+use std::ffi::{CStr, c_int, c_void};
+
+use super::args::KeptFunction;
+use super::lua::{Stack, Type};
+use crate::scene::{Data, Key};
+
+/// Where a state keeps the metatable all its buffers share.
+pub(crate) const BUFFER_METATABLE: &CStr = c"swanilda.buffer";
+
+/// The field of a buffer table that holds its bytes.
+const BUFFER_FIELD: &str = "__buff__";
+
+/// How deep a table may be nested; deeper parts become empty tables.
+const MAX_DEPTH: usize = 100;
+
+/// Copies the value at `index`. Nothing is shared, metamethods are not called, a table within itself becomes an empty table.
+pub(crate) fn read_data(stack: Stack<'_>, index: c_int) -> Data {
+    read(stack, index, &mut Vec::new())
+}
+
+/// Keeps the function at `index` alive.
+pub(crate) fn read_function(stack: Stack<'_>, index: c_int) -> KeptFunction {
+    stack.push_value(index);
+    KeptFunction(stack.keep_function())
+}
+
+fn read(stack: Stack<'_>, index: c_int, above: &mut Vec<*const c_void>) -> Data {
+    match stack.kind(index) {
+        Type::None | Type::Nil => Data::Nil,
+        Type::Boolean => Data::Bool(stack.truthy(index)),
+        Type::Number => match stack.integer(index) {
+            Some(i) => Data::Int(i),
+            None => Data::Float(stack.number(index).unwrap_or_default()),
+        },
+        Type::String => Data::Text(stack.bytes(index).unwrap_or_default().to_vec()),
+        Type::Table => read_table(stack, stack.absolute(index), above),
+        Type::Function => Data::Text(opaque("FUNCTION", stack, index)),
+        Type::UserData => Data::Text(opaque("USERDATA", stack, index)),
+        Type::LightUserData => Data::Text(opaque("LIGHTUSERDATA", stack, index)),
+        Type::Thread => Data::Text(opaque("THREAD", stack, index)),
+    }
+}
+
+/// What cannot leave its state arrives as a text that names it.
+fn opaque(word: &str, stack: Stack<'_>, index: c_int) -> Vec<u8> {
+    format!("<{word} {:p}>", stack.pointer(index)).into_bytes()
+}
+
+fn read_table(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) -> Data {
+    if let Some(bytes) = read_buffer(stack, table) {
+        return Data::Buffer(bytes);
+    }
+    let address = stack.pointer(table);
+    if above.len() >= MAX_DEPTH || above.contains(&address) || !stack.reserve(8) {
+        return Data::Array(Vec::new());
+    }
+    above.push(address);
+    let data = read_entries(stack, table, above);
+    above.pop();
+    data
+}
+
+fn read_buffer(stack: Stack<'_>, table: c_int) -> Option<Vec<u8>> {
+    if !stack.push_metatable(table) {
+        return None;
+    }
+    stack.push_registry(BUFFER_METATABLE);
+    let is_buffer = stack.same(-1, -2);
+    stack.pop(2);
+    if !is_buffer {
+        return None;
+    }
+    stack.raw_get_field(table, BUFFER_FIELD);
+    let bytes = stack.bytes(-1).map(<[u8]>::to_vec);
+    stack.pop(1);
+    bytes
+}
+
+fn read_entries(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) -> Data {
+    let len = stack.raw_len(table);
+    let mut entries = Vec::with_capacity(len);
+    let mut array = true;
+    stack.push_nil();
+    while stack.next(table) {
+        let key = read_key(stack, -2);
+        array = array && matches!(key, Key::Int(i) if i >= 1 && i as usize <= len);
+        entries.push((key, read(stack, -1, above)));
+        stack.pop(1);
+    }
+    if !array || entries.len() != len {
+        return Data::Map(entries);
+    }
+    entries.sort_by_key(|(key, _)| if let Key::Int(i) = key { *i } else { 0 });
+    Data::Array(entries.into_iter().map(|(_, value)| value).collect())
+}
+
+fn read_key(stack: Stack<'_>, index: c_int) -> Key {
+    match stack.kind(index) {
+        Type::Boolean => Key::Bool(stack.truthy(index)),
+        Type::Number => match stack.integer(index) {
+            Some(i) => Key::Int(i),
+            None => Key::Float(stack.number(index).unwrap_or_default()),
+        },
+        // A C string on its way through the original: it ends at the first NUL.
+        Type::String => {
+            let text = stack.bytes(index).unwrap_or_default();
+            Key::Text(text.split(|&byte| byte == 0).next().unwrap_or_default().to_vec())
+        }
+        Type::Function => Key::Text(opaque("FUNCTION", stack, index)),
+        Type::Thread => Key::Text(opaque("THREAD", stack, index)),
+        Type::Table => Key::Text(opaque("TABLE", stack, index)),
+        _ => Key::Text(opaque("USERDATA", stack, index)),
+    }
+}
+
+/// Pushes `data`.
+pub(crate) fn push_data(stack: Stack<'_>, data: &Data) {
+    // One level of nesting takes three slots; when Lua's stack is full the inner value is dropped rather than the program.
+    if !stack.reserve(8) {
+        return stack.push_nil();
+    }
+    match data {
+        Data::Nil => stack.push_nil(),
+        Data::Bool(b) => stack.push_bool(*b),
+        Data::Int(i) => stack.push_int(*i),
+        Data::Float(f) => stack.push_number(*f),
+        Data::Text(bytes) => stack.push_bytes(bytes),
+        Data::Buffer(bytes) => push_buffer(stack, bytes),
+        Data::Array(items) => {
+            stack.new_table(items.len(), 0);
+            for (i, item) in items.iter().enumerate() {
+                push_data(stack, item);
+                stack.raw_set_index(-2, i as i64 + 1);
+            }
+        }
+        Data::Map(entries) => {
+            stack.new_table(0, entries.len());
+            for (key, value) in entries {
+                push_key(stack, key);
+                push_data(stack, value);
+                stack.raw_set(-3);
+            }
+        }
+    }
+}
+
+fn push_key(stack: Stack<'_>, key: &Key) {
+    match key {
+        Key::Bool(b) => stack.push_bool(*b),
+        Key::Int(i) => stack.push_int(*i),
+        Key::Float(f) => stack.push_number(*f),
+        Key::Text(text) => stack.push_bytes(text),
+    }
+}
+
+/// Pushes a buffer.
+pub(crate) fn push_buffer(stack: Stack<'_>, bytes: &[u8]) {
+    stack.new_table(0, 1);
+    stack.push_bytes(bytes);
+    stack.raw_set_field(-2, BUFFER_FIELD);
+    if stack.push_registry(BUFFER_METATABLE) == Type::Table {
+        stack.set_metatable(-2);
+    } else {
+        stack.pop(1);
+    }
+}

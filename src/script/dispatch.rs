@@ -1,0 +1,92 @@
+//! Broadcasts: one callback to many scripts.
+
+use std::rc::Rc;
+
+use super::callback::SysCall;
+use super::lifecycle::Reply;
+use super::order::{Group, ScriptList};
+use super::script::{Script, state};
+use super::sim::Sim;
+use crate::scene::Data;
+
+impl Sim {
+    /// Delivers a callback to the scripts of a group; returns how many ran it.
+    pub(crate) fn deliver_to(self: &Rc<Self>, group: Group, call: SysCall, args: &[Data]) -> i64 {
+        let scripts = self.scripts_in(group);
+        scripts.iter().filter(|script| self.deliver(script, call, args).ran).count() as i64
+    }
+
+    /// Simulation scripts, then customization scripts.
+    pub(crate) fn deliver_to_embedded(self: &Rc<Self>, call: SysCall, args: &[Data]) -> i64 {
+        self.deliver_to(Group::Simulation, call, args) + self.deliver_to(Group::Customization, call, args)
+    }
+
+    /// Everyone, in regular order.
+    pub(crate) fn broadcast(self: &Rc<Self>, call: SysCall, args: &[Data]) {
+        for script in self.everyone() {
+            self.deliver(&script, call, args);
+        }
+    }
+
+    /// Everyone who takes part now, in regular order: while stopped, neither simulation scripts nor the main script do.
+    pub(crate) fn everyone(&self) -> Vec<Rc<Script>> {
+        let stopped = self.clock.state.get() == super::clock::SimulationState::Stopped;
+        let mut lists: Vec<ScriptList> = Vec::with_capacity(5);
+        if !stopped {
+            lists.push(self.scripts_in(Group::Simulation));
+        }
+        lists.push(self.scripts_in(Group::Customization));
+        if !stopped {
+            lists.push(self.scripts_in(Group::Main));
+        }
+        lists.push(self.scripts_in(Group::AddOn));
+        lists.push(self.scripts_in(Group::Sandbox));
+        lists.iter().flat_map(|list| list.iter().cloned()).collect()
+    }
+
+    /// Asks scripts in turn until one answers with a value.
+    pub(crate) fn ask(self: &Rc<Self>, scripts: &[Rc<Script>], call: SysCall, args: &[Data]) -> Option<Data> {
+        scripts.iter().find_map(|script| self.deliver(script, call, args).value)
+    }
+
+    /// Reverse order, for contacts: sandbox, add-ons, main, then script objects by increasing depth.
+    pub(crate) fn everyone_reversed(&self) -> Vec<Rc<Script>> {
+        let mut list: Vec<Rc<Script>> = Vec::new();
+        for group in [Group::Sandbox, Group::AddOn, Group::Main] {
+            list.extend(self.scripts_in(group).iter().cloned());
+        }
+        for group in [Group::Customization, Group::Simulation] {
+            list.extend(self.scripts_in(group).iter().rev().cloned());
+        }
+        list
+    }
+
+    /// A message to all initialised scripts but the sender.
+    pub(crate) fn broadcast_message(self: &Rc<Self>, sender: i64, args: &[Data]) {
+        for script in self.everyone() {
+            if script.id != sender && script.base_state() == state::INITIALIZED {
+                self.deliver(&script, SysCall::Msg, args);
+            }
+        }
+    }
+
+    /// Tells all others that a script has run one of the callbacks that concern them.
+    pub(crate) fn announce(self: &Rc<Self>, script: &Script, call: SysCall) {
+        let data = Data::map([("callType", Data::Int(call as i64)), ("script", Data::Int(script.id))]);
+        let message = Data::map([("id", Data::text("systemCall")), ("data", data)]);
+        self.broadcast_message(script.id, &[message]);
+    }
+
+    /// Polls every script before a pass of the main script; true when one forbids it.
+    pub(crate) fn main_script_vetoed(self: &Rc<Self>) -> bool {
+        let mut vetoed = false;
+        for script in self.everyone() {
+            let is_main = script.script_type == crate::scene::script_object::ScriptType::Main;
+            if !is_main && script.base_state() == state::INITIALIZED {
+                let Reply { value, .. } = self.deliver(&script, SysCall::BeforeMainScript, &[]);
+                vetoed |= value.as_ref().and_then(|v| v.field("doNotRunMainScript")).is_some_and(Data::truthy);
+            }
+        }
+        vetoed && !self.clock.stop_requested.get()
+    }
+}

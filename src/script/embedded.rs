@@ -1,0 +1,36 @@
+//! The Lua files that come with the simulator.
+
+use std::sync::OnceLock;
+
+use super::compile;
+
+/// `(module, text)` of every file below `lua/`.
+pub(crate) const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/lua_files.rs"));
+
+/// An embedded Lua module: its text, and its compiled form once somebody needed it.
+pub(crate) struct Embedded {
+    pub source: &'static str,
+    bytecode: OnceLock<Vec<u8>>,
+}
+
+impl Embedded {
+    pub(crate) fn new(source: &'static str) -> Self {
+        Self { source, bytecode: OnceLock::new() }
+    }
+
+    /// Compiled once per process. Error positions read `[string "name"]` as in scripts.
+    pub(crate) fn bytecode(&self, name: &str) -> &[u8] {
+        self.bytecode
+            .get_or_init(|| compile(self.source.as_bytes(), name).expect("a test compiles every embedded file"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn every_embedded_file_compiles() {
+        for (name, text) in super::FILES {
+            super::compile(text.as_bytes(), name).expect(name);
+        }
+    }
+}

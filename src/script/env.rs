@@ -1,0 +1,116 @@
+//! What the host knows about one Lua state: whose it is, its yield levels, hooks, random numbers.
+
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, HashSet};
+use std::rc::{Rc, Weak};
+
+use super::callback::SysCall;
+use super::lua::{FunctionRef, Stack, State};
+use super::random::Random;
+use super::script::Script;
+use super::sim::Sim;
+use super::verbosity;
+
+/// The host's side of one Lua state.
+pub(crate) struct Env {
+    pub sim: Weak<Sim>,
+    pub script: Rc<Script>,
+    /// Callbacks whose function was there when the chunk had run.
+    pub defined: Cell<u64>,
+    pub hooks: RefCell<Hooks>,
+    /// Calls of this state in progress.
+    pub depth: Cell<usize>,
+    pub yields: Yields,
+    pub random: RefCell<Random>,
+    warned: RefCell<HashSet<&'static str>>,
+}
+
+/// May code of this state yield, and when is it made to?
+pub(crate) struct Yields {
+    /// 0: pre-emption is allowed in code outside of coroutines that have a level of their own.
+    pub auto: Cell<i64>,
+    /// 0: yielding is allowed at all.
+    pub overall: Cell<i64>,
+    /// Whole milliseconds, as scripts set it.
+    pub delay_ms: Cell<u32>,
+    /// Instructions run by coroutines since the slice began.
+    pub used: Cell<u64>,
+}
+
+/// Functions that run before and after callbacks.
+#[derive(Default)]
+pub(crate) struct Hooks {
+    pub before: BTreeMap<SysCall, Vec<Hook>>,
+    pub after: BTreeMap<SysCall, Vec<Hook>>,
+}
+
+/// One hook: a kept function, or the dotted name of a global.
+#[derive(Clone)]
+pub(crate) struct Hook {
+    pub name: String,
+    pub function: Option<FunctionRef>,
+}
+
+impl Env {
+    fn new(sim: &Rc<Sim>, script: &Rc<Script>) -> Self {
+        Self {
+            sim: Rc::downgrade(sim),
+            script: script.clone(),
+            defined: Cell::new(0),
+            hooks: RefCell::default(),
+            depth: Cell::new(0),
+            yields: Yields { auto: Cell::new(0), overall: Cell::new(0), delay_ms: Cell::new(2), used: Cell::new(0) },
+            random: RefCell::new(Random::new(sim.options.seed)),
+            warned: RefCell::default(),
+        }
+    }
+
+    /// The environment of the state `stack` belongs to.
+    pub(crate) fn of<'a>(stack: Stack<'a>) -> &'a Self {
+        stack.owner()
+    }
+
+    /// Logs a deprecation at the first call of `name` in this state.
+    pub(crate) fn warn_once(&self, name: &'static str, notice: &str) {
+        if self.warned.borrow_mut().insert(name) {
+            self.log(verbosity::SCRIPT_WARNINGS, notice);
+        }
+    }
+
+    /// Logs in the name of the script.
+    pub(crate) fn log(&self, level: i64, text: &str) {
+        if let Some(sim) = self.sim.upgrade() {
+            sim.log_from(&self.script, level, text);
+        }
+    }
+
+    /// Whether the callback has a function or a hook to run.
+    pub(crate) fn responds_to(&self, call: SysCall) -> bool {
+        self.defined.get() & call.bit() != 0 || self.has_hooks(call)
+    }
+
+    pub(crate) fn has_hooks(&self, call: SysCall) -> bool {
+        let hooks = self.hooks.borrow();
+        [&hooks.before, &hooks.after].iter().any(|list| list.get(&call).is_some_and(|hooks| !hooks.is_empty()))
+    }
+}
+
+/// A Lua state with its environment.
+pub(crate) struct Runtime {
+    // Dropped first: finalizers may still call API functions, which look at the environment.
+    pub lua: State,
+    pub env: Box<Env>,
+}
+
+impl Runtime {
+    /// A state with the standard libraries only; `startup` fills it.
+    pub(crate) fn new(sim: &Rc<Sim>, script: &Rc<Script>) -> Self {
+        let env = Box::new(Env::new(sim, script));
+        let lua = State::new(&raw const *env);
+        Self { lua, env }
+    }
+
+    pub(crate) fn stack(&self) -> Stack<'_> {
+        self.lua.stack()
+    }
+}

@@ -1,0 +1,77 @@
+//! Errors of API calls and of the host, and the one place where they become text for scripts.
+
+use super::lua::{LuaError, Stack};
+use crate::scene::SceneError;
+
+pub type ApiResult<T> = std::result::Result<T, ApiError>;
+
+/// Why a call from a script failed. The texts are CoppeliaSim's: scripts compare them.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ApiError {
+    #[error("the function requires more arguments.")]
+    MoreArguments,
+    #[error("one of the function's argument type is not correct.")]
+    ArgumentType,
+    /// Argument `position` (-1: an element of a table) is no `expected`, e.g. "number" or "string/buffer".
+    #[error("argument {position} is not {} {expected}.", article(.expected))]
+    NotA { position: i32, expected: &'static str },
+    #[error("incorrect table size.")]
+    TableSize,
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error("script does not exist.")]
+    NoSuchScript,
+    #[error("script is not initialized (or has already ended)")]
+    ScriptNotInitialized,
+    #[error("failed calling script function.")]
+    CallFailed,
+    #[error("error in script function.")]
+    ErrorInCallee,
+    #[error("can only be called from the main script.")]
+    MainScriptOnly,
+    #[error("can only be called from the main script or a simulation script.")]
+    MainOrSimulationScriptOnly,
+    #[error("too many nested calls between scripts: {0} is the limit. Is a script calling itself without end?")]
+    TooDeep(usize),
+    #[error("target does not exist.")]
+    NoSuchTarget,
+    #[error("property is unknown.")]
+    UnknownProperty,
+    #[error("property type mismatch.")]
+    PropertyType,
+    #[error("property could not be written.")]
+    PropertyNotWritable,
+    #[error("property could not be read.")]
+    PropertyNotReadable,
+    #[error("property cannot be removed.")]
+    PropertyNotRemovable,
+    #[error("invalid property name.")]
+    PropertyName,
+    /// A name of the reference that is not built here, or not yet.
+    #[error("not implemented in Swanilda: {0}")]
+    NotImplemented(String),
+    /// Words made where the error happens.
+    #[error("{0}")]
+    Other(String),
+}
+
+fn article(word: &str) -> &'static str {
+    if word.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" }
+}
+
+impl ApiError {
+    /// The string a script catches: the line of its call, the function and the reason.
+    pub(crate) fn text(&self, stack: Stack<'_>, function: &str) -> String {
+        let line = stack.current_line(1);
+        match self {
+            Self::NotImplemented(_) => format!("{line}: {self}"),
+            _ => format!("{line}: in {function}: {self}"),
+        }
+    }
+}
+
+impl From<LuaError> for ApiError {
+    fn from(error: LuaError) -> Self {
+        Self::Other(error.text)
+    }
+}

@@ -1,0 +1,374 @@
+//! A script's life: loading, initialising, being called, dying (SPEC-1 1.3 to 1.5).
+
+use std::rc::Rc;
+
+use super::callback::SysCall;
+use super::env::{Env, Hook, Runtime};
+use super::lua::{LuaError, MULTIPLE, Stack, Type};
+use super::script::{Script, state};
+use super::sim::Sim;
+use super::{data, startup, verbosity};
+use crate::scene::Data;
+use crate::scene::script_object::ScriptType;
+
+/// What came back from a callback.
+#[derive(Debug, Default)]
+pub(crate) struct Reply {
+    /// The script's function or a hook was there and ran.
+    pub ran: bool,
+    /// The last value returned; None when nothing was.
+    pub value: Option<Data>,
+}
+
+impl Sim {
+    /// Delivers a callback to one script, loading and initialising it first where the callback does that.
+    pub(crate) fn deliver(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, args: &[Data]) -> Reply {
+        if script.removed.get() || (call != SysCall::Cleanup && self.is_disabled(script)) {
+            return Reply::default();
+        }
+        if script.state() == state::UNLOADED {
+            if !call.wakes() || self.is_disabled(script) {
+                return Reply::default();
+            }
+            self.load(script);
+        }
+        if script.state() == state::UNINITIALIZED && call != SysCall::Info {
+            self.initialize(script);
+            if call == SysCall::Init {
+                return Reply { ran: true, value: None };
+            }
+        }
+        if !script.is_running() {
+            return Reply::default();
+        }
+        self.run_callback(script, call, args)
+    }
+
+    /// Runs the chunk in a fresh interpreter, then `sysCall_info`.
+    fn load(self: &Rc<Self>, script: &Rc<Script>) {
+        let runtime = Rc::new(Runtime::new(self, script));
+        script.set_state(state::UNINITIALIZED);
+        script.runtime.replace(Some(runtime.clone()));
+        if let Err(error) = self.run_chunk(script, &runtime) {
+            self.report_error(script, &error.text);
+            script.set_state(state::ENDED | state::ERROR);
+            self.close(script);
+            self.restart_if_asked(script);
+            return;
+        }
+        note_callbacks(&runtime.env, runtime.stack());
+        self.run_callback(script, SysCall::Info, &[]);
+    }
+
+    fn run_chunk(self: &Rc<Self>, script: &Rc<Script>, runtime: &Rc<Runtime>) -> Result<(), LuaError> {
+        let stack = runtime.stack();
+        startup::fill(self, runtime)?;
+        let (code, name) = self.code_of(script);
+        let _level = Level::enter(self, &runtime.env);
+        stack.load(&code, &name, false)?;
+        stack.protected_call(0, 0)
+    }
+
+    /// Text of a script and the name Lua shows for it in positions.
+    fn code_of(&self, script: &Script) -> (Vec<u8>, String) {
+        let Some(handle) = script.object else {
+            let detached = script.detached.borrow();
+            return (detached.code.clone(), detached.chunk_name.clone());
+        };
+        let code =
+            self.scene.borrow().object(handle).and_then(|o| o.script()).map(|s| s.code.clone()).unwrap_or_default();
+        (code, self.log_name(script))
+    }
+
+    fn initialize(self: &Rc<Self>, script: &Rc<Script>) {
+        script.set_state(state::INITIALIZED);
+        self.run_callback(script, SysCall::Init, &[]);
+    }
+
+    /// Runs hooks and function of a callback in an interpreter that is ready for it.
+    fn run_callback(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, args: &[Data]) -> Reply {
+        let Some(runtime) = script.current_runtime() else { return Reply::default() };
+        if !runtime.env.responds_to(call) && !call.always_delivered() && !is_late_cleanup(&runtime, call) {
+            return Reply::default();
+        }
+        if call == SysCall::Cleanup {
+            script.set_base_state(state::ENDED);
+        }
+        let outcome = self.call_with_hooks(&runtime, call, args);
+        if !outcome.errors.is_empty() {
+            self.fail(script, &outcome.errors.join("\n\n"));
+        } else if call.is_announced() && outcome.function_ran {
+            self.announce(script, call);
+        }
+        if runtime.env.depth.get() == 0 {
+            self.settle(script, call, outcome.value.as_ref());
+        }
+        Reply { ran: outcome.ran, value: outcome.value }
+    }
+
+    fn call_with_hooks(self: &Rc<Self>, runtime: &Rc<Runtime>, call: SysCall, args: &[Data]) -> Outcome {
+        let env = &runtime.env;
+        let stack = runtime.stack();
+        let _level = Level::enter(self, env);
+        let mut outcome = Outcome::default();
+        if _level.too_deep {
+            outcome.errors.push(super::error::ApiError::TooDeep(MAX_DEPTH).to_string());
+            return outcome;
+        }
+        let before = hooks_of(&env.hooks.borrow().before, call);
+        for hook in before.into_iter().rev() {
+            outcome.run_hook(stack, &hook, args);
+        }
+        if stack.push_global(call.name()) == Type::Function {
+            outcome.run_function(stack, args);
+        } else {
+            stack.pop(1);
+        }
+        let after = hooks_of(&env.hooks.borrow().after, call);
+        for hook in after {
+            outcome.run_hook(stack, &hook, args);
+        }
+        outcome
+    }
+
+    /// Logs an error of a script and marks it; it dies when its last call has returned.
+    pub(crate) fn fail(self: &Rc<Self>, script: &Rc<Script>, text: &str) {
+        let from_yield = text.contains("attempt to yield across a C-call boundary")
+            || text.contains("attempt to yield from outside a coroutine");
+        script.mark_error();
+        if !from_yield {
+            self.report_error(script, text);
+        }
+    }
+
+    fn report_error(self: &Rc<Self>, script: &Rc<Script>, text: &str) {
+        self.errors.set(self.errors.get() + 1);
+        self.log_from(script, verbosity::SCRIPT_ERRORS, text);
+        if !matches!(script.script_type, ScriptType::AddOn | ScriptType::Sandbox) {
+            self.request_pause_after_error();
+        }
+    }
+
+    /// What follows the outermost call of a script: death after an error, or what the script asked for by `cmd`.
+    pub(crate) fn settle(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, value: Option<&Data>) {
+        if script.script_type == ScriptType::Sandbox {
+            return script.set_bit(state::ERROR, false);
+        }
+        if script.state() & state::ERROR != 0 {
+            return self.kill(script);
+        }
+        if call == SysCall::Info || script.base_state() != state::INITIALIZED {
+            return;
+        }
+        match value.and_then(|v| v.field("cmd")) {
+            Some(Data::Text(cmd)) if cmd == b"restart" => self.reset(script),
+            Some(Data::Text(cmd)) if cmd == b"cleanup" => self.end(script),
+            _ if script.script_type == ScriptType::AddOn && value == Some(&Data::Int(1)) => self.end(script),
+            _ => {}
+        }
+    }
+
+    /// The end of a script with an error: cleanup if it was initialised, then no interpreter.
+    fn kill(self: &Rc<Self>, script: &Rc<Script>) {
+        if script.base_state() == state::INITIALIZED {
+            self.clean_up(script);
+        }
+        script.set_base_state(state::ENDED);
+        self.close(script);
+        self.restart_if_asked(script);
+    }
+
+    /// Ends a script for good: cleanup, then no interpreter.
+    pub(crate) fn end(self: &Rc<Self>, script: &Rc<Script>) {
+        if script.base_state() == state::INITIALIZED {
+            self.clean_up(script);
+        }
+        script.set_base_state(state::ENDED);
+        self.close(script);
+    }
+
+    /// Ends a script so that it starts anew at its next eligible call.
+    pub(crate) fn reset(self: &Rc<Self>, script: &Rc<Script>) {
+        self.end(script);
+        script.set_state(state::UNLOADED);
+    }
+
+    /// Runs `sysCall_cleanup` in a script that is ending. Errors are logged; they change nothing any more.
+    fn clean_up(self: &Rc<Self>, script: &Rc<Script>) {
+        let Some(runtime) = script.current_runtime() else { return };
+        script.set_base_state(state::ENDED);
+        if !runtime.env.responds_to(SysCall::Cleanup) && !is_late_cleanup(&runtime, SysCall::Cleanup) {
+            return;
+        }
+        let outcome = self.call_with_hooks(&runtime, SysCall::Cleanup, &[]);
+        if !outcome.errors.is_empty() {
+            script.mark_error();
+            self.report_error(script, &outcome.errors.join("\n\n"));
+        } else if outcome.function_ran {
+            self.announce(script, SysCall::Cleanup);
+        }
+    }
+
+    /// Gives the interpreter up. It is closed when its last call has returned.
+    fn close(&self, script: &Script) {
+        script.runtime.replace(None);
+    }
+
+    /// `restartOnError` is a one-shot.
+    fn restart_if_asked(&self, script: &Script) {
+        let asked = match script.object {
+            Some(handle) => self.take_restart_flag(handle),
+            None => std::mem::take(&mut script.detached.borrow_mut().restart_on_error),
+        };
+        if asked {
+            script.set_state(state::UNLOADED);
+        }
+    }
+
+    fn take_restart_flag(&self, handle: crate::scene::Handle) -> bool {
+        let mut scene = self.scene.borrow_mut();
+        let Ok(true) = scene.object(handle).and_then(|o| o.script()).map(|s| s.restart_on_error) else { return false };
+        let cleared = scene
+            .try_modify(handle, crate::scene::Field::Other, |o| o.script_mut().map(|s| s.restart_on_error = false));
+        cleared.is_ok()
+    }
+
+    fn is_disabled(&self, script: &Script) -> bool {
+        match script.object {
+            Some(handle) => self.scene.borrow().object(handle).and_then(|o| o.script()).map_or(true, |s| s.disabled),
+            None => script.detached.borrow().disabled,
+        }
+    }
+}
+
+/// What hooks and function of one callback did.
+#[derive(Default)]
+struct Outcome {
+    ran: bool,
+    function_ran: bool,
+    value: Option<Data>,
+    errors: Vec<String>,
+}
+
+impl Outcome {
+    fn run_hook(&mut self, stack: Stack<'_>, hook: &Hook, args: &[Data]) {
+        let base = stack.top();
+        push_hook(stack, hook);
+        if stack.kind(-1) == Type::Function {
+            self.ran = true;
+            if let Err(error) = push_args(stack, args).and_then(|n| stack.protected_call(n, 0)) {
+                self.errors.push(error.text);
+            }
+        }
+        stack.set_top(base.min(stack.top()));
+    }
+
+    /// Calls the function on top of the stack.
+    fn run_function(&mut self, stack: Stack<'_>, args: &[Data]) {
+        let base = stack.top() - 1;
+        (self.ran, self.function_ran) = (true, true);
+        match push_args(stack, args).and_then(|n| stack.protected_call(n, MULTIPLE)) {
+            Ok(()) if stack.top() > base => self.value = Some(data::read_data(stack, -1)),
+            Ok(()) => {}
+            Err(error) => {
+                self.function_ran = false;
+                self.errors.push(error.text);
+            }
+        }
+        stack.set_top(base.min(stack.top()));
+    }
+}
+
+/// Pushes arguments for a call; returns their number.
+pub(crate) fn push_args(stack: Stack<'_>, args: &[Data]) -> Result<i32, LuaError> {
+    if !stack.reserve(args.len() + 8) {
+        return Err(LuaError { text: "stack overflow: too many arguments.".into() });
+    }
+    args.iter().for_each(|arg| data::push_data(stack, arg));
+    Ok(args.len() as i32)
+}
+
+fn push_hook(stack: Stack<'_>, hook: &Hook) {
+    match hook.function {
+        Some(function) => {
+            stack.push_function(function);
+        }
+        None => push_dotted(stack, &hook.name),
+    }
+}
+
+/// Pushes the global `a.b.c`, walking through plain tables; nil when it is not there.
+pub(crate) fn push_dotted(stack: Stack<'_>, name: &str) {
+    stack.push_globals();
+    for part in name.split('.') {
+        if stack.kind(-1) != Type::Table {
+            stack.pop(1);
+            return stack.push_nil();
+        }
+        stack.raw_get_field(-1, part);
+        stack.remove(-2);
+    }
+}
+
+fn hooks_of(hooks: &std::collections::BTreeMap<SysCall, Vec<Hook>>, call: SysCall) -> Vec<Hook> {
+    hooks.get(&call).cloned().unwrap_or_default()
+}
+
+/// Remembers which callbacks are there now that the chunk has run.
+fn note_callbacks(env: &Env, stack: Stack<'_>) {
+    let defined = SysCall::ALL.iter().filter(|call| {
+        let kind = stack.push_global(call.name());
+        stack.pop(1);
+        kind == Type::Function
+    });
+    env.defined.set(defined.fold(0, |bits, call| bits | call.bit()));
+}
+
+/// A cleanup defined after the chunk had run is found all the same.
+fn is_late_cleanup(runtime: &Runtime, call: SysCall) -> bool {
+    if call != SysCall::Cleanup {
+        return false;
+    }
+    let stack = runtime.stack();
+    let kind = stack.push_global(call.name());
+    stack.pop(1);
+    kind == Type::Function
+}
+
+/// How deep calls between scripts may nest: each level takes native stack, and Lua only bounds recursion within one state.
+pub(crate) const MAX_DEPTH: usize = 100;
+
+/// One call into a state, from its beginning to its end.
+pub(crate) struct Level<'a> {
+    sim: &'a Sim,
+    env: &'a Env,
+    pub too_deep: bool,
+}
+
+impl<'a> Level<'a> {
+    /// The outermost call begins a time slice and forgets locks; inner calls cannot yield.
+    pub(crate) fn enter(sim: &'a Sim, env: &'a Env) -> Self {
+        let too_deep = sim.depth.get() >= MAX_DEPTH;
+        sim.depth.set(sim.depth.get() + 1);
+        let depth = env.depth.get();
+        env.depth.set(depth + 1);
+        if depth == 0 {
+            env.yields.overall.set(0);
+            env.yields.used.set(0);
+        } else {
+            env.yields.overall.set(env.yields.overall.get() + 1);
+        }
+        Self { sim, env, too_deep }
+    }
+}
+
+impl Drop for Level<'_> {
+    fn drop(&mut self) {
+        self.sim.depth.set(self.sim.depth.get() - 1);
+        let depth = self.env.depth.get() - 1;
+        self.env.depth.set(depth);
+        if depth > 0 {
+            self.env.yields.overall.set((self.env.yields.overall.get() - 1).max(0));
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Coroutines: the count hook that pre-empts them.
+
+use std::ffi::c_int;
+
+use mlua_sys as ffi;
+
+use super::Stack;
+
+/// How many virtual machine instructions pass between two looks at the budget.
+pub(crate) const HOOK_INTERVAL: c_int = 1000;
+
+/// Told after every `HOOK_INTERVAL` instructions of a coroutine; true asks it to yield.
+pub(crate) type OnCount = fn(Stack<'_>) -> bool;
+
+/// Where the process-wide decision function is kept: there is one host implementation, so a static suffices.
+static ON_COUNT: std::sync::OnceLock<OnCount> = std::sync::OnceLock::new();
+
+/// Makes `coroutine.create` and `coroutine.wrap` give new coroutines the count hook. Code outside of coroutines runs without a hook,
+/// at full speed.
+pub(crate) fn install_coroutine_hooks(stack: Stack<'_>, on_count: OnCount) {
+    ON_COUNT.get_or_init(|| on_count);
+    stack.push_global("coroutine");
+    for (name, wrapper) in [("create", create as ffi::lua_CFunction), ("wrap", wrap)] {
+        stack.raw_get_field(-1, name);
+        // SAFETY: the original function becomes the upvalue of its wrapper.
+        unsafe { ffi::lua_pushcclosure(stack.raw(), wrapper, 1) };
+        stack.raw_set_field(-2, name);
+    }
+    stack.pop(1);
+}
+
+/// Switches the count hook of the running coroutine on or off. The main coroutine never has one.
+pub(crate) fn set_count_hook(stack: Stack<'_>, on: bool) {
+    // SAFETY: `lua_pushthread` tells whether this is the main coroutine.
+    unsafe {
+        let is_main = ffi::lua_pushthread(stack.raw()) != 0;
+        stack.pop(1);
+        if !is_main {
+            set_hook(stack.raw(), on);
+        }
+    }
+}
+
+unsafe fn set_hook(raw: *mut ffi::lua_State, on: bool) {
+    let (hook, mask): (Option<ffi::lua_Hook>, _) = if on { (Some(count), ffi::LUA_MASKCOUNT) } else { (None, 0) };
+    // SAFETY: `raw` is a coroutine of a living state.
+    unsafe { ffi::lua_sethook(raw, hook, mask, HOOK_INTERVAL) }
+}
+
+unsafe extern "C-unwind" fn create(raw: *mut ffi::lua_State) -> c_int {
+    // SAFETY: calls the original `coroutine.create`, which checks its argument and may raise; nothing is owned here.
+    unsafe {
+        call_original(raw);
+        set_hook(ffi::lua_tothread(raw, -1), true);
+        1
+    }
+}
+
+unsafe extern "C-unwind" fn wrap(raw: *mut ffi::lua_State) -> c_int {
+    // SAFETY: as above; the function `coroutine.wrap` returns keeps its coroutine as first upvalue.
+    unsafe {
+        call_original(raw);
+        if !ffi::lua_getupvalue(raw, -1, 1).is_null() {
+            let coroutine = ffi::lua_tothread(raw, -1);
+            if !coroutine.is_null() {
+                set_hook(coroutine, true);
+            }
+            ffi::lua_settop(raw, -2);
+        }
+        1
+    }
+}
+
+unsafe fn call_original(raw: *mut ffi::lua_State) {
+    // SAFETY: upvalue 1 is the original function; it gets the same arguments and leaves one result.
+    unsafe {
+        let arguments = ffi::lua_gettop(raw);
+        ffi::lua_pushvalue(raw, ffi::lua_upvalueindex(1));
+        ffi::lua_rotate(raw, 1, 1);
+        ffi::lua_call(raw, arguments, 1);
+    }
+}
+
+/// The hook: yields, with no values, when the host says so and Lua can.
+unsafe extern "C-unwind" fn count(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
+    // SAFETY: Lua calls the hook of a running coroutine. A yield from a count hook leaves it by `longjmp`; nothing is owned here.
+    unsafe {
+        if ffi::lua_isyieldable(raw) == 0 {
+            return;
+        }
+        let wants = ON_COUNT.get().is_some_and(|on_count| on_count(Stack::from_raw(raw)));
+        if wants {
+            ffi::lua_yield(raw, 0);
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! The edge to Lua's C interface: the only place in `script` with `unsafe` code.
+//!
+//! Why not a higher wrapper: scripts must catch error *strings* with the caller's line, as CoppeliaSim raises them; threads are
+//! pre-empted from a count hook; and a call must cost tens of nanoseconds. All three are one step away from the C interface and three
+//! steps away from any wrapper of it.
+//!
+//! The discipline that makes it hold:
+//! - A [`State`] is used from one thread and closed once, by its owner.
+//! - A [`Stack`] is a view of one coroutine of a living state. It checks indices and types before it follows them, so that a mistake
+//!   is a wrong answer and not a wild pointer.
+//! - Lua raises errors by `longjmp`. Only [`Stack::protected_call`] runs code that may raise; callbacks raise as their very last
+//!   act, from a frame that owns nothing ([`callback`]). Allocation failure aborts (see `allocate`), so that pushing never raises.
+
+mod callback;
+mod coroutine;
+mod stack;
+mod state;
+
+pub(crate) use callback::{Callback, push_callback};
+pub(crate) use coroutine::{HOOK_INTERVAL, install_coroutine_hooks, set_count_hook};
+pub(crate) use stack::{FunctionRef, LuaError, MULTIPLE, Stack, Type};
+pub(crate) use state::State;

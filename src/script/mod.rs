@@ -1,0 +1,58 @@
+//! The script host: Lua states, lifecycle, order of calls, threads, values between states, the step loop.
+//!
+//! What scripts can call stands in `crate::api`; this module knows how functions are bound, not which there are.
+
+mod args;
+mod binding;
+mod callback;
+mod calls;
+mod clock;
+mod console;
+mod cx;
+mod data;
+mod dispatch;
+mod dynamics_step;
+mod embedded;
+mod env;
+mod error;
+mod lifecycle;
+mod lua;
+mod order;
+mod random;
+mod removal;
+mod returns;
+mod script;
+mod sim;
+mod startup;
+mod step;
+mod threads;
+pub mod verbosity;
+mod wall_clock;
+
+pub use args::{Args, Bytes, FromScript, Handles, KeptFunction, Number, ObjectRef, Rest, ScriptFunction, Table};
+pub use binding::{ApiFn, Param};
+pub use callback::SysCall;
+pub use clock::SimulationState;
+pub use console::{Console, LogLine, Silent};
+pub use cx::Cx;
+pub use error::{ApiError, ApiResult};
+pub use returns::{IntoScript, Nil, Results};
+pub use script::Script;
+pub use sim::Options;
+pub use threads::LevelChange;
+
+pub(crate) use binding::{Bound, Member, Registry};
+pub(crate) use embedded::{Embedded, FILES};
+pub(crate) use env::Hook;
+pub(crate) use order::{Group, attached_scripts};
+pub(crate) use script::{Detached, state};
+pub(crate) use sim::Sim;
+pub(crate) use threads::{auto_level, changed_level, set_auto_level};
+
+/// Compiles Lua text to bytecode.
+pub(crate) fn compile(code: &[u8], chunk_name: &str) -> Result<Vec<u8>, String> {
+    let state = lua::State::new(std::ptr::null());
+    let stack = state.stack();
+    stack.load(code, chunk_name, false).map_err(|error| error.text)?;
+    Ok(stack.dump())
+}

@@ -1,0 +1,130 @@
+//! Who is called when (SPEC-1 1.6).
+
+use std::rc::Rc;
+
+use super::script::Script;
+use super::sim::Sim;
+use crate::scene::script_object::ScriptType;
+use crate::scene::{Handle, Scene};
+
+/// A model flag: no script below runs.
+const SCRIPTS_INACTIVE: i64 = 0x200;
+
+/// Scripts in the order they are called.
+pub(crate) type ScriptList = Rc<[Rc<Script>]>;
+
+/// Script lists, kept until the tree changes.
+#[derive(Default)]
+pub(crate) struct OrderCache {
+    revision: Option<u64>,
+    simulation: ScriptList,
+    customization: ScriptList,
+    add_ons: ScriptList,
+    sandbox: ScriptList,
+    main: ScriptList,
+}
+
+impl OrderCache {
+    pub(crate) fn forget(&mut self) {
+        self.revision = None;
+    }
+}
+
+/// A group of scripts that is called together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Group {
+    Simulation,
+    Customization,
+    Main,
+    AddOn,
+    Sandbox,
+}
+
+impl Sim {
+    /// The scripts of a group in regular order.
+    pub(crate) fn scripts_in(&self, group: Group) -> ScriptList {
+        self.refresh_order();
+        let cache = self.order.borrow();
+        match group {
+            Group::Simulation => &cache.simulation,
+            Group::Customization => &cache.customization,
+            Group::Main => &cache.main,
+            Group::AddOn => &cache.add_ons,
+            Group::Sandbox => &cache.sandbox,
+        }
+        .clone()
+    }
+
+    fn refresh_order(&self) {
+        let revision = self.scene.borrow().changes().tree_revision();
+        if self.order.borrow().revision == Some(revision) {
+            return;
+        }
+        let order = by_depth(&self.scene.borrow());
+        let scripts: Vec<Rc<Script>> = order.into_iter().filter_map(|handle| self.script(handle.raw())).collect();
+        let of_type = |t: ScriptType| scripts.iter().filter(|s| s.script_type == t).cloned().collect::<ScriptList>();
+        let (simulation, customization) = (of_type(ScriptType::Simulation), of_type(ScriptType::Customization));
+        let mut cache = self.order.borrow_mut();
+        cache.revision = Some(revision);
+        (cache.simulation, cache.customization) = (simulation, customization);
+        cache.add_ons = self.detached_of(ScriptType::AddOn);
+        cache.sandbox = self.detached_of(ScriptType::Sandbox);
+        cache.main = self.detached_of(ScriptType::Main);
+    }
+
+    fn detached_of(&self, script_type: ScriptType) -> ScriptList {
+        let scripts = self.scripts.borrow();
+        let mut list: Vec<_> =
+            scripts.values().filter(|s| s.object.is_none() && s.script_type == script_type).cloned().collect();
+        list.sort_by_key(|script| script.detached.borrow().priority);
+        list.into()
+    }
+
+    /// Scripts asked about a joint: those attached to it, to its parent, and so on to the root; simulation scripts of the whole chain
+    /// first, then customization scripts.
+    pub(crate) fn joint_chain(&self, joint: Handle) -> Vec<Rc<Script>> {
+        let scene = self.scene.borrow();
+        let mut chain = Vec::new();
+        for object in std::iter::once(joint).chain(scene.ancestors(joint)) {
+            chain.extend(attached_scripts(&scene, object));
+        }
+        drop(scene);
+        let scripts: Vec<_> = chain.into_iter().filter_map(|handle| self.script(handle.raw())).collect();
+        let of_type = |t: ScriptType| scripts.iter().filter(move |s| s.script_type == t).cloned();
+        of_type(ScriptType::Simulation).chain(of_type(ScriptType::Customization)).collect()
+    }
+}
+
+/// Script objects that are children of `object`, by priority.
+pub(crate) fn attached_scripts(scene: &Scene, object: Handle) -> Vec<Handle> {
+    let children = scene.object(object).map(|o| o.children().to_vec()).unwrap_or_default();
+    let mut scripts: Vec<_> =
+        children.into_iter().filter_map(|h| scene.object(h).ok()).filter(|o| o.script().is_ok()).collect();
+    scripts.sort_by_key(|object| object.priority);
+    scripts.into_iter().map(crate::scene::Object::handle).collect()
+}
+
+/// All script objects: trees walked in pre-order with children stably sorted by priority, then the deepest level of the whole scene
+/// first.
+fn by_depth(scene: &Scene) -> Vec<Handle> {
+    let mut found: Vec<(usize, Handle)> = Vec::new();
+    let mut pending: Vec<(usize, Handle)> = sorted(scene, scene.roots()).into_iter().rev().map(|h| (0, h)).collect();
+    while let Some((depth, handle)) = pending.pop() {
+        let Ok(object) = scene.object(handle) else { continue };
+        if object.is_model() && object.model_property & SCRIPTS_INACTIVE != 0 {
+            continue;
+        }
+        if object.script().is_ok() {
+            found.push((depth, handle));
+        }
+        pending.extend(sorted(scene, object.children()).into_iter().rev().map(|h| (depth + 1, h)));
+    }
+    found.sort_by_key(|&(depth, _)| std::cmp::Reverse(depth));
+    found.into_iter().map(|(_, handle)| handle).collect()
+}
+
+fn sorted(scene: &Scene, siblings: &[Handle]) -> Vec<Handle> {
+    let mut list = siblings.to_vec();
+    list.sort_by_key(|&h| scene.object(h).map_or(1, |object| object.priority));
+    list
+}

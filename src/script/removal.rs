@@ -1,0 +1,91 @@
+//! Adding and removing objects with everything scripts are told about it.
+
+use std::rc::Rc;
+
+use super::callback::SysCall;
+use super::error::ApiResult;
+use super::sim::Sim;
+use super::{script::state, verbosity};
+use crate::scene::{Data, Handle, Key, SceneError};
+
+impl Sim {
+    /// Tells everyone about new objects.
+    pub(crate) fn announce_created(self: &Rc<Self>, handles: &[Handle]) {
+        let list: Vec<i64> = handles.iter().map(|h| h.raw()).collect();
+        let data = Data::map([("objects", list.clone().into()), ("objectHandles", list.into())]);
+        self.broadcast(SysCall::AfterCreate, &[data]);
+    }
+
+    /// Removes objects: their scripts are cleaned up first, then everyone is told before and after.
+    ///
+    /// # Errors
+    /// When a handle is unknown or given twice; nothing happens then.
+    pub(crate) fn remove_objects(self: &Rc<Self>, handles: &[Handle]) -> ApiResult<()> {
+        self.check_removable(handles)?;
+        let doomed: Vec<Handle> = handles.iter().copied().filter(|&handle| self.end_script_of(handle)).collect();
+        if doomed.len() < handles.len() {
+            let text =
+                "object removal can't be triggered from within the object itself: some objects were not removed.";
+            self.log(verbosity::ERRORS, text);
+        }
+        if doomed.is_empty() {
+            return Ok(());
+        }
+        let data = self.removal_data(&doomed);
+        self.broadcast(SysCall::BeforeDelete, std::slice::from_ref(&data));
+        // A callback may have removed some of them already.
+        let doomed: Vec<Handle> = doomed.into_iter().filter(|&h| self.scene.borrow().exists(h)).collect();
+        self.scene.borrow_mut().remove(&doomed)?;
+        for handle in &doomed {
+            self.scripts.borrow_mut().remove(&handle.raw());
+        }
+        self.broadcast(SysCall::AfterDelete, &[data]);
+        Ok(())
+    }
+
+    fn check_removable(&self, handles: &[Handle]) -> ApiResult<()> {
+        let scene = self.scene.borrow();
+        let mut unique = handles.to_vec();
+        unique.sort_unstable();
+        unique.dedup();
+        let valid = unique.len() == handles.len() && handles.iter().all(|&h| scene.exists(h));
+        if valid { Ok(()) } else { Err(SceneError::InvalidHandles.into()) }
+    }
+
+    /// Cleans up the script an object is, if it is one; false when that script is executing.
+    fn end_script_of(self: &Rc<Self>, handle: Handle) -> bool {
+        let Some(script) = self.scripts.borrow().get(&handle.raw()).cloned() else { return true };
+        if script.depth() > 0 {
+            return false;
+        }
+        self.end(&script);
+        script.set_state(state::ENDED);
+        script.removed.set(true);
+        true
+    }
+
+    fn removal_data(&self, handles: &[Handle]) -> Data {
+        let all = handles.len() == self.scene.borrow().len();
+        let list: Vec<i64> = handles.iter().map(|h| h.raw()).collect();
+        let map = list.iter().map(|&h| (Key::Int(h), Data::Bool(true))).collect();
+        Data::map([("objects", list.into()), ("allObjects", all.into()), ("objectHandles", Data::Map(map))])
+    }
+
+    /// Remembers objects to be removed at the end of the loop pass.
+    pub(crate) fn remove_later(&self, handles: &[Handle]) {
+        self.delayed_removals.borrow_mut().extend(handles);
+    }
+
+    pub(crate) fn remove_delayed(self: &Rc<Self>) {
+        if self.delayed_removals.borrow().is_empty() {
+            return;
+        }
+        let mut handles = self.delayed_removals.take();
+        handles.sort_unstable();
+        handles.dedup();
+        handles.retain(|&h| self.scene.borrow().exists(h));
+        if let Err(error) = self.remove_objects(&handles) {
+            self.log(verbosity::ERRORS, &error.to_string());
+        }
+    }
+}

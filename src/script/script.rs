@@ -1,0 +1,108 @@
+//! A script as the host sees it: identity, state, interpreter.
+
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+
+use super::env::Runtime;
+use crate::scene::Handle;
+use crate::scene::script_object::ScriptType;
+
+/// Base states and bits of a script's state (SPEC-1 1.3).
+pub(crate) mod state {
+    pub const UNLOADED: i64 = 0;
+    pub const UNINITIALIZED: i64 = 1;
+    pub const INITIALIZED: i64 = 2;
+    pub const ENDED: i64 = 3;
+    pub const ERROR: i64 = 8;
+    pub const SUSPENDED: i64 = 16;
+}
+
+/// A script of the simulator.
+pub struct Script {
+    /// The handle scripts know it by.
+    pub id: i64,
+    pub script_type: ScriptType,
+    /// The scene object that holds text and flags; None for main, sandbox and add-ons.
+    pub object: Option<Handle>,
+    /// What a detached script holds itself.
+    pub(crate) detached: RefCell<Detached>,
+    state: Cell<i64>,
+    pub(crate) runtime: RefCell<Option<Rc<Runtime>>>,
+    pub(crate) removed: Cell<bool>,
+}
+
+/// Text and flags of a script that is no scene object.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Detached {
+    pub name: String,
+    pub code: Vec<u8>,
+    /// How Lua names the text in error positions.
+    pub chunk_name: String,
+    pub disabled: bool,
+    pub restart_on_error: bool,
+    pub priority: i64,
+    pub path: String,
+}
+
+impl Script {
+    pub(crate) fn of_object(handle: Handle, script_type: ScriptType) -> Self {
+        Self::new(handle.raw(), script_type, Some(handle), Detached::default())
+    }
+
+    pub(crate) fn detached(id: i64, script_type: ScriptType, detached: Detached) -> Self {
+        Self::new(id, script_type, None, detached)
+    }
+
+    fn new(id: i64, script_type: ScriptType, object: Option<Handle>, detached: Detached) -> Self {
+        Self {
+            id,
+            script_type,
+            object,
+            detached: RefCell::new(detached),
+            state: Cell::new(state::UNLOADED),
+            runtime: RefCell::new(None),
+            removed: Cell::new(false),
+        }
+    }
+
+    /// `scriptState`: base state, error bit, suspended bit.
+    pub fn state(&self) -> i64 {
+        self.state.get()
+    }
+
+    /// The state without its bits.
+    pub(crate) fn base_state(&self) -> i64 {
+        self.state.get() & 7
+    }
+
+    pub(crate) fn set_base_state(&self, base: i64) {
+        self.state.set(self.state.get() & !7 | base);
+    }
+
+    pub(crate) fn set_state(&self, state: i64) {
+        self.state.set(state);
+    }
+
+    pub(crate) fn mark_error(&self) {
+        self.state.set(self.state.get() | state::ERROR);
+    }
+
+    pub(crate) fn set_bit(&self, bit: i64, on: bool) {
+        let state = self.state.get();
+        self.state.set(if on { state | bit } else { state & !bit });
+    }
+
+    /// Initialised, without error, not suspended.
+    pub(crate) fn is_running(&self) -> bool {
+        self.state.get() == state::INITIALIZED
+    }
+
+    pub(crate) fn current_runtime(&self) -> Option<Rc<Runtime>> {
+        self.runtime.borrow().clone()
+    }
+
+    /// Calls of this script in progress.
+    pub(crate) fn depth(&self) -> usize {
+        self.runtime.borrow().as_ref().map_or(0, |runtime| runtime.env.depth.get())
+    }
+}

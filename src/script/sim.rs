@@ -1,0 +1,167 @@
+//! The simulator's heart: one scene, many scripts, one clock.
+
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, HashSet};
+use std::rc::Rc;
+
+use super::binding::Registry;
+use super::clock::Clock;
+use super::console::{Console, LogLine};
+use super::order::OrderCache;
+use super::random::Random;
+use super::script::{Detached, Script};
+use super::verbosity;
+use crate::dynamics::Dynamics;
+use crate::scene::script_object::ScriptType;
+use crate::scene::{Handle, Scene};
+
+/// The first handle of scripts that are no scene objects.
+const FIRST_DETACHED: i64 = 1_010_000;
+
+/// How a simulator is set up.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// Seed of every script's random numbers.
+    pub seed: u32,
+    /// Log lines above this level are not shown.
+    pub verbosity: i64,
+    /// Named parameters scripts read.
+    pub named_params: BTreeMap<String, String>,
+    /// Folders `require` looks into first.
+    pub package_dirs: Vec<std::path::PathBuf>,
+    /// Lua instructions a thread may run per millisecond of its time slice.
+    pub instructions_per_ms: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            seed: Random::DEFAULT_SEED,
+            verbosity: verbosity::SCRIPT_INFOS,
+            named_params: BTreeMap::new(),
+            package_dirs: Vec::new(),
+            instructions_per_ms: 100_000,
+        }
+    }
+}
+
+/// Everything a running simulator consists of. Borrows of the parts never outlive a statement that calls a script.
+pub(crate) struct Sim {
+    pub options: Options,
+    pub registry: &'static Registry,
+    pub scene: RefCell<Scene>,
+    pub clock: Clock,
+    pub scripts: RefCell<BTreeMap<i64, Rc<Script>>>,
+    pub order: RefCell<OrderCache>,
+    /// Taken out while it steps.
+    pub dynamics: RefCell<Option<Dynamics>>,
+    pub console: RefCell<Box<dyn Console>>,
+    pub verbosity: Cell<i64>,
+    /// Script calls in progress, over all states.
+    pub depth: Cell<usize>,
+    /// Errors scripts raised that nobody caught.
+    pub errors: Cell<u64>,
+    pub quit: Cell<bool>,
+    /// Objects to remove at the end of the loop pass.
+    pub delayed_removals: RefCell<Vec<Handle>>,
+    /// Objects there were at simulation start.
+    pub known_at_start: RefCell<Option<HashSet<i64>>>,
+    pub last_selection: RefCell<Vec<Handle>>,
+    next_detached: Cell<i64>,
+    once: RefCell<HashSet<(String, i64, String)>>,
+    started: std::time::Instant,
+}
+
+impl Sim {
+    pub(crate) fn new(options: Options, registry: &'static Registry, console: Box<dyn Console>) -> Rc<Self> {
+        Rc::new(Self {
+            verbosity: Cell::new(options.verbosity),
+            options,
+            registry,
+            scene: RefCell::new(Scene::new()),
+            clock: Clock::new(),
+            scripts: RefCell::default(),
+            order: RefCell::default(),
+            dynamics: RefCell::new(Some(Dynamics::default())),
+            console: RefCell::new(console),
+            depth: Cell::new(0),
+            errors: Cell::new(0),
+            quit: Cell::new(false),
+            delayed_removals: RefCell::default(),
+            known_at_start: RefCell::default(),
+            last_selection: RefCell::default(),
+            next_detached: Cell::new(FIRST_DETACHED),
+            once: RefCell::default(),
+            started: super::wall_clock::now(),
+        })
+    }
+
+    /// Adds a script that is no scene object.
+    pub(crate) fn add_detached(&self, script_type: ScriptType, detached: Detached) -> Rc<Script> {
+        let id = self.next_detached.replace(self.next_detached.get() + 1);
+        let script = Rc::new(Script::detached(id, script_type, detached));
+        self.scripts.borrow_mut().insert(id, script.clone());
+        self.order.borrow_mut().forget();
+        script
+    }
+
+    /// The script with that handle.
+    pub(crate) fn script(&self, id: i64) -> Option<Rc<Script>> {
+        if let Some(script) = self.scripts.borrow().get(&id) {
+            return Some(script.clone());
+        }
+        let handle = Handle::from_raw(id)?;
+        let script_type = self.scene.borrow().object(handle).ok()?.script().ok()?.script_type;
+        let script = Rc::new(Script::of_object(handle, script_type));
+        self.scripts.borrow_mut().insert(id, script.clone());
+        Some(script)
+    }
+
+    /// The one script of that type without an object: main or sandbox.
+    pub(crate) fn detached(&self, script_type: ScriptType) -> Option<Rc<Script>> {
+        self.scripts.borrow().values().find(|s| s.object.is_none() && s.script_type == script_type).cloned()
+    }
+
+    /// The name a script has in the log.
+    pub(crate) fn log_name(&self, script: &Script) -> String {
+        match script.object {
+            Some(handle) => self.scene.borrow().print_path(handle).unwrap_or_default(),
+            None => script.detached.borrow().name.clone(),
+        }
+    }
+
+    pub(crate) fn log_from(&self, script: &Script, level: i64, text: &str) {
+        let origin = self.log_name(script);
+        self.log_line(&origin, level, text, false);
+    }
+
+    /// Logs in the simulator's own name.
+    pub(crate) fn log(&self, level: i64, text: &str) {
+        self.log_line("Swanilda", level, text, false);
+    }
+
+    /// What the simulator tells about itself in the sandbox's name, as the original does.
+    pub(crate) fn chatter(&self, text: &str) {
+        self.chatter_at(verbosity::SCRIPT_INFOS, text);
+    }
+
+    pub(crate) fn chatter_at(&self, level: i64, text: &str) {
+        self.log_line("sandboxScript", level, text, true);
+    }
+
+    fn log_line(&self, origin: &str, level: i64, text: &str, chatter: bool) {
+        if level & verbosity::ONCE != 0 && !self.once.borrow_mut().insert((origin.to_owned(), level, text.to_owned())) {
+            return;
+        }
+        if verbosity::plain(level) > self.verbosity.get() {
+            return;
+        }
+        let line = LogLine { origin, level, text, time: self.clock.time.get(), chatter };
+        self.console.borrow_mut().log(&line);
+    }
+
+    /// Seconds since this simulator was made, by the wall clock.
+    pub(crate) fn wall_seconds(&self) -> f64 {
+        self.started.elapsed().as_secs_f64()
+    }
+}

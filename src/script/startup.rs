@@ -1,0 +1,220 @@
+//! Filling a fresh Lua state: library, `sim`, package path (SPEC-1 1.9).
+
+use std::ffi::{CStr, c_int, c_void};
+use std::rc::Rc;
+
+use super::binding::{Member, push_bound};
+use super::data::BUFFER_METATABLE;
+use super::env::{Env, Runtime};
+use super::lua::{self, LuaError, Stack, Type, push_callback};
+use super::sim::Sim;
+use super::threads;
+
+/// The `sim` table of a state.
+const SIM: &CStr = c"swanilda.sim";
+/// Results of the Lua files behind `sim`, by module name.
+const LUA_MODULES: &CStr = c"swanilda.modules";
+
+/// Makes a state ready for a script's text.
+pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
+    let stack = runtime.stack();
+    threads::install(stack);
+    lua::install_coroutine_hooks(stack, threads::on_count);
+    install_package(sim, stack);
+    install_globals(sim, stack);
+    install_sim(stack);
+    seed_random(stack, sim.options.seed);
+    stack.push_int(runtime.env.script.id);
+    stack.set_global("sim_script_handle");
+    load_module(stack, sim, "base").and_then(|()| stack.protected_call(0, 0))
+}
+
+/// `math.random` starts from the simulator's seed: Lua's own start is different in every state.
+fn seed_random(stack: Stack<'_>, seed: u32) {
+    stack.push_global("math");
+    stack.raw_get_field(-1, "randomseed");
+    stack.push_int(i64::from(seed));
+    stack.protected_call(1, 0).expect("randomseed takes an integer");
+    stack.pop(1);
+}
+
+/// Puts the scene's folders first into `package.path`, and the embedded library into `package.searchers`.
+fn install_package(sim: &Sim, stack: Stack<'_>) {
+    stack.push_global("package");
+    stack.raw_get_field(-1, "path");
+    let default = stack.text(-1).unwrap_or_default();
+    stack.pop(1);
+    let mut path = String::new();
+    for dir in &sim.options.package_dirs {
+        let dir = dir.display();
+        path.push_str(&format!("{dir}/?.lua;{dir}/?/init.lua;"));
+    }
+    stack.push_bytes(&[path.as_bytes(), &default].concat());
+    stack.raw_set_field(-2, "path");
+    stack.raw_get_field(-1, "searchers");
+    let last = stack.raw_len(-1) as i64;
+    for i in (2..=last).rev() {
+        stack.raw_get_index(-1, i);
+        stack.raw_set_index(-2, i + 1);
+    }
+    push_callback(stack, search_embedded, std::ptr::null());
+    stack.raw_set_index(-2, 2);
+    stack.pop(2);
+}
+
+/// Finds the modules that come with the simulator.
+fn search_embedded(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+    let name = String::from_utf8_lossy(&stack.text(1).unwrap_or_default()).into_owned();
+    if name == "sim" || name == "sim-1" {
+        push_callback(stack, return_sim, std::ptr::null());
+        return Ok(1);
+    }
+    let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
+    if !sim.registry.modules.contains_key(name.as_str()) {
+        stack.push_bytes(format!("no module '{name}' in Swanilda's library").as_bytes());
+        return Ok(1);
+    }
+    load_module(stack, &sim, &name).map_err(|error| error.text)?;
+    Ok(1)
+}
+
+fn return_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+    stack.push_registry(SIM);
+    Ok(1)
+}
+
+/// Pushes the chunk of an embedded module.
+fn load_module(stack: Stack<'_>, sim: &Sim, name: &str) -> Result<(), LuaError> {
+    match sim.registry.modules.get(name) {
+        Some(module) => stack.load(module.bytecode(name), name, true),
+        None => Err(LuaError { text: format!("no module '{name}' in Swanilda's library") }),
+    }
+}
+
+fn install_globals(sim: &Sim, stack: Stack<'_>) {
+    for bound in &sim.registry.globals {
+        push_bound(stack, bound);
+        stack.set_global(bound.name);
+    }
+    push_callback(stack, set_buffer_metatable, std::ptr::null());
+    stack.set_global("_setBufferMetatable");
+    stack.push_globals();
+    push_metatable_with_index(stack, index_globals);
+    stack.set_metatable(-2);
+    stack.pop(1);
+}
+
+fn set_buffer_metatable(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+    if stack.kind(1) != Type::Table {
+        return Err("_setBufferMetatable: a table is needed".into());
+    }
+    stack.set_top(1);
+    stack.set_registry(BUFFER_METATABLE);
+    Ok(0)
+}
+
+fn push_metatable_with_index(stack: Stack<'_>, index: lua::Callback) {
+    stack.new_table(0, 1);
+    push_callback(stack, index, std::ptr::null());
+    stack.raw_set_field(-2, "__index");
+}
+
+/// The `sim` table fills itself: a name is looked up when it is first used.
+fn install_sim(stack: Stack<'_>) {
+    stack.new_table(0, 0);
+    push_metatable_with_index(stack, index_sim);
+    stack.set_metatable(-2);
+    stack.set_registry(SIM);
+    stack.new_table(0, 0);
+    stack.set_registry(LUA_MODULES);
+}
+
+fn index_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+    let Some(name) = stack.bytes(2) else { return Ok(0) };
+    let Ok(name) = std::str::from_utf8(name) else { return Ok(0) };
+    push_member(stack, name)?;
+    if stack.kind(-1) != Type::Nil {
+        stack.push_value(-1);
+        stack.raw_set_field(1, name);
+    }
+    Ok(1)
+}
+
+/// Old global names: `simGetObjectHandle` is `sim.getObjectHandle`, `sim_handle_all` is `sim.handle_all`.
+fn index_globals(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+    let Some(name) = stack.bytes(2).and_then(|name| std::str::from_utf8(name).ok()) else { return Ok(0) };
+    let Some(rest) = name.strip_prefix("sim") else { return Ok(0) };
+    let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
+    let member = match sim.registry.old_names.get(name) {
+        Some(member) => (*member).to_owned(),
+        None => match (rest.strip_prefix('_'), rest.chars().next()) {
+            (Some(constant), _) => constant.to_owned(),
+            (None, Some(first)) if first.is_ascii_uppercase() => first.to_ascii_lowercase().to_string() + &rest[1..],
+            _ => return Ok(0),
+        },
+    };
+    if !sim.registry.members.contains_key(member.as_str()) {
+        return Ok(0);
+    }
+    push_member(stack, &member)?;
+    Ok(1)
+}
+
+/// Pushes `sim.<name>`, or nil.
+fn push_member(stack: Stack<'_>, name: &str) -> Result<(), String> {
+    let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
+    match sim.registry.members.get(name) {
+        None => stack.push_nil(),
+        Some(Member::Constant(value)) => stack.push_int(*value),
+        Some(Member::Native(bound)) => push_bound(stack, bound),
+        Some(Member::Missing { name }) => push_missing(stack, name),
+        Some(Member::Lua { module, function, deprecation }) => {
+            push_lua_member(stack, &sim, module, function, *deprecation)?
+        }
+    }
+    Ok(())
+}
+
+fn push_missing(stack: Stack<'_>, name: &'static &'static str) {
+    push_callback(stack, raise_missing, std::ptr::from_ref(name).cast());
+}
+
+fn raise_missing(stack: Stack<'_>, data: *const c_void) -> Result<c_int, String> {
+    // SAFETY: `push_missing` stored a `&'static &'static str`.
+    let name = unsafe { *data.cast::<&'static str>() };
+    Err(super::error::ApiError::NotImplemented(format!("sim.{name}")).text(stack, name))
+}
+
+/// Pushes a function of an embedded Lua file, loading the file if this state has not yet.
+fn push_lua_member(
+    stack: Stack<'_>,
+    sim: &Sim,
+    module: &'static str,
+    name: &str,
+    deprecation: Option<&'static str>,
+) -> Result<(), String> {
+    stack.push_registry(LUA_MODULES);
+    if stack.raw_get_field(-1, module) != Type::Table {
+        stack.pop(1);
+        load_module(stack, sim, module).map_err(|error| error.text)?;
+        stack.push_registry(SIM);
+        stack.protected_call(1, 1).map_err(|error| error.text)?;
+        stack.push_value(-1);
+        stack.raw_set_field(-3, module);
+    }
+    stack.raw_get_field(-1, name);
+    stack.remove(-2);
+    stack.remove(-2);
+    if let Some(notice) = deprecation {
+        wrap_deprecated(stack, sim, notice)?;
+    }
+    Ok(())
+}
+
+/// Replaces the function on top by one that logs its deprecation at the first call. In Lua, so that it can yield.
+fn wrap_deprecated(stack: Stack<'_>, sim: &Sim, notice: &str) -> Result<(), String> {
+    load_module(stack, sim, "deprecate").map_err(|error| error.text)?;
+    stack.insert(-2);
+    stack.push_bytes(notice.as_bytes());
+    stack.protected_call(2, 1).map_err(|error| error.text)
+}

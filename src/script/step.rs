@@ -1,0 +1,211 @@
+//! The loop: idle passes, main-script passes, start, pause and stop (SPEC-2 2.2, SPEC-7).
+
+use std::rc::Rc;
+
+use super::callback::SysCall;
+use super::clock::SimulationState;
+use super::order::Group;
+use super::script::state;
+use super::sim::Sim;
+use super::verbosity;
+use crate::scene::Data;
+use crate::scene::script_object::ScriptType;
+
+impl Sim {
+    /// One pass of the application's loop: idle, paused or advancing.
+    pub(crate) fn loop_pass(self: &Rc<Self>) {
+        match self.clock.state.get() {
+            SimulationState::Stopped => self.broadcast(SysCall::NonSimulation, &[]),
+            SimulationState::Paused => self.notify(SysCall::Suspended),
+            _ => {}
+        }
+        self.notify_selection();
+        if self.clock.state.get().is_advancing() && !self.main_script_vetoed() {
+            self.main_script_pass();
+            self.advance();
+        }
+        self.remove_delayed();
+    }
+
+    fn notify_selection(self: &Rc<Self>) {
+        let selection = self.scene.borrow().selection().to_vec();
+        if *self.last_selection.borrow() == selection {
+            return;
+        }
+        self.last_selection.replace(selection.clone());
+        let sel: Vec<i64> = selection.iter().map(|h| h.raw()).collect();
+        self.broadcast(SysCall::SelChange, &[Data::map([("sel", sel.into())])]);
+    }
+
+    /// One simulation step as the main script defines it.
+    fn main_script_pass(self: &Rc<Self>) {
+        let Some(main) = self.detached(ScriptType::Main) else { return };
+        if self.clock.state.get() == SimulationState::FirstAfterStop {
+            self.deliver(&main, SysCall::Init, &[]);
+        }
+        if main.base_state() != state::INITIALIZED {
+            return;
+        }
+        self.deliver(&main, SysCall::Actuation, &[]);
+        self.deliver(&main, SysCall::Sensing, &[]);
+        if self.clock.state.get() == SimulationState::LastBeforeStop {
+            self.deliver(&main, SysCall::Cleanup, &[]);
+        }
+    }
+
+    /// What follows a pass: time goes on and the state changes.
+    fn advance(self: &Rc<Self>) {
+        self.request_pause_at_time();
+        let clock = &self.clock;
+        clock.time.set(clock.time.get() + self.scene.borrow().settings().time_step);
+        clock.steps.set(clock.steps.get() + 1);
+        if clock.state.get() == SimulationState::LastBeforeStop {
+            return self.finish();
+        }
+        let next = clock.state_after_pass();
+        let pauses = next == SimulationState::Paused && clock.state.get() != next;
+        clock.state.set(next);
+        if pauses {
+            self.notify(SysCall::Suspend);
+            self.chatter("Simulation paused.");
+        }
+    }
+
+    fn request_pause_at_time(&self) {
+        let scene = self.scene.borrow();
+        let settings = scene.settings();
+        if settings.pause_at_time && self.clock.time.get() >= settings.time_to_pause {
+            drop(scene);
+            self.pause();
+            self.scene.borrow_mut().modify_settings(|settings| settings.pause_at_time = false);
+        }
+    }
+
+    /// Suspend, suspended, resume: through the main script, or directly when it does not care.
+    fn notify(self: &Rc<Self>, call: SysCall) {
+        let handled = self.detached(ScriptType::Main).is_some_and(|main| self.deliver(&main, call, &[]).ran);
+        if !handled {
+            self.deliver_to_embedded(call, &[]);
+            self.deliver_to(Group::AddOn, call, &[]);
+            self.deliver_to(Group::Sandbox, call, &[]);
+        }
+    }
+
+    /// Starts a stopped simulation or resumes a paused one; otherwise nothing.
+    pub(crate) fn start(self: &Rc<Self>) {
+        match self.clock.state.get() {
+            SimulationState::Stopped => self.begin(),
+            SimulationState::Paused => self.resume(),
+            _ => {}
+        }
+    }
+
+    /// The start procedure (SPEC-7 7.4).
+    fn begin(self: &Rc<Self>) {
+        for group in [Group::Customization, Group::AddOn, Group::Sandbox] {
+            self.deliver_to(group, SysCall::BeforeSimulation, &[]);
+        }
+        let known = self.scene.borrow().objects().map(crate::scene::Object::uid).collect();
+        self.known_at_start.replace(Some(known));
+        self.scene.borrow_mut().store_initial_state();
+        for script in self.scripts_in(Group::Simulation).iter() {
+            self.reset(script);
+        }
+        if let Some(main) = self.detached(ScriptType::Main) {
+            self.reset(&main);
+        }
+        if let Some(dynamics) = self.dynamics.borrow_mut().as_mut() {
+            dynamics.reset();
+        }
+        self.warn_of_unusual_settings();
+        self.clock.reset();
+        self.chatter("Simulation started.");
+    }
+
+    fn warn_of_unusual_settings(&self) {
+        if self.scene.borrow().settings().time_step != 0.05 {
+            let text = "Detected non-default settings (time steps and/or dyn. engine global settings).";
+            self.chatter_at(verbosity::SCRIPT_WARNINGS, text);
+        }
+    }
+
+    fn resume(self: &Rc<Self>) {
+        self.notify(SysCall::Resume);
+        self.clock.state.set(SimulationState::FirstAfterPause);
+        self.chatter("Simulation resumed.");
+    }
+
+    /// Asks for a pause; refused when not running or when a stop is pending.
+    pub(crate) fn pause(&self) {
+        if self.clock.state.get().is_advancing() && !self.clock.stop_requested.get() {
+            self.clock.pause_requested.set(true);
+        }
+    }
+
+    pub(crate) fn request_pause_after_error(&self) {
+        if self.scene.try_borrow().is_ok_and(|scene| scene.settings().pause_at_error) {
+            self.pause();
+        }
+    }
+
+    /// Asks for the end of the run; a paused one resumes for its last passes.
+    pub(crate) fn stop(self: &Rc<Self>) {
+        match self.clock.state.get() {
+            SimulationState::Stopped => {}
+            SimulationState::Paused => {
+                self.clock.stop_requested.set(true);
+                self.resume();
+            }
+            _ => {
+                self.clock.stop_requested.set(true);
+                self.clock.pause_requested.set(false);
+            }
+        }
+    }
+
+    /// The stop procedure (SPEC-7 7.5).
+    fn finish(self: &Rc<Self>) {
+        if let Some(main) = self.detached(ScriptType::Main) {
+            self.reset(&main);
+        }
+        for script in self.scripts_in(Group::Simulation).iter() {
+            self.reset(script);
+        }
+        self.clock.state.set(SimulationState::Stopped);
+        self.remove_new_objects();
+        if let Some(dynamics) = self.dynamics.borrow_mut().as_mut() {
+            dynamics.reset();
+        }
+        self.scene.borrow_mut().restore_initial_state();
+        for group in [Group::Customization, Group::AddOn, Group::Sandbox] {
+            self.deliver_to(group, SysCall::AfterSimulation, &[]);
+        }
+        self.restart_failed_customization_scripts();
+        self.chatter("Simulation stopped.");
+    }
+
+    fn remove_new_objects(self: &Rc<Self>) {
+        let Some(known) = self.known_at_start.take() else { return };
+        if !self.scene.borrow().settings().remove_new_objects_at_end {
+            return;
+        }
+        let new: Vec<_> =
+            self.scene.borrow().objects().filter(|o| !known.contains(&o.uid())).map(|o| o.handle()).collect();
+        if !new.is_empty() {
+            // The handles were just read, so none is unknown or given twice.
+            let _ = self.remove_objects(&new);
+        }
+    }
+
+    fn restart_failed_customization_scripts(self: &Rc<Self>) {
+        for script in self.scripts_in(Group::Customization).iter() {
+            let wants = script.object.is_some_and(|handle| {
+                self.scene.borrow().object(handle).and_then(|o| o.script()).is_ok_and(|s| s.reset_after_sim_error)
+            });
+            if wants && script.state() & state::ERROR != 0 {
+                self.reset(script);
+                self.deliver(script, SysCall::Init, &[]);
+            }
+        }
+    }
+}

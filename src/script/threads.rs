@@ -1,0 +1,89 @@
+//! Yield levels and pre-emption (SPEC-3).
+//!
+//! A thread is pre-empted after a fixed number of Lua instructions in place of the original's two milliseconds, so that results do
+//! not depend on the machine. Whether the running coroutine may be pre-empted at all is written into its count hook: a coroutine that
+//! set a level above 0 runs without one, at full speed.
+
+use std::ffi::CStr;
+
+use super::env::Env;
+use super::lua::{HOOK_INTERVAL, Stack, Type, set_count_hook};
+
+/// Weak table from coroutine to its own pre-emption level.
+const LEVELS: &CStr = c"swanilda.levels";
+
+/// Asked by the count hook every `HOOK_INTERVAL` instructions: is the slice used up, and may it yield?
+pub(crate) fn on_count(stack: Stack<'_>) -> bool {
+    let env = Env::of(stack);
+    let yields = &env.yields;
+    yields.used.set(yields.used.get() + HOOK_INTERVAL as u64);
+    if yields.overall.get() != 0 || yields.used.get() < budget(env) {
+        return false;
+    }
+    yields.used.set(0);
+    true
+}
+
+/// Instructions in a slice.
+fn budget(env: &Env) -> u64 {
+    let per_ms = env.sim.upgrade().map_or(u64::MAX, |sim| sim.options.instructions_per_ms);
+    u64::from(env.yields.delay_ms.get().max(1)).saturating_mul(per_ms)
+}
+
+/// Prepares a state for levels per coroutine.
+pub(crate) fn install(stack: Stack<'_>) {
+    stack.new_table(0, 0);
+    stack.new_table(0, 1);
+    stack.push_bytes(b"k");
+    stack.raw_set_field(-2, "__mode");
+    stack.set_metatable(-2);
+    stack.set_registry(LEVELS);
+}
+
+/// Level of the running coroutine: 0 means it may be pre-empted.
+pub(crate) fn auto_level(stack: Stack<'_>) -> i64 {
+    let own = own_level(stack);
+    own.unwrap_or_else(|| Env::of(stack).yields.auto.get())
+}
+
+fn own_level(stack: Stack<'_>) -> Option<i64> {
+    if stack.is_main_coroutine() {
+        return None;
+    }
+    stack.push_registry(LEVELS);
+    stack.push_running_coroutine();
+    stack.raw_get(-2);
+    let level = (stack.kind(-1) == Type::Number).then(|| stack.integer(-1).unwrap_or_default());
+    stack.pop(2);
+    level
+}
+
+/// Sets the level of the running coroutine. Outside of coroutines it is the one new coroutines begin with.
+pub(crate) fn set_auto_level(stack: Stack<'_>, level: i64) {
+    if stack.is_main_coroutine() {
+        return Env::of(stack).yields.auto.set(level);
+    }
+    stack.push_registry(LEVELS);
+    stack.push_running_coroutine();
+    stack.push_int(level);
+    stack.raw_set(-3);
+    stack.pop(1);
+    set_count_hook(stack, level == 0);
+}
+
+/// The level after `change`: false raises it, true lowers it (not below 0), a number sets it.
+pub(crate) fn changed_level(level: i64, change: LevelChange) -> i64 {
+    match change {
+        LevelChange::Forbid => level + 1,
+        LevelChange::Allow => (level - 1).max(0),
+        LevelChange::Set(level) => level.max(0),
+    }
+}
+
+/// What `setAutoYield` and `setYieldAllowed` can be told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LevelChange {
+    Forbid,
+    Allow,
+    Set(i64),
+}

@@ -1,0 +1,223 @@
+//! The embedding API: a simulator as a value.
+
+use std::cell::{Ref, RefMut};
+use std::rc::Rc;
+
+use crate::api;
+use crate::scene::script_object::{ScriptObject, ScriptType};
+use crate::scene::{Data, Handle, Kind, Scene};
+use crate::script::{ApiError, Console, Detached, Options, Script, Silent, Sim, SimulationState, SysCall};
+
+/// Why a request to a [`Simulator`] failed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Error {
+    #[error(transparent)]
+    Api(#[from] ApiError),
+    /// A script's own error; it has been logged.
+    #[error("{0}")]
+    Script(String),
+}
+
+/// What a script file becomes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScriptKind {
+    /// A script object that lives before, during and after a run.
+    Customization,
+    /// A script object that lives during a run.
+    Simulation,
+    /// Lives as long as the simulator.
+    AddOn,
+    /// Runs once as a chunk in the sandbox.
+    Sandbox,
+    /// Takes the place of the built-in main script.
+    Main,
+}
+
+/// A script of a simulator.
+#[derive(Clone)]
+pub struct ScriptRef(Rc<Script>);
+
+impl ScriptRef {
+    /// The handle scripts know it by.
+    pub fn handle(&self) -> i64 {
+        self.0.id
+    }
+}
+
+/// A simulator: one scene with its scripts and its physics. Belongs to the thread that made it; several may live in one process.
+///
+/// Deep recursion in scripts takes native stack: run a simulator on a thread with [`Simulator::STACK_SIZE`] bytes of it.
+pub struct Simulator {
+    sim: Rc<Sim>,
+}
+
+impl Simulator {
+    /// What a thread that runs scripts should have as stack.
+    pub const STACK_SIZE: usize = 256 << 20;
+
+    /// A simulator with an empty scene that says nothing.
+    pub fn new(options: Options) -> Self {
+        Self::with_console(options, Box::new(Silent))
+    }
+
+    /// A simulator with an empty scene whose prints and log lines go to `console`.
+    pub fn with_console(options: Options, console: Box<dyn Console>) -> Self {
+        let sim = Sim::new(options, api::registry(), console);
+        let main_text = api::registry().modules["main"].source;
+        sim.add_detached(ScriptType::Main, detached("mainScript", main_text.as_bytes()));
+        let sandbox = sim.add_detached(ScriptType::Sandbox, detached("sandboxScript", b"sim = require 'sim'"));
+        sim.deliver(&sandbox, SysCall::Init, &[]);
+        Self { sim }
+    }
+
+    /// Adds a script. Customization scripts, add-ons and the sandbox start at once; a simulation script starts with the simulation.
+    ///
+    /// `name` is shown for add-ons and for the sandbox chunk; script objects are called `Script`.
+    ///
+    /// # Errors
+    /// When the scene is full, or the sandbox chunk fails.
+    pub fn add_script(&mut self, kind: ScriptKind, name: &str, code: &[u8]) -> Result<ScriptRef, Error> {
+        match kind {
+            ScriptKind::Customization => self.add_object_script(ScriptType::Customization, code),
+            ScriptKind::Simulation => self.add_object_script(ScriptType::Simulation, code),
+            ScriptKind::AddOn => {
+                let script = self.sim.add_detached(ScriptType::AddOn, detached(&format!("{name}@addOnScript"), code));
+                self.sim.start_detached(&script);
+                Ok(ScriptRef(script))
+            }
+            ScriptKind::Sandbox => {
+                let sandbox = self.the(ScriptType::Sandbox);
+                self.sim.run_in(&sandbox.0, code, name).map_err(Error::Script)?;
+                Ok(sandbox)
+            }
+            ScriptKind::Main => {
+                let main = self.the(ScriptType::Main);
+                main.0.detached.borrow_mut().code = code.to_vec();
+                Ok(main)
+            }
+        }
+    }
+
+    fn add_object_script(&mut self, script_type: ScriptType, code: &[u8]) -> Result<ScriptRef, Error> {
+        let object = ScriptObject::new(script_type, code.to_vec(), "lua", false);
+        let handle =
+            self.sim.scene.borrow_mut().add("Script", Kind::Script(Box::new(object))).map_err(ApiError::from)?;
+        let script = self.sim.script(handle.raw()).ok_or(ApiError::NoSuchScript)?;
+        if script_type == ScriptType::Customization {
+            self.sim.init_script(&script);
+        }
+        Ok(ScriptRef(script))
+    }
+
+    fn the(&self, script_type: ScriptType) -> ScriptRef {
+        ScriptRef(self.sim.detached(script_type).expect("main and sandbox are made with the simulator"))
+    }
+
+    /// The script object `handle`.
+    ///
+    /// # Errors
+    /// When it is no script.
+    pub fn script(&self, handle: Handle) -> Result<ScriptRef, Error> {
+        Ok(ScriptRef(self.sim.script(handle.raw()).ok_or(ApiError::NoSuchScript)?))
+    }
+
+    /// Starts the simulation, or resumes a paused one. Its first step runs with the next [`pass`](Self::pass).
+    pub fn start(&mut self) {
+        self.sim.start();
+    }
+
+    /// Asks for a pause.
+    pub fn pause(&mut self) {
+        self.sim.pause();
+    }
+
+    /// Asks for the end of the run: as in CoppeliaSim, three more steps follow.
+    pub fn request_stop(&mut self) {
+        self.sim.stop();
+    }
+
+    /// One pass of the loop: a simulation step when running, an idle pass when stopped or paused.
+    pub fn pass(&mut self) {
+        self.sim.loop_pass();
+    }
+
+    /// Starts if necessary and runs `count` simulation steps, fewer when a script ends the run.
+    pub fn step(&mut self, count: u64) {
+        if self.state() == SimulationState::Stopped {
+            self.start();
+        }
+        for _ in 0..count {
+            if !self.state().is_advancing() {
+                return;
+            }
+            self.pass();
+        }
+    }
+
+    /// Ends the run, with all its clean-up.
+    pub fn stop(&mut self) {
+        self.request_stop();
+        while self.state() != SimulationState::Stopped {
+            self.pass();
+        }
+    }
+
+    pub fn state(&self) -> SimulationState {
+        self.sim.clock.state.get()
+    }
+
+    /// Simulated time, seconds.
+    pub fn time(&self) -> f64 {
+        self.sim.clock.time.get()
+    }
+
+    /// Steps since the start.
+    pub fn steps(&self) -> u64 {
+        self.sim.clock.steps.get()
+    }
+
+    /// How many errors scripts have raised that nobody caught.
+    pub fn errors(&self) -> u64 {
+        self.sim.errors.get()
+    }
+
+    /// Whether a script asked to end the program.
+    pub fn quit_requested(&self) -> bool {
+        self.sim.quit.get()
+    }
+
+    /// The scene, to read. Do not hold it across other calls.
+    pub fn scene(&self) -> Ref<'_, Scene> {
+        self.sim.scene.borrow()
+    }
+
+    /// The scene, to write. Do not hold it across other calls.
+    pub fn scene_mut(&mut self) -> RefMut<'_, Scene> {
+        self.sim.scene.borrow_mut()
+    }
+
+    /// Calls a global function of a script.
+    ///
+    /// # Errors
+    /// When there is no such function or it fails.
+    pub fn call(&mut self, script: &ScriptRef, function: &str, args: &[Data]) -> Result<Vec<Data>, Error> {
+        Ok(self.sim.call_function(&script.0, function, args)?)
+    }
+}
+
+impl Drop for Simulator {
+    /// The end of the application: add-ons and the sandbox clean up.
+    fn drop(&mut self) {
+        self.sim.end_detached();
+    }
+}
+
+fn detached(name: &str, code: &[u8]) -> Detached {
+    Detached {
+        name: name.to_owned(),
+        chunk_name: name.to_owned(),
+        code: code.to_vec(),
+        priority: 1,
+        ..Detached::default()
+    }
+}

@@ -1,0 +1,41 @@
+//! Running the command with a bound on time.
+
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// How long one command may take.
+const LIMIT: Duration = Duration::from_secs(20);
+
+/// Runs a command; stdout and stderr merged in the order they were written.
+///
+/// # Errors
+/// When it does not end in time, or by a signal.
+pub fn run_bounded(command: &mut Command) -> Result<String, String> {
+    let mut output = tempfile();
+    let (out, err) =
+        (output.try_clone().expect("files can be cloned"), output.try_clone().expect("files can be cloned"));
+    let mut child = command.stdin(Stdio::null()).stdout(out).stderr(err).spawn().expect("the command starts");
+    let deadline = Instant::now() + LIMIT;
+    let status = loop {
+        match child.try_wait().expect("the child is ours") {
+            Some(status) => break status,
+            None if Instant::now() > deadline => {
+                let _ = child.kill();
+                let _ = child.wait();
+                return Err(format!("did not end within {LIMIT:?}"));
+            }
+            None => std::thread::sleep(Duration::from_millis(2)),
+        }
+    };
+    let mut text = Vec::new();
+    output.seek(SeekFrom::Start(0)).expect("files can be rewound");
+    output.read_to_end(&mut text).expect("our own file is readable");
+    let text = String::from_utf8_lossy(&text).into_owned();
+    if status.code().is_none() { Err(format!("ended by a signal: {status}\n{text}")) } else { Ok(text) }
+}
+
+fn tempfile() -> File {
+    tempfile::tempfile().expect("a temporary file can be made")
+}
