@@ -204,23 +204,17 @@ loadstring, unpack, quit, exit = load, unpack_, quitSimulator, quitSimulator
 
 ---------------------------------------------------------------- the thread of a script
 
-local threadLevel -- auto-yield level inside the thread, kept from one resume to the next
-
 local function resumeThread()
     local thread = __coroutine__
     if not thread or coroutine.status(thread) == 'dead' then return end
-    local _, outer = getAutoYield()
-    if threadLevel then setAutoYield(threadLevel) end
     -- The original takes any true value here, also one that was yielded on purpose, for an error message.
     local _, message = coroutine.resume(thread)
-    _, threadLevel = getAutoYield()
-    setAutoYield(outer)
     if message then error(debug.traceback(thread, message), 0) end
 end
 
 registerScriptFuncHook('sysCall_init', function()
     if type(sysCall_thread) ~= 'function' then return end
-    __coroutine__, threadLevel = coroutine.create(sysCall_thread), nil
+    __coroutine__ = coroutine.create(sysCall_thread)
     registerScriptFuncHook('sysCall_actuation', resumeThread, true)
     registerScriptFuncHook('sysCall_nonSimulation', resumeThread, true)
 end, false)

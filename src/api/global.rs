@@ -47,6 +47,7 @@ fn register_script_func_hook(
     }
     let call =
         SysCall::from_name(&system_callback).ok_or_else(|| ApiError::Other("invalid system callback.".into()))?;
+    cx.sim().note_callbacks(call.bit());
     let entries = list.entry(call).or_default();
     let hook = match user_function {
         ScriptFunction::Name(name) if name.is_empty() => {

@@ -32,6 +32,7 @@ mod shape_group;
 mod shape_mass;
 mod signal;
 mod simulation;
+mod thread;
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -52,6 +53,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Globals", global::FUNCTIONS),
     ("Scripts", scripts::FUNCTIONS),
     ("Simulation", simulation::FUNCTIONS),
+    ("Threads", thread::FUNCTIONS),
     ("Names and paths", alias::FUNCTIONS),
     ("Poses of objects", object_pose::FUNCTIONS),
     ("Pose maths", pose_maths::FUNCTIONS),

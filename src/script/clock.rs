@@ -35,6 +35,10 @@ pub(crate) struct Clock {
     pub steps: Cell<u64>,
     pub stop_requested: Cell<bool>,
     pub pause_requested: Cell<bool>,
+    /// True while scripts are told that the simulation is about to start.
+    pub starting: Cell<bool>,
+    /// Wall-clock seconds at which a run in real time had simulation time zero.
+    pub real_time_origin: Cell<f64>,
 }
 
 impl Clock {
@@ -45,6 +49,8 @@ impl Clock {
             steps: Cell::new(0),
             stop_requested: Cell::new(false),
             pause_requested: Cell::new(false),
+            starting: Cell::new(false),
+            real_time_origin: Cell::new(0.0),
         }
     }
 
@@ -55,6 +61,14 @@ impl Clock {
         self.stop_requested.set(false);
         self.pause_requested.set(false);
         self.state.set(SimulationState::FirstAfterStop);
+    }
+
+    /// Whether the next step of `dt` seconds is due in real time, `wall` scaled seconds after the simulator was made. Being late is
+    /// forgiven except for one step.
+    pub(crate) fn is_due(&self, wall: f64, dt: f64) -> bool {
+        let latest_origin = wall - self.time.get() - 2.0 * dt;
+        self.real_time_origin.set(self.real_time_origin.get().max(latest_origin));
+        self.time.get() + dt < wall - self.real_time_origin.get()
     }
 
     /// The state after a pass (SPEC-7 7.2). `LastBeforeStop` stays: the caller runs the end procedure. A stop beats a pause.

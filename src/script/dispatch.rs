@@ -21,8 +21,21 @@ impl Sim {
         self.deliver_to(Group::Simulation, call, args) + self.deliver_to(Group::Customization, call, args)
     }
 
+    /// Remembers that some script has these callbacks, so that the others need not be offered to anyone.
+    pub(crate) fn note_callbacks(&self, bits: u64) {
+        self.callbacks_in_use.set(self.callbacks_in_use.get() | bits);
+    }
+
+    /// Whether no script can respond to `call`: nobody has ever defined it, and it starts nobody.
+    fn nobody_responds(&self, call: SysCall) -> bool {
+        !call.wakes() && self.callbacks_in_use.get() & call.bit() == 0
+    }
+
     /// Everyone, in regular order.
     pub(crate) fn broadcast(self: &Rc<Self>, call: SysCall, args: &[Data]) {
+        if self.nobody_responds(call) {
+            return;
+        }
         for script in self.everyone() {
             self.deliver(&script, call, args);
         }
@@ -63,6 +76,9 @@ impl Sim {
 
     /// A message to all initialised scripts but the sender.
     pub(crate) fn broadcast_message(self: &Rc<Self>, sender: i64, args: &[Data]) {
+        if self.nobody_responds(SysCall::Msg) {
+            return;
+        }
         for script in self.everyone() {
             if script.id != sender && script.base_state() == state::INITIALIZED {
                 self.deliver(&script, SysCall::Msg, args);
@@ -72,6 +88,9 @@ impl Sim {
 
     /// Tells all others that a script has run one of the callbacks that concern them.
     pub(crate) fn announce(self: &Rc<Self>, script: &Script, call: SysCall) {
+        if self.nobody_responds(SysCall::Msg) {
+            return;
+        }
         let data = Data::map([("callType", Data::Int(call as i64)), ("script", Data::Int(script.id))]);
         let message = Data::map([("id", Data::text("systemCall")), ("data", data)]);
         self.broadcast_message(script.id, &[message]);
@@ -79,6 +98,9 @@ impl Sim {
 
     /// Polls every script before a pass of the main script; true when one forbids it.
     pub(crate) fn main_script_vetoed(self: &Rc<Self>) -> bool {
+        if self.nobody_responds(SysCall::BeforeMainScript) {
+            return false;
+        }
         let mut vetoed = false;
         for script in self.everyone() {
             let is_main = script.script_type == crate::scene::script_object::ScriptType::Main;

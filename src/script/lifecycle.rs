@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use super::callback::SysCall;
 use super::env::{Env, Hook, Runtime};
+use super::error::ApiError;
 use super::lua::{LuaError, MULTIPLE, Stack, Type};
 use super::script::{Script, state};
 use super::sim::Sim;
@@ -56,15 +57,23 @@ impl Sim {
             self.restart_if_asked(script);
             return;
         }
-        note_callbacks(&runtime.env, runtime.stack());
-        self.run_callback(script, SysCall::Info, &[]);
+        let defined = defined_callbacks(runtime.stack());
+        runtime.env.defined.set(defined);
+        self.note_callbacks(defined);
+        // Add-ons have been asked before they were started.
+        if script.script_type != ScriptType::AddOn {
+            self.run_callback(script, SysCall::Info, &[]);
+        }
     }
 
     fn run_chunk(self: &Rc<Self>, script: &Rc<Script>, runtime: &Rc<Runtime>) -> Result<(), LuaError> {
         let stack = runtime.stack();
         startup::fill(self, runtime)?;
         let (code, name) = self.code_of(script);
-        let _level = Level::enter(self, &runtime.env);
+        let level = Level::enter(self, &runtime.env);
+        if level.too_deep {
+            return Err(LuaError { text: ApiError::TooDeep(MAX_DEPTH).to_string() });
+        }
         stack.load(&code, &name, false)?;
         stack.protected_call(0, 0)
     }
@@ -109,10 +118,10 @@ impl Sim {
     fn call_with_hooks(self: &Rc<Self>, runtime: &Rc<Runtime>, call: SysCall, args: &[Data]) -> Outcome {
         let env = &runtime.env;
         let stack = runtime.stack();
-        let _level = Level::enter(self, env);
+        let level = Level::enter(self, env);
         let mut outcome = Outcome::default();
-        if _level.too_deep {
-            outcome.errors.push(super::error::ApiError::TooDeep(MAX_DEPTH).to_string());
+        if level.too_deep {
+            outcome.errors.push(ApiError::TooDeep(MAX_DEPTH).to_string());
             return outcome;
         }
         let before = hooks_of(&env.hooks.borrow().before, call);
@@ -314,14 +323,14 @@ fn hooks_of(hooks: &std::collections::BTreeMap<SysCall, Vec<Hook>>, call: SysCal
     hooks.get(&call).cloned().unwrap_or_default()
 }
 
-/// Remembers which callbacks are there now that the chunk has run.
-fn note_callbacks(env: &Env, stack: Stack<'_>) {
+/// The callbacks that are there now that the chunk has run, as bits.
+fn defined_callbacks(stack: Stack<'_>) -> u64 {
     let defined = SysCall::ALL.iter().filter(|call| {
         let kind = stack.push_global(call.name());
         stack.pop(1);
         kind == Type::Function
     });
-    env.defined.set(defined.fold(0, |bits, call| bits | call.bit()));
+    defined.fold(0, |bits, call| bits | call.bit())
 }
 
 /// A cleanup defined after the chunk had run is found all the same.

@@ -62,6 +62,8 @@ pub(crate) struct Sim {
     /// Errors scripts raised that nobody caught.
     pub errors: Cell<u64>,
     pub quit: Cell<bool>,
+    /// Callbacks some script has or had, as bits.
+    pub callbacks_in_use: Cell<u64>,
     /// Objects to remove at the end of the loop pass.
     pub delayed_removals: RefCell<Vec<Handle>>,
     /// Objects there were at simulation start.
@@ -87,6 +89,7 @@ impl Sim {
             depth: Cell::new(0),
             errors: Cell::new(0),
             quit: Cell::new(false),
+            callbacks_in_use: Cell::new(0),
             delayed_removals: RefCell::default(),
             known_at_start: RefCell::default(),
             last_selection: RefCell::default(),

@@ -20,11 +20,22 @@ impl Sim {
             _ => {}
         }
         self.notify_selection();
-        if self.clock.state.get().is_advancing() && !self.main_script_vetoed() {
-            self.main_script_pass();
-            self.advance();
+        if self.clock.state.get().is_advancing() {
+            if !self.step_is_due() {
+                self.broadcast(SysCall::RealTimeIdle, &[]);
+            } else if !self.main_script_vetoed() {
+                self.main_script_pass();
+                self.advance();
+            }
         }
         self.remove_delayed();
+    }
+
+    /// Always, except in real-time mode.
+    pub(crate) fn step_is_due(&self) -> bool {
+        let scene = self.scene.borrow();
+        let settings = scene.settings();
+        !settings.real_time || self.clock.is_due(self.wall_seconds() * settings.real_time_factor, settings.time_step)
     }
 
     fn notify_selection(self: &Rc<Self>) {
@@ -94,7 +105,10 @@ impl Sim {
     /// Starts a stopped simulation or resumes a paused one; otherwise nothing.
     pub(crate) fn start(self: &Rc<Self>) {
         match self.clock.state.get() {
-            SimulationState::Stopped => self.begin(),
+            SimulationState::Stopped if !self.clock.starting.replace(true) => {
+                self.begin();
+                self.clock.starting.set(false);
+            }
             SimulationState::Paused => self.resume(),
             _ => {}
         }
@@ -119,7 +133,14 @@ impl Sim {
         }
         self.warn_of_unusual_settings();
         self.clock.reset();
+        self.restart_real_time();
         self.chatter("Simulation started.");
+    }
+
+    /// Real time goes on from now, whatever time has passed while stopped or paused.
+    fn restart_real_time(&self) {
+        let wall = self.wall_seconds() * self.scene.borrow().settings().real_time_factor;
+        self.clock.real_time_origin.set(wall - self.clock.time.get());
     }
 
     fn warn_of_unusual_settings(&self) {
@@ -132,6 +153,7 @@ impl Sim {
     fn resume(self: &Rc<Self>) {
         self.notify(SysCall::Resume);
         self.clock.state.set(SimulationState::FirstAfterPause);
+        self.restart_real_time();
         self.chatter("Simulation resumed.");
     }
 

@@ -17,7 +17,7 @@ pub(crate) fn on_count(stack: Stack<'_>) -> bool {
     let env = Env::of(stack);
     let yields = &env.yields;
     yields.used.set(yields.used.get() + HOOK_INTERVAL as u64);
-    if yields.overall.get() != 0 || yields.used.get() < budget(env) {
+    if yields.overall.get() != 0 || yields.used.get() < budget(env) || auto_level(stack) != 0 {
         return false;
     }
     yields.used.set(0);
