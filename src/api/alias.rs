@@ -1,5 +1,161 @@
 //! `sim.*`: names and paths of objects.
 
-use super::{ApiFn, functions};
+use api_macro::api;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![];
+use super::{ApiFn, Cx, Result, functions};
+use crate::scene::{Data, Handle, SceneError};
+use crate::script::{Bytes, Table};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    get_object,
+    get_object_handle,
+    get_object_alias,
+    set_object_alias,
+    get_object_name,
+    set_object_name,
+    get_name_suffix,
+    set_name_suffix,
+];
+
+/// Object at a path; the native part of `sim.getObject`.
+///
+/// @param path `/a/b` from the top, `./a` below this script's object, `..` the parent, `:` the model
+/// @param options index: take another match; proxy: object to start from; noError: -1 instead of an error
+/// @return objectHandle the first match
+#[api("sim._getObject")]
+fn get_object(cx: &Cx, path: Bytes, options: Option<Table>) -> Result<i64> {
+    let options = Lookup::read(options.as_ref());
+    let emitter = options.emitter(cx)?;
+    options.answer(cx.scene().find(&text(&path), emitter, options.index))
+}
+
+/// Object at a path or with an old-style name; the native part of `sim.getObjectHandle`.
+///
+/// @param path as in sim.getObject, or an old name
+/// @param options as in sim.getObject
+/// @return objectHandle the object
+#[api("sim._getObjectHandle")]
+fn get_object_handle(cx: &Cx, path: Bytes, options: Option<Table>) -> Result<i64> {
+    let options = Lookup::read(options.as_ref());
+    let path = text(&path);
+    if path.starts_with(['/', '.', ':']) {
+        let emitter = options.emitter(cx)?;
+        return options.answer(cx.scene().find(&path, emitter, options.index));
+    }
+    options.answer(cx.scene().find_old_name(&path))
+}
+
+fn text(bytes: &Bytes) -> String {
+    String::from_utf8_lossy(&bytes.0).into_owned()
+}
+
+/// The options of a look-up.
+struct Lookup {
+    index: Option<usize>,
+    proxy: Option<i64>,
+    no_error: bool,
+}
+
+impl Lookup {
+    fn read(options: Option<&Table>) -> Self {
+        let field = |name| options.and_then(|table| table.0.field(name));
+        let number = |name| field(name).and_then(Data::as_f64).map(|value| value as i64);
+        Self {
+            index: number("index").and_then(|index| usize::try_from(index).ok()),
+            proxy: number("proxy").filter(|&proxy| proxy != -1),
+            no_error: field("noError").is_some_and(Data::truthy),
+        }
+    }
+
+    /// Where relative paths start: the proxy, the script object that asks, or what it sits on if it is an old one.
+    fn emitter(&self, cx: &Cx) -> Result<Option<Handle>> {
+        if let Some(raw) = self.proxy {
+            let proxy = Handle::from_raw(raw).filter(|&handle| cx.scene().exists(handle));
+            return Ok(Some(proxy.ok_or(SceneError::NoSuchProxy)?));
+        }
+        let Some(script) = cx.script().object else { return Ok(None) };
+        let scene = cx.scene();
+        let object = scene.object(script)?;
+        Ok(if object.script()?.parent_is_proxy { object.parent() } else { Some(script) })
+    }
+
+    fn answer(&self, found: std::result::Result<Handle, SceneError>) -> Result<i64> {
+        match found {
+            Err(SceneError::NoSuchPath) if self.no_error => Ok(-1),
+            found => Ok(found?.raw()),
+        }
+    }
+}
+
+/// Name of an object, alone or as a path.
+///
+/// @param objectHandle the object
+/// @param options -1 alias; 0 with `[i]` among siblings; 1 short path; 2 full path; 3, 4 with the handle; 5 as log lines show it; 6 to 9 with `{n}` and up to 0, 1, 2 or 999 models in front
+/// @return objectAlias alias or path
+#[api("sim.getObjectAlias")]
+fn get_object_alias(cx: &Cx, object_handle: Handle, #[default(-1)] options: i64) -> Result<String> {
+    let scene = cx.scene();
+    Ok(match options {
+        0 => scene.indexed_alias(object_handle)?,
+        1 => scene.short_path(object_handle)?,
+        2 => scene.full_path(object_handle)?,
+        3 => scene.unique_alias(object_handle)?,
+        4 => scene.handle_alias(object_handle)?,
+        5 => scene.print_path(object_handle)?,
+        6 => scene.counted_path(object_handle, 0)?,
+        7 => scene.counted_path(object_handle, 1)?,
+        8 => scene.counted_path(object_handle, 2)?,
+        9 => scene.counted_path(object_handle, 999)?,
+        _ => scene.object(object_handle)?.alias().to_owned(),
+    })
+}
+
+/// Renames an object. Everything but letters, digits and underscores becomes an underscore.
+///
+/// @param objectHandle the object
+/// @param objectAlias need not be unique
+#[api("sim.setObjectAlias")]
+fn set_object_alias(cx: &mut Cx, object_handle: Handle, object_alias: Bytes) -> Result<()> {
+    Ok(cx.scene_mut().set_alias(object_handle, &object_alias.0)?)
+}
+
+/// Old-style name of an object: its alias, unless sim.setObjectName gave it another.
+///
+/// @param objectHandle the object
+/// @return objectName the name
+#[api("sim.getObjectName")]
+fn get_object_name(cx: &Cx, object_handle: Handle) -> Result<String> {
+    Ok(cx.scene().object(object_handle)?.old_name().to_owned())
+}
+
+/// Sets the old-style name of an object; its alias stays.
+///
+/// @param objectHandle the object
+/// @param objectName the name
+/// @return result 1
+#[api("sim.setObjectName")]
+fn set_object_name(cx: &mut Cx, object_handle: Handle, object_name: String) -> Result<i64> {
+    cx.scene_mut().set_old_name(object_handle, &object_name)?;
+    Ok(1)
+}
+
+/// Splits an old-style name at its `#`; without one the suffix is -1.
+///
+/// @param name the name; nil for the suffix of the calling script
+/// @return suffixNumber -1 if there is none
+/// @return nameWithoutSuffix the name before the `#`
+#[api("sim.getNameSuffix")]
+fn get_name_suffix(_cx: &Cx, #[default(None)] name: Option<String>) -> Result<(i64, Option<String>)> {
+    let Some(name) = name else { return Ok((-1, None)) };
+    let split = name.rsplit_once('#').and_then(|(stem, suffix)| Some((suffix.parse().ok()?, stem.to_owned())));
+    let (suffix, stem) = split.unwrap_or((-1, name));
+    Ok((suffix, Some(stem)))
+}
+
+/// Chooses the suffix old-style names are looked up with. Objects have no suffixes any more, so this does nothing.
+///
+/// @param suffixNumber ignored
+#[api("sim.setNameSuffix")]
+fn set_name_suffix(_cx: &mut Cx, _suffix_number: i64) -> Result<()> {
+    Ok(())
+}

@@ -36,6 +36,9 @@ pub mod special {
     pub const ALL_EXCEPT_EXPLICIT: i64 = -3;
     pub const SELF: i64 = -4;
     pub const MAIN_SCRIPT: i64 = -5;
+    pub const TREE: i64 = -6;
+    pub const CHAIN: i64 = -7;
+    pub const SINGLE: i64 = -8;
     pub const PARENT: i64 = -11;
     pub const SCENE: i64 = -12;
     pub const APP: i64 = -13;

@@ -4,6 +4,7 @@
 //! ends in [`Changes`], so that events, caches and the physics learn of it in one place.
 
 pub mod change;
+mod collection;
 pub mod data;
 pub mod dummy;
 pub mod error;
@@ -13,6 +14,7 @@ pub mod joint;
 pub mod mass;
 pub mod mesh;
 mod object;
+mod path;
 pub mod pose;
 mod poses;
 pub mod primitive;
@@ -26,6 +28,7 @@ mod store;
 mod tree;
 
 pub use change::{Change, Changes, Field};
+pub use collection::{Collection, CollectionItem};
 pub use data::{Data, Key};
 pub use error::{SceneError, SceneResult};
 pub use handle::{Handle, Uid, flag, special};

@@ -19,6 +19,8 @@ pub struct Object {
     pub(super) handle: Handle,
     pub(super) uid: Uid,
     pub(super) alias: String,
+    /// The name only functions from before aliases see, where it was set apart from the alias.
+    pub(super) old_name: Option<String>,
     pub(super) parent: Option<Handle>,
     pub(super) children: Vec<Handle>,
     /// In the parent's full frame (its moving side, for joints and force sensors).
@@ -123,6 +125,7 @@ impl Object {
             handle,
             uid,
             alias: alias.to_owned(),
+            old_name: None,
             parent: None,
             children: Vec::new(),
             pose: Pose::identity(),
@@ -155,6 +158,11 @@ impl Object {
         &self.alias
     }
 
+    /// The name functions from before aliases see.
+    pub fn old_name(&self) -> &str {
+        self.old_name.as_deref().unwrap_or(&self.alias)
+    }
+
     pub fn parent(&self) -> Option<Handle> {
         self.parent
     }
@@ -166,6 +174,11 @@ impl Object {
     /// Pose in the parent's full frame.
     pub fn pose(&self) -> Pose {
         self.pose
+    }
+
+    /// Whether this is a `sim.sceneobject_*`; every object is a `sim.handle_all`.
+    pub fn is_of_type(&self, object_type: i64) -> bool {
+        object_type == super::special::ALL || object_type == self.kind.type_number()
     }
 
     pub fn is_model(&self) -> bool {

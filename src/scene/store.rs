@@ -58,7 +58,9 @@ pub struct Scene {
     sensors: usize,
     pub(super) roots: Vec<Handle>,
     pub(super) selection: Vec<Handle>,
-    pub(super) collections: BTreeMap<i64, super::tree::Collection>,
+    pub(super) collections: BTreeMap<i64, super::Collection>,
+    /// Collections ever made.
+    pub(super) collections_made: i64,
     settings: Settings,
     changes: Changes,
     /// Custom data of the scene itself (`sim.handle_scene`).

@@ -4,37 +4,20 @@ use std::collections::{BTreeSet, VecDeque};
 
 use super::{Change, Field, Handle, Scene, SceneError, SceneResult};
 
-/// A named set of objects that scripts build up (`sim.createCollection`).
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Collection {
-    /// Whether checks of the collection against itself count.
-    pub overrides: bool,
-    pub items: Vec<CollectionItem>,
-}
-
-/// One instruction of a collection: what to add or subtract.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CollectionItem {
-    /// `sim.handle_all`, `_single`, `_tree` or `_chain`.
-    pub what: i64,
-    pub base: Option<Handle>,
-    pub subtract: bool,
-    pub exclude_base: bool,
-}
-
 impl Scene {
     /// Selected objects, the last selected one last.
     pub fn selection(&self) -> &[Handle] {
         &self.selection
     }
 
-    /// The path of an object as log lines show it.
-    pub fn print_path(&self, handle: Handle) -> SceneResult<String> {
-        let mut path = format!("/{}", self.object(handle)?.alias());
-        for above in self.ancestors(handle) {
-            path.insert_str(0, &format!("/{}", self.object(above)?.alias()));
+    /// Selects exactly these objects; unknown ones and repetitions are left out.
+    pub fn select(&mut self, handles: &[Handle]) {
+        let mut seen = BTreeSet::new();
+        let selection = handles.iter().copied().filter(|&handle| self.exists(handle) && seen.insert(handle)).collect();
+        if self.selection != selection {
+            self.selection = selection;
+            self.changes_mut().note(Change::Selection);
         }
-        Ok(path)
     }
 
     /// Root objects in scene order.
@@ -140,6 +123,22 @@ impl Scene {
     /// Every object, breadth first from the roots.
     pub fn all_breadth_first(&self) -> Vec<Handle> {
         self.breadth_first(self.roots.iter().copied())
+    }
+
+    /// `base` (None: the scene) and what is below it, breadth first; with `shallow` only one level below `base`, or the roots.
+    ///
+    /// # Errors
+    /// When `base` does not exist.
+    pub fn tree(&self, base: Option<Handle>, shallow: bool) -> SceneResult<Vec<Handle>> {
+        Ok(match base {
+            Some(base) if shallow => std::iter::once(base).chain(self.object(base)?.children().iter().copied()).collect(),
+            Some(base) => {
+                self.object(base)?;
+                self.subtree(base)
+            }
+            None if shallow => self.roots.clone(),
+            None => self.all_breadth_first(),
+        })
     }
 
     fn breadth_first(&self, start: impl IntoIterator<Item = Handle>) -> Vec<Handle> {

@@ -1,0 +1,82 @@
+//! Collections: sets of objects described by what to add and what to subtract, evaluated each time they are asked for.
+
+use std::collections::BTreeSet;
+
+use super::{Handle, Scene, SceneError, SceneResult, special};
+
+/// The first handle of a collection.
+const FIRST_HANDLE: i64 = 2_000_000;
+
+/// A set of objects that scripts build up (`sim.createCollection`).
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Collection {
+    /// Whether checks of the collection against itself count.
+    pub overrides: bool,
+    pub items: Vec<CollectionItem>,
+}
+
+/// One instruction of a collection: what to add or subtract.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CollectionItem {
+    /// `sim.handle_all`, `_single`, `_tree` or `_chain`.
+    pub what: i64,
+    pub base: Option<Handle>,
+    pub subtract: bool,
+    pub exclude_base: bool,
+}
+
+impl Scene {
+    /// Makes an empty collection.
+    pub fn add_collection(&mut self, overrides: bool) -> i64 {
+        let handle = FIRST_HANDLE + self.collections_made;
+        self.collections_made += 1;
+        self.collections.insert(handle, Collection { overrides, items: Vec::new() });
+        handle
+    }
+
+    /// Removes a collection; its objects stay.
+    ///
+    /// # Errors
+    /// When there is none with that handle.
+    pub fn remove_collection(&mut self, handle: i64) -> SceneResult<()> {
+        self.collections.remove(&handle).map(drop).ok_or(SceneError::NoSuchCollection)
+    }
+
+    pub fn collection(&self, handle: i64) -> SceneResult<&Collection> {
+        self.collections.get(&handle).ok_or(SceneError::NoSuchCollection)
+    }
+
+    pub fn collection_mut(&mut self, handle: i64) -> SceneResult<&mut Collection> {
+        self.collections.get_mut(&handle).ok_or(SceneError::NoSuchCollection)
+    }
+
+    /// The objects a collection holds now, in the order of their creation.
+    ///
+    /// # Errors
+    /// When there is none with that handle.
+    pub fn collection_objects(&self, handle: i64) -> SceneResult<Vec<Handle>> {
+        let mut members = BTreeSet::new();
+        for item in &self.collection(handle)?.items {
+            for object in self.item_objects(item) {
+                if item.subtract {
+                    members.remove(&object);
+                } else {
+                    members.insert(object);
+                }
+            }
+        }
+        let in_order = self.objects().map(super::Object::handle);
+        Ok(in_order.filter(|handle| members.contains(handle)).collect())
+    }
+
+    fn item_objects(&self, item: &CollectionItem) -> Vec<Handle> {
+        let Some(base) = item.base else { return self.objects().map(super::Object::handle).collect() };
+        let mut objects = match item.what {
+            special::TREE => self.subtree(base),
+            special::CHAIN => std::iter::once(base).chain(self.ancestors(base)).collect(),
+            _ => vec![base],
+        };
+        objects.retain(|&object| self.exists(object) && !(item.exclude_base && object == base));
+        objects
+    }
+}

@@ -1,0 +1,397 @@
+//! Names of objects and the paths they are looked up by (SPEC-8): aliases, `/a/b[1]`, `./x`, `:/y{2}`.
+//!
+//! Who the emitter of a relative path is, is decided by the caller.
+
+use std::collections::HashMap;
+
+use super::{Field, Handle, Object, Scene, SceneError, SceneResult};
+
+/// Paths with more parts than this are written in full.
+const SHORT_PATH_PARTS: usize = 8;
+/// Longer paths are abbreviated in log lines.
+const PRINT_PATH_LENGTH: usize = 40;
+
+/// One part of a path: a pattern, and which one of the siblings that match it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Component {
+    pattern: Vec<u8>,
+    sibling: Option<usize>,
+}
+
+/// Consecutive parts, and which one of their matches is meant.
+type Group = (Vec<Component>, usize);
+
+/// `alias` as it is kept: everything but letters, digits and underscores becomes an underscore.
+pub fn clean_alias(alias: &[u8]) -> String {
+    let legal = |&byte: &u8| if byte.is_ascii_alphanumeric() { char::from(byte) } else { '_' };
+    if alias.is_empty() { "_".to_owned() } else { alias.iter().map(legal).collect() }
+}
+
+impl Scene {
+    /// Renames an object; illegal characters become underscores.
+    pub fn set_alias(&mut self, handle: Handle, alias: &[u8]) -> SceneResult<()> {
+        let alias = clean_alias(alias);
+        self.modify(handle, Field::Alias, |object| {
+            object.alias = alias;
+            object.old_name = None;
+        })
+    }
+
+    /// Gives an object the name only old functions see.
+    pub fn set_old_name(&mut self, handle: Handle, name: &str) -> SceneResult<()> {
+        self.modify(handle, Field::Other, |object| object.old_name = Some(name.to_owned()))
+    }
+
+    /// The first object with that old-style name, in the order of creation.
+    pub fn find_old_name(&self, name: &str) -> SceneResult<Handle> {
+        self.objects().find(|object| object.old_name() == name).map(Object::handle).ok_or(SceneError::NoSuchPath)
+    }
+
+    /// The object at `path`, relative paths starting at `emitter`; `index` picks another match than the first.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn find(&self, path: &str, emitter: Option<Handle>, index: Option<usize>) -> SceneResult<Handle> {
+        let (base, rest) = self.path_base(path, emitter).ok_or(SceneError::NoSuchPath)?;
+        if rest.is_empty() {
+            return base.ok_or(SceneError::NoSuchPath);
+        }
+        let mut found = base;
+        for (components, nth) in groups(rest, index) {
+            found = Some(self.search(found, &components, nth).ok_or(SceneError::NoSuchPath)?);
+        }
+        found.ok_or(SceneError::NoSuchPath)
+    }
+
+    /// Where the search begins (None: at the roots), and what is to be searched there.
+    fn path_base<'p>(&self, path: &'p str, emitter: Option<Handle>) -> Option<(Option<Handle>, &'p str)> {
+        if let Some(rest) = path.strip_prefix('/') {
+            let rest = rest.strip_suffix('/').unwrap_or(rest);
+            return (!rest.is_empty() && !rest.starts_with(['/', '.', ':'])).then_some((None, rest));
+        }
+        let mut base = emitter;
+        let mut rest = path.strip_suffix('/').unwrap_or(path);
+        let mut first = true;
+        while rest.starts_with(['.', ':']) {
+            let (step, after) = rest.split_once('/').unwrap_or((rest, ""));
+            base = match step {
+                "." if first => base,
+                ".." => self.object(base?).ok()?.parent(),
+                ":" => base.and_then(|from| self.model_from(from)),
+                "::" => base.and_then(|from| self.model_from(from)).and_then(|model| self.model_above(model)),
+                _ => return None,
+            };
+            (rest, first) = (after, false);
+        }
+        (!first).then_some((base, rest))
+    }
+
+    /// The nearest model base among `handle` and its ancestors.
+    pub fn model_from(&self, handle: Handle) -> Option<Handle> {
+        std::iter::once(handle).chain(self.ancestors(handle)).find(|&h| self.object(h).is_ok_and(Object::is_model))
+    }
+
+    /// The nearest model base above `handle`.
+    fn model_above(&self, handle: Handle) -> Option<Handle> {
+        self.ancestors(handle).find(|&h| self.object(h).is_ok_and(Object::is_model))
+    }
+
+    /// The `nth` object below `base` that `components` lead to.
+    fn search(&self, base: Option<Handle>, components: &[Component], nth: usize) -> Option<Handle> {
+        Search { scene: self, hits: HashMap::new() }.run(base, components, &mut { nth })
+    }
+
+    fn children_of(&self, base: Option<Handle>) -> &[Handle] {
+        base.map_or(self.roots(), |base| self.object(base).map_or(&[], Object::children))
+    }
+
+    /// Position of an object among its siblings of the same alias; None when it is the only one.
+    fn order_index(&self, handle: Handle) -> SceneResult<Option<usize>> {
+        let alias = self.object(handle)?.alias();
+        let same = |&&h: &&Handle| self.object(h).is_ok_and(|object| object.alias() == alias);
+        let mut twins = self.siblings(handle)?.iter().filter(same);
+        let position = twins.position(|&h| h == handle);
+        let alone = position == Some(0) && twins.next().is_none();
+        Ok(position.filter(|_| !alone))
+    }
+
+    /// The alias, with `[i]` when siblings share it.
+    pub fn indexed_alias(&self, handle: Handle) -> SceneResult<String> {
+        let alias = self.object(handle)?.alias();
+        Ok(match self.order_index(handle)? {
+            Some(index) => format!("{alias}[{index}]"),
+            None => alias.to_owned(),
+        })
+    }
+
+    /// The path from the root, with every object on the way.
+    pub fn full_path(&self, handle: Handle) -> SceneResult<String> {
+        let mut parts = vec![self.indexed_alias(handle)?];
+        for above in self.ancestors(handle) {
+            parts.push(self.indexed_alias(above)?);
+        }
+        Ok(joined(&parts))
+    }
+
+    /// The shortest path that leads to an object: models on the way up, and whatever else the lookup needs.
+    pub fn short_path(&self, handle: Handle) -> SceneResult<String> {
+        let parts = self.short_path_parts(handle)?;
+        if parts.len() > SHORT_PATH_PARTS { self.full_path(handle) } else { Ok(joined(&parts)) }
+    }
+
+    /// Parts of the short path, the object's own first.
+    fn short_path_parts(&self, handle: Handle) -> SceneResult<Vec<String>> {
+        let mut parts = vec![self.indexed_alias(handle)?];
+        let mut components = vec![component(&parts[0])];
+        for above in self.ancestors(handle) {
+            let object = self.object(above)?;
+            if object.is_model() || self.search(object.parent(), &components, 0) != Some(handle) {
+                let part = self.indexed_alias(above)?;
+                components.insert(0, component(&part));
+                parts.push(part);
+            }
+            if parts.len() > SHORT_PATH_PARTS {
+                break;
+            }
+        }
+        Ok(parts)
+    }
+
+    /// The short path as log lines show it: only its ends, when it is long.
+    pub fn print_path(&self, handle: Handle) -> SceneResult<String> {
+        let path = self.short_path(handle)?;
+        let parts: Vec<&str> = path.split('/').skip(1).collect();
+        match parts.as_slice() {
+            [first, _, .., last] if path.len() > PRINT_PATH_LENGTH => Ok(format!("/{first}/ ... /{last}")),
+            _ => Ok(path),
+        }
+    }
+
+    /// `alias__handle__`, which names an object for sure.
+    pub fn handle_alias(&self, handle: Handle) -> SceneResult<String> {
+        Ok(format!("{}__{}__", self.object(handle)?.alias(), handle.raw()))
+    }
+
+    /// The alias if no other object has it, otherwise alias and handle.
+    pub fn unique_alias(&self, handle: Handle) -> SceneResult<String> {
+        let alias = self.object(handle)?.alias();
+        let shared = self.objects().any(|object| object.handle() != handle && object.alias() == alias);
+        if shared { self.handle_alias(handle) } else { Ok(alias.to_owned()) }
+    }
+
+    /// Up to `models` model ancestors and the object, each with its `{n}`.
+    pub fn counted_path(&self, handle: Handle, models: usize) -> SceneResult<String> {
+        let is_model = |&h: &Handle| self.object(h).is_ok_and(Object::is_model);
+        let mut chain = vec![handle];
+        chain.extend(self.ancestors(handle).filter(is_model).take(models));
+        let mut path = String::new();
+        let mut base = None;
+        for &step in chain.iter().rev() {
+            path.push('/');
+            path.push_str(&self.counted_alias(base, step)?);
+            base = Some(step);
+        }
+        Ok(path)
+    }
+
+    /// `alias{n}`: the n-th of its name below `base`; just the alias when it is the only one.
+    fn counted_alias(&self, base: Option<Handle>, handle: Handle) -> SceneResult<String> {
+        let alias = self.object(handle)?.alias();
+        let same = |&h: &Handle| self.object(h).is_ok_and(|object| object.alias() == alias);
+        let hits: Vec<Handle> = self.search_order(base).into_iter().filter(same).collect();
+        let position = hits.iter().position(|&h| h == handle);
+        Ok(match position.filter(|_| hits.len() > 1) {
+            Some(n) => format!("{alias}{{{n}}}"),
+            None => alias.to_owned(),
+        })
+    }
+
+    /// Everything below `base` in the order lookups see it: all children, then what is below the first child, and so on.
+    fn search_order(&self, base: Option<Handle>) -> Vec<Handle> {
+        let mut pending = vec![base];
+        let mut order = Vec::new();
+        while let Some(base) = pending.pop() {
+            let children = self.children_of(base);
+            order.extend(children);
+            pending.extend(children.iter().rev().map(|&child| Some(child)));
+        }
+        order
+    }
+}
+
+/// One lookup. What was searched in vain is remembered, so that patterns such as `/*/*/*/x` cost no more than the tree is large.
+struct Search<'a> {
+    scene: &'a Scene,
+    /// Number of matches below an object for the last so many components.
+    hits: HashMap<(Option<Handle>, usize), usize>,
+}
+
+impl Search<'_> {
+    /// The match number `nth`; otherwise `nth` is lowered by the number of matches.
+    fn run(&mut self, base: Option<Handle>, components: &[Component], nth: &mut usize) -> Option<Handle> {
+        let (first, rest) = components.split_first()?;
+        if let Some(hits) = self.hits.get(&(base, components.len())).filter(|&hits| hits <= nth) {
+            *nth -= hits;
+            return None;
+        }
+        let asked = *nth;
+        let mut pending = vec![base];
+        while let Some(base) = pending.pop() {
+            let children = self.scene.children_of(base);
+            let mut deeper = Vec::with_capacity(children.len());
+            let mut siblings = 0;
+            for &child in children {
+                let matches = self.matches(first, child);
+                if !matches || first.sibling.is_none() {
+                    deeper.push(Some(child));
+                }
+                siblings += usize::from(matches);
+                if !matches || first.sibling.is_some_and(|wanted| wanted + 1 != siblings) {
+                    continue;
+                }
+                if let Some(hit) = self.accept(child, rest, nth) {
+                    return Some(hit);
+                }
+            }
+            pending.extend(deeper.into_iter().rev());
+        }
+        self.hits.insert((base, components.len()), asked - *nth);
+        None
+    }
+
+    fn accept(&mut self, child: Handle, rest: &[Component], nth: &mut usize) -> Option<Handle> {
+        if !rest.is_empty() {
+            return self.run(Some(child), rest, nth);
+        }
+        if *nth == 0 {
+            return Some(child);
+        }
+        *nth -= 1;
+        None
+    }
+
+    fn matches(&self, component: &Component, handle: Handle) -> bool {
+        self.scene.object(handle).is_ok_and(|object| wildcard_match(&component.pattern, object.alias().as_bytes()))
+    }
+}
+
+/// The parts of a path, split behind each `{n}`. With an `index` the last part's `{n}` is not understood.
+fn groups(path: &str, index: Option<usize>) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    let mut open = Vec::new();
+    let parts: Vec<&str> = path.split('/').collect();
+    for (i, part) in parts.iter().enumerate() {
+        let last = i + 1 == parts.len();
+        let (text, nth) = match numbered(part, '{', '}') {
+            Some((text, nth)) if !(last && index.is_some()) => (text, Some(nth)),
+            _ => (*part, index.filter(|_| last)),
+        };
+        open.push(component(text));
+        if last || nth.is_some() {
+            groups.push((std::mem::take(&mut open), nth.unwrap_or(0)));
+        }
+    }
+    groups
+}
+
+fn component(text: &str) -> Component {
+    match numbered(text, '[', ']') {
+        Some((pattern, sibling)) => Component { pattern: pattern.into(), sibling: Some(sibling) },
+        None => Component { pattern: text.into(), sibling: None },
+    }
+}
+
+/// Splits `text(number)`.
+fn numbered(text: &str, open: char, close: char) -> Option<(&str, usize)> {
+    let (text, number) = text.strip_suffix(close)?.rsplit_once(open)?;
+    Some((text, number.parse().ok()?))
+}
+
+fn joined(parts: &[String]) -> String {
+    parts.iter().rev().flat_map(|part| ["/", part]).collect()
+}
+
+/// Whether all of `text` fits `pattern`, in which `*` is any run of characters and `?` is one.
+fn wildcard_match(pattern: &[u8], text: &[u8]) -> bool {
+    let (mut p, mut t) = (0, 0);
+    // Behind the last star, and where its run ends for now.
+    let mut retry: Option<(usize, usize)> = None;
+    while t < text.len() {
+        match pattern.get(p) {
+            Some(b'*') => {
+                retry = Some((p + 1, t));
+                p += 1;
+            }
+            Some(&c) if c == b'?' || c == text[t] => (p, t) = (p + 1, t + 1),
+            _ => match &mut retry {
+                Some((after, end)) => {
+                    *end += 1;
+                    (p, t) = (*after, *end);
+                }
+                None => return false,
+            },
+        }
+    }
+    pattern[p..].iter().all(|&c| c == b'*')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Kind;
+    use crate::scene::dummy::Dummy;
+
+    fn dummy(scene: &mut Scene, alias: &str, parent: Option<Handle>) -> Handle {
+        let handle = scene.add(alias, Kind::Dummy(Dummy::new(0.01))).unwrap();
+        scene.set_parent(handle, parent, true).unwrap();
+        handle
+    }
+
+    #[test]
+    fn wildcards() {
+        for (pattern, text) in [("a*", "a"), ("*", ""), ("a?c", "abc"), ("*b*d", "abcd"), ("a*b", "aabab")] {
+            assert!(wildcard_match(pattern.as_bytes(), text.as_bytes()), "{pattern} {text}");
+        }
+        for (pattern, text) in [("a?", "a"), ("?", ""), ("a", "ab"), ("*c", "ab")] {
+            assert!(!wildcard_match(pattern.as_bytes(), text.as_bytes()), "{pattern} {text}");
+        }
+    }
+
+    #[test]
+    fn skipping_levels() {
+        let mut scene = Scene::new();
+        let a = dummy(&mut scene, "A", None);
+        let b = dummy(&mut scene, "B", Some(a));
+        let inner = dummy(&mut scene, "C", Some(b));
+        let outer = dummy(&mut scene, "C", None);
+        assert_eq!(scene.find("/C", None, None), Ok(outer));
+        assert_eq!(scene.find("/A/C", None, None), Ok(inner));
+        assert_eq!(scene.find("/C{1}", None, None), Ok(inner));
+        assert_eq!(scene.find("/*{1}", None, None), Ok(outer));
+        assert_eq!(scene.find("/C{0}", None, Some(1)), Err(SceneError::NoSuchPath));
+        assert_eq!(scene.find("../../C", Some(b), None), Ok(outer));
+        assert_eq!(scene.short_path(inner).unwrap(), "/B/C");
+    }
+
+    #[test]
+    fn a_hopeless_pattern_ends() {
+        let mut scene = Scene::new();
+        let mut parent = None;
+        for _ in 0..200 {
+            parent = Some(dummy(&mut scene, "x", parent));
+        }
+        assert!(scene.find(&"/*".repeat(40).replace("/*/*", "/*/x"), None, None).is_ok());
+        assert!(scene.find(&format!("{}/y", "/*".repeat(40)), None, None).is_err());
+    }
+
+    #[test]
+    fn long_paths_are_printed_short() {
+        let mut scene = Scene::new();
+        let mut parent = None;
+        for _ in 0..3 {
+            parent = Some(dummy(&mut scene, "a_rather_long_alias", parent));
+        }
+        let path = scene.print_path(parent.unwrap()).unwrap();
+        assert_eq!(path, "/a_rather_long_alias/ ... /a_rather_long_alias");
+    }
+}
