@@ -138,9 +138,9 @@ impl Sim {
         self.log_line(&origin, level, text, false);
     }
 
-    /// Logs in the simulator's own name.
+    /// Logs in the name of the simulator itself: the one it has in the logs that existing tools read.
     pub(crate) fn log(&self, level: i64, text: &str) {
-        self.log_line("Swanilda", level, text, false);
+        self.log_line("CoppeliaSim", level, text, false);
     }
 
     /// What the simulator tells about itself in the sandbox's name, as the original does.
