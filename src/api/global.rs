@@ -116,11 +116,10 @@ fn set_yield_allowed(cx: &mut Cx, allow: LevelChange) -> Result<i64> {
 
 /// Whether this script may yield now.
 ///
-/// @return allowed, level
+/// @return allowed
 #[api("getYieldAllowed")]
-fn get_yield_allowed(cx: &Cx) -> Result<(bool, i64)> {
-    let level = cx.env().yields.overall.get();
-    Ok((level == 0, level))
+fn get_yield_allowed(cx: &Cx) -> Result<bool> {
+    Ok(cx.env().yields.overall.get() == 0)
 }
 
 /// Writes a line to the log in the name of this script.

@@ -29,7 +29,7 @@ impl Sim {
             return Err(ApiError::CallFailed);
         }
         let results = {
-            let level = Level::enter(self, &runtime.env);
+            let level = Level::enter_from_script(self, &runtime.env);
             if level.too_deep {
                 return Err(ApiError::TooDeep(MAX_DEPTH));
             }
@@ -52,7 +52,7 @@ impl Sim {
     /// Runs a string in a script: as an expression if it is one, else as a chunk. The script is not marked when it fails.
     pub(crate) fn execute_string(self: &Rc<Self>, script: &Rc<Script>, code: &[u8]) -> ApiResult<Vec<Data>> {
         let runtime = script.current_runtime().ok_or(ApiError::Scene(crate::scene::SceneError::OperationFailed))?;
-        let level = Level::enter(self, &runtime.env);
+        let level = Level::enter_from_script(self, &runtime.env);
         if level.too_deep {
             return Err(ApiError::TooDeep(MAX_DEPTH));
         }

@@ -355,7 +355,16 @@ pub(crate) struct Level<'a> {
 }
 
 impl<'a> Level<'a> {
-    /// The outermost call begins a time slice and forgets locks; inner calls cannot yield.
+    /// A call that another script makes: nothing in it can yield.
+    pub(crate) fn enter_from_script(sim: &'a Sim, env: &'a Env) -> Self {
+        let level = Self::enter(sim, env);
+        if env.depth.get() == 1 {
+            env.yields.overall.set(1);
+        }
+        level
+    }
+
+    /// A call the host makes. The outermost one begins a time slice and forgets locks; inner ones cannot yield.
     pub(crate) fn enter(sim: &'a Sim, env: &'a Env) -> Self {
         let too_deep = sim.depth.get() >= MAX_DEPTH;
         sim.depth.set(sim.depth.get() + 1);
