@@ -141,6 +141,13 @@ impl Simulator {
         self.sim.loop_pass();
     }
 
+    /// Removes every object.
+    pub fn clear_scene(&mut self) {
+        let all: Vec<Handle> = self.scene().objects().map(crate::scene::Object::handle).collect();
+        // The handles were just read, so none is unknown or given twice.
+        let _ = self.sim.remove_objects(&all);
+    }
+
     /// Starts if necessary and runs `count` simulation steps, fewer when a script ends the run.
     pub fn step(&mut self, count: u64) {
         if self.state() == SimulationState::Stopped {

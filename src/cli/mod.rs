@@ -1,11 +1,23 @@
-//! The command line.
+//! The command line: one file per subcommand.
+//!
+//! This is the outermost layer, the one that may look at clocks, terminals and signals.
+#![allow(clippy::disallowed_methods, reason = "the outside world is this layer's business")]
 
+mod interrupt;
 mod output;
+mod progress;
 mod run;
+mod session;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
+
+/// Exit code for a wrong command line or a file that cannot be read or written; clap uses the same.
+const USAGE: u8 = 2;
+/// Exit code for a failure of the simulator itself (`EX_SOFTWARE`).
+const INTERNAL: u8 = 70;
 
 /// Runs CoppeliaSim's Lua scripts and scenes without a display.
 #[derive(Parser)]
@@ -18,17 +30,37 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(run::Args),
+    /// Print a completion script for a shell
+    Completions {
+        shell: Shell,
+    },
 }
 
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
     // Scripts may recurse deeply, within Lua and across scripts.
     let thread = std::thread::Builder::new().name("simulator".into()).stack_size(crate::Simulator::STACK_SIZE);
-    let outcome = thread.spawn(|| match Cli::parse().command {
-        Command::Run(args) => run::run(&args),
-    });
+    let outcome = thread.spawn(|| Cli::parse().command.execute());
     match outcome.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,
-        _ => ExitCode::from(70),
+        _ => ExitCode::from(INTERNAL),
     }
+}
+
+impl Command {
+    fn execute(self) -> ExitCode {
+        match self {
+            Self::Run(args) => run::run(&args),
+            Self::Completions { shell } => {
+                clap_complete::generate(shell, &mut Cli::command(), "swanilda", &mut std::io::stdout());
+                ExitCode::SUCCESS
+            }
+        }
+    }
+}
+
+/// Says what is wrong with the request; the exit code for it.
+fn refuse(reason: &str) -> ExitCode {
+    eprintln!("swanilda: {reason}");
+    ExitCode::from(USAGE)
 }

@@ -1,26 +1,96 @@
-//! What a simulator says on a terminal: prints to stdout, the log to stderr.
+//! What a run says: prints to stdout, the log to stderr; or everything as JSON lines on stdout.
 
 use std::io::Write;
+use std::time::Duration;
 
+use indicatif::ProgressBar;
+use serde_json::{Value, json};
+
+use crate::script::verbosity;
 use crate::{Console, LogLine};
 
-/// Plain text.
-pub(super) struct Text {
-    /// Leave out what the simulator says about itself.
-    pub quiet: bool,
+/// How lines are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Format {
+    Text,
+    /// One object per line, told apart by its `type`.
+    Json,
 }
 
-impl Console for Text {
+/// Writes the lines of a simulator and the command line's own.
+#[derive(Clone)]
+pub(super) struct Output {
+    format: Format,
+    /// Leave out what the simulator says about itself.
+    quiet: bool,
+    /// Stands on the terminal between lines.
+    bar: ProgressBar,
+}
+
+impl Output {
+    pub(super) fn new(format: Format, quiet: bool, bar: ProgressBar) -> Self {
+        Self { format, quiet, bar }
+    }
+
+    /// A word of the command line itself.
+    pub(super) fn note(&self, text: &str, time: f64) {
+        self.write_log(&LogLine { origin: "Swanilda", level: verbosity::SCRIPT_INFOS, text, time, chatter: true });
+    }
+
+    /// The last line: what the run did and how long it took.
+    pub(super) fn summary(&self, steps: u64, time: f64, wall: Duration, errors: u64, exit_code: u8) {
+        if self.quiet {
+            return;
+        }
+        let wall = wall.as_secs_f64();
+        let ratio = time / wall.max(1e-9);
+        match self.format {
+            Format::Text => eprintln!(
+                "{steps} steps, {time:.3} s simulated in {wall:.3} s of wall time ({ratio:.1} times as fast){}",
+                if errors > 0 { format!(", {errors} script errors") } else { String::new() }
+            ),
+            Format::Json => write_json(&json!({
+                "type": "summary", "steps": steps, "time": time, "wallTime": wall, "ratio": ratio, "errors": errors,
+                "exitCode": exit_code,
+            })),
+        }
+    }
+
+    fn write_log(&self, line: &LogLine<'_>) {
+        if self.quiet && line.chatter {
+            return;
+        }
+        match self.format {
+            Format::Text => self.bar.suspend(|| {
+                let _ = writeln!(std::io::stderr().lock(), "{}", line.decorated());
+            }),
+            Format::Json => write_json(&json!({
+                "type": "log", "level": verbosity::word(line.level), "origin": line.origin, "text": line.text,
+                "time": line.time,
+            })),
+        }
+    }
+}
+
+impl Console for Output {
     fn print(&mut self, line: &[u8]) {
-        let mut out = std::io::stdout().lock();
-        // A closed pipe is no reason to stop a simulation.
-        let _ = out.write_all(line).and_then(|()| out.write_all(b"\n"));
+        match self.format {
+            Format::Text => self.bar.suspend(|| write_stdout(line)),
+            Format::Json => write_json(&json!({"type": "print", "text": String::from_utf8_lossy(line)})),
+        }
     }
 
     fn log(&mut self, line: &LogLine<'_>) {
-        if !(self.quiet && line.chatter) {
-            let _ = std::io::stdout().flush();
-            let _ = writeln!(std::io::stderr().lock(), "{}", line.decorated());
-        }
+        self.write_log(line);
     }
+}
+
+fn write_json(value: &Value) {
+    write_stdout(value.to_string().as_bytes());
+}
+
+/// Writes a line. A closed pipe is no reason to stop a simulation.
+fn write_stdout(line: &[u8]) {
+    let mut out = std::io::stdout().lock();
+    let _ = out.write_all(line).and_then(|()| out.write_all(b"\n")).and_then(|()| out.flush());
 }

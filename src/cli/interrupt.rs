@@ -1,0 +1,31 @@
+//! Ctrl-c: the first one asks for a clean end, the second one ends at once.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether the user wants the program to end.
+pub(super) struct Interrupt {
+    requested: Arc<AtomicBool>,
+}
+
+impl Interrupt {
+    /// Listens from now on; `code` is the exit code of an end at once.
+    pub(super) fn install(code: u8) -> Self {
+        let requested = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&requested);
+        let listening = ctrlc::set_handler(move || {
+            if flag.swap(true, Ordering::Relaxed) {
+                std::process::exit(i32::from(code));
+            }
+        });
+        if let Err(error) = listening {
+            // Then ctrl-c does what the system does by default.
+            eprintln!("swanilda: cannot listen for ctrl-c: {error}");
+        }
+        Self { requested }
+    }
+
+    pub(super) fn is_requested(&self) -> bool {
+        self.requested.load(Ordering::Relaxed)
+    }
+}
