@@ -47,7 +47,11 @@ impl Output {
         match self.format {
             Format::Text => eprintln!(
                 "{steps} steps, {time:.3} s simulated in {wall:.3} s of wall time ({ratio:.1} times as fast){}",
-                if errors > 0 { format!(", {errors} script errors") } else { String::new() }
+                match errors {
+                    0 => String::new(),
+                    1 => ", 1 script error".to_owned(),
+                    _ => format!(", {errors} script errors"),
+                }
             ),
             Format::Json => write_json(&json!({
                 "type": "summary", "steps": steps, "time": time, "wallTime": wall, "ratio": ratio, "errors": errors,

@@ -131,7 +131,9 @@ impl Scene {
     /// When `base` does not exist.
     pub fn tree(&self, base: Option<Handle>, shallow: bool) -> SceneResult<Vec<Handle>> {
         Ok(match base {
-            Some(base) if shallow => std::iter::once(base).chain(self.object(base)?.children().iter().copied()).collect(),
+            Some(base) if shallow => {
+                std::iter::once(base).chain(self.object(base)?.children().iter().copied()).collect()
+            }
             Some(base) => {
                 self.object(base)?;
                 self.subtree(base)
