@@ -5,6 +5,8 @@ use std::marker::PhantomData;
 
 use mlua_sys as ffi;
 
+use super::state::MAX_BLOCK;
+
 /// "All results", for [`Stack::protected_call`].
 pub(crate) const MULTIPLE: c_int = ffi::LUA_MULTRET;
 
@@ -14,6 +16,9 @@ pub(crate) struct Stack<'a> {
     raw: *mut ffi::lua_State,
     _state: PhantomData<&'a ()>,
 }
+
+/// Size hints beyond this are not worth their memory: tables grow by themselves.
+const MAX_HINT: usize = 1 << 16;
 
 /// The type of a Lua value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -213,7 +218,9 @@ impl<'a> Stack<'a> {
         unsafe { ffi::lua_pushnumber(self.raw, value) }
     }
 
+    /// Pushes a string; one that is too long for Lua's allocator is cut.
     pub(crate) fn push_bytes(self, bytes: &[u8]) {
+        let bytes = &bytes[..bytes.len().min(MAX_BLOCK / 2)];
         unsafe { ffi::lua_pushlstring(self.raw, bytes.as_ptr().cast(), bytes.len()) };
     }
 
@@ -227,7 +234,7 @@ impl<'a> Stack<'a> {
     }
 
     pub(crate) fn new_table(self, array: usize, fields: usize) {
-        let hint = |n: usize| c_int::try_from(n).unwrap_or(c_int::MAX);
+        let hint = |n: usize| n.min(MAX_HINT) as c_int;
         unsafe { ffi::lua_createtable(self.raw, hint(array), hint(fields)) }
     }
 

@@ -19,7 +19,7 @@ pub(crate) struct State {
 impl State {
     /// A new state. `owner` can be had back from every coroutine of the state through [`Stack::owner`]; it must outlive the state.
     pub(crate) fn new(owner: *const Env) -> Self {
-        // SAFETY: `allocate` never returns null for a non-zero size, so creation succeeds and later pushes do not raise.
+        // SAFETY: `allocate` never returns null for the sizes asked for here and by pushes, so neither fails.
         // The extra space of a main thread is copied into each of its coroutines.
         unsafe {
             let raw = ffi::lua_newstate(allocate, std::ptr::null_mut());
@@ -44,6 +44,10 @@ impl Drop for State {
     }
 }
 
+/// The largest block a state may ask for. Beyond it Lua raises `not enough memory`, which only Lua code can bring about: what Rust
+/// pushes is smaller (see `Stack::push_bytes` and `Stack::new_table`).
+pub(super) const MAX_BLOCK: usize = 1 << 30;
+
 /// Lua's allocator on top of libc's. Out of memory ends the process, as it does everywhere in Rust.
 unsafe extern "C" fn allocate(_: *mut c_void, old: *mut c_void, _: usize, size: usize) -> *mut c_void {
     unsafe extern "C" {
@@ -54,6 +58,9 @@ unsafe extern "C" fn allocate(_: *mut c_void, old: *mut c_void, _: usize, size: 
     unsafe {
         if size == 0 {
             free(old);
+            return std::ptr::null_mut();
+        }
+        if size > MAX_BLOCK {
             return std::ptr::null_mut();
         }
         let block = realloc(old, size);
