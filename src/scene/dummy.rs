@@ -1,6 +1,6 @@
 //! Dummies: frames, and the ends of loop closures.
 
-use super::Handle;
+use super::{Field, Handle, Scene, SceneResult};
 
 /// What the link of two dummies means (`sim.dummytype_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,5 +24,59 @@ pub struct Dummy {
 impl Dummy {
     pub fn new(size: f64) -> Self {
         Self { size, link: None, link_type: LinkType::Default, colour: [0.0; 3] }
+    }
+}
+
+impl LinkType {
+    /// The type with a script's number, if there is one.
+    pub fn from_code(code: i64) -> Option<Self> {
+        [Self::LoopClosure, Self::Tendon, Self::Default, Self::Assembly].into_iter().find(|t| *t as i64 == code)
+    }
+
+    fn is_dynamic(self) -> bool {
+        matches!(self, Self::LoopClosure | Self::Tendon)
+    }
+}
+
+impl Scene {
+    /// Links a dummy with `partner` (None: nobody), who takes its type when that is one of the dynamic ones. Former partners of both
+    /// are released. A dummy cannot be its own partner: nothing happens then.
+    pub fn link_dummies(&mut self, handle: Handle, partner: Option<Handle>) -> SceneResult<()> {
+        let link_type = self.object(handle)?.dummy()?.link_type;
+        if let Some(partner) = partner {
+            self.object(partner)?.dummy()?;
+        }
+        if partner == Some(handle) {
+            return Ok(());
+        }
+        self.release_link(handle)?;
+        let Some(partner) = partner else { return Ok(()) };
+        self.release_link(partner)?;
+        self.modify_dummy(handle, |dummy| dummy.link = Some(partner))?;
+        self.modify_dummy(partner, |dummy| {
+            dummy.link = Some(handle);
+            if link_type.is_dynamic() {
+                dummy.link_type = link_type;
+            }
+        })
+    }
+
+    fn release_link(&mut self, handle: Handle) -> SceneResult<()> {
+        let Some(partner) = self.object(handle)?.dummy()?.link else { return Ok(()) };
+        self.modify_dummy(handle, |dummy| dummy.link = None)?;
+        self.modify_dummy(partner, |dummy| dummy.link = None)
+    }
+
+    /// Changes what the link of a dummy means; a partner follows.
+    pub fn set_link_type(&mut self, handle: Handle, link_type: LinkType) -> SceneResult<()> {
+        let partner = self.object(handle)?.dummy()?.link;
+        for dummy in std::iter::once(handle).chain(partner) {
+            self.modify_dummy(dummy, |dummy| dummy.link_type = link_type)?;
+        }
+        Ok(())
+    }
+
+    fn modify_dummy<R>(&mut self, handle: Handle, change: impl FnOnce(&mut Dummy) -> R) -> SceneResult<R> {
+        self.try_modify(handle, Field::Dynamics, |object| object.dummy_mut().map(change))
     }
 }

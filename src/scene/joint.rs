@@ -97,7 +97,7 @@ impl Joint {
         let (min, range, force, limits) = match joint_type {
             JointType::Revolute => (-PI, TAU, 2.5, TAU),
             JointType::Prismatic => (-0.5, 1.0, 50.0, 1.0),
-            JointType::Spherical => (0.0, PI, 0.0, 1.0),
+            JointType::Spherical => (0.0, PI, 0.0, TAU),
         };
         Self {
             joint_type,

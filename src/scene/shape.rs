@@ -7,6 +7,9 @@ use super::mass::MassProperties;
 use super::mesh::{BoundingBox, Mesh};
 use super::primitive::PrimitiveKind;
 
+/// Frictions of the presets that hold things, in the order of [`Material::of_frictions`].
+const GRIP: [f64; 5] = [1.0, 0.5, 1.0, 1.0, 1.0];
+
 /// A shape: one or several meshes that move as one body.
 #[derive(Debug, Clone)]
 pub struct Shape {
@@ -91,20 +94,60 @@ impl Default for ShapeDynamics {
     }
 }
 
-/// Surface properties. Only those the physics here uses have fields; scripts may set any engine
-/// parameter, and reads it back, through [`Scene::engine_params`](super::Scene).
+/// Surface properties. Only those the physics here uses, and those presets differ in, have fields; scripts may set any engine
+/// parameter, and read it back, through [`Scene::engine_params`](super::Scene).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
+    /// What the physics here uses; Bullet 2.78's ("old") friction.
     pub friction: f64,
     pub restitution: f64,
     pub linear_damping: f64,
     pub angular_damping: f64,
+    pub other_engines: OtherFrictions,
+}
+
+/// What other physics engines would use for friction. Kept for scripts only.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OtherFrictions {
+    pub bullet_new: f64,
+    pub ode: f64,
+    pub newton_static: f64,
+    pub newton_kinetic: f64,
+}
+
+impl Material {
+    /// Number of the first preset, `sim.dynmat_default`.
+    pub const FIRST_PRESET: i64 = 2_310_013;
+
+    /// A material with the frictions of Bullet 2.78, Bullet 2.83, ODE, and Newton's static and kinetic one.
+    const fn of_frictions([old, bullet_new, ode, newton_static, newton_kinetic]: [f64; 5]) -> Self {
+        let other_engines = OtherFrictions { bullet_new, ode, newton_static, newton_kinetic };
+        Self { friction: old, restitution: 0.0, linear_damping: 0.0, angular_damping: 0.0, other_engines }
+    }
+
+    /// The preset with that number (`sim.dynmat_*`), if there is one; values of SPEC-dynamics section 5.
+    pub fn preset(id: i64) -> Option<Self> {
+        Some(Self::of_frictions(match id - Self::FIRST_PRESET {
+            0 => [0.71, 0.71, 0.71, 0.5, 0.5],
+            1 => [1.0, 1.0, 1.0, 2.0, 2.0],
+            2 => [0.41, 0.2, 0.41, 0.17, 0.17],
+            3 => [0.0; 5],
+            4 | 5 | 7 => GRIP,
+            6 | 8 => [1.0; 5],
+            _ => return None,
+        }))
+    }
+
+    /// The material of new primitives.
+    pub fn rest_stack_grasp() -> Self {
+        Self::of_frictions(GRIP)
+    }
 }
 
 impl Default for Material {
     /// The material of a mesh.
     fn default() -> Self {
-        Self { friction: 0.71, restitution: 0.0, linear_damping: 0.0, angular_damping: 0.0 }
+        Self::of_frictions([0.71, 0.71, 0.71, 0.5, 0.5])
     }
 }
 

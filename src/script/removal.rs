@@ -6,9 +6,19 @@ use super::callback::SysCall;
 use super::error::ApiResult;
 use super::sim::Sim;
 use super::{script::state, verbosity};
-use crate::scene::{Data, Handle, Key, SceneError};
+use crate::scene::{Data, Handle, Key, Kind, SceneError};
 
 impl Sim {
+    /// Adds an object and tells everyone.
+    ///
+    /// # Errors
+    /// When the scene is full.
+    pub(crate) fn add_object(self: &Rc<Self>, alias: &str, kind: Kind) -> ApiResult<Handle> {
+        let handle = self.scene.borrow_mut().add(alias, kind)?;
+        self.announce_created(&[handle]);
+        Ok(handle)
+    }
+
     /// Tells everyone about new objects.
     pub(crate) fn announce_created(self: &Rc<Self>, handles: &[Handle]) {
         let list: Vec<i64> = handles.iter().map(|h| h.raw()).collect();

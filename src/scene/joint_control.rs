@@ -1,0 +1,297 @@
+//! What scripts do to joints: mode, interval, position, targets, ways of control (SPEC-joints sections 4 to 7).
+//!
+//! Motions are started and ended here; stepping them is `joint_motion`, following a master `joint_dependency`.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::joint::{Control, Joint, JointMode, JointType, Motion};
+use super::{Field, Handle, Scene, SceneError, SceneResult};
+
+/// Farthest lower limits: rad of revolute, m of prismatic joints.
+const MIN_BOUNDS: (f64, f64) = (1e5, 1e3);
+/// Widest intervals: rad (1e7 degrees) and m.
+const RANGE_BOUNDS: (f64, f64) = (1e7 * PI / 180.0, 1e3);
+/// Narrowest interval of a revolute joint: 0.001 degrees, rad.
+const SMALLEST_TURN: f64 = 0.001 * PI / 180.0;
+/// Velocity that makes force and spring control limited by the force alone.
+const UNREACHABLE_VELOCITY: f64 = 1000.0;
+/// Largest screw lead, m per turn.
+const MAX_SCREW_LEAD: f64 = 20.0 * PI;
+
+/// `angle` within -pi to pi; both ends are kept.
+pub fn wrap_angle(angle: f64) -> f64 {
+    if angle.abs() <= PI { angle } else { angle - TAU * ((angle + PI) / TAU).floor() }
+}
+
+impl JointType {
+    /// The type with a script's number, if there is one.
+    pub fn from_code(code: i64) -> Option<Self> {
+        [Self::Revolute, Self::Prismatic, Self::Spherical].into_iter().find(|t| *t as i64 == code)
+    }
+
+    /// Alias of a new joint.
+    pub fn alias(self) -> &'static str {
+        match self {
+            Self::Revolute => "Revolute_joint",
+            Self::Prismatic => "Prismatic_joint",
+            Self::Spherical => "Spherical_joint",
+        }
+    }
+}
+
+impl JointMode {
+    /// The mode with a script's number; the modes of old releases that moved joints for inverse kinematics are kinematic now.
+    pub fn from_code(code: i64) -> Option<Self> {
+        match code {
+            0 | 2 | 3 => Some(Self::Kinematic),
+            4 => Some(Self::Dependent),
+            5 => Some(Self::Dynamic),
+            _ => None,
+        }
+    }
+}
+
+impl Control {
+    /// The way of control with a script's number, if there is one.
+    pub fn from_code(code: i64) -> Option<Self> {
+        use Control::*;
+        [Free, Force, Velocity, Position, Spring, Callback].into_iter().find(|c| *c as i64 == code)
+    }
+}
+
+impl Joint {
+    /// The position the joint takes when asked for `position`: wrapped when cyclic, else within the interval.
+    pub fn limited(&self, position: f64) -> f64 {
+        if self.cyclic { wrap_angle(position) } else { position.max(self.min).min(self.min + self.range) }
+    }
+
+    /// From the present to `target`, the shortest way for cyclic joints.
+    pub fn error_to(&self, target: f64) -> f64 {
+        let difference = target - self.position;
+        if self.cyclic { wrap_angle(difference) } else { difference }
+    }
+
+    /// Upper end of the interval.
+    pub fn max(&self) -> f64 {
+        self.min + self.range
+    }
+
+    /// Fails for spherical joints, which have no position along one axis.
+    ///
+    /// # Errors
+    /// [`SceneError::SphericalJoint`].
+    pub fn single_axis(&self) -> SceneResult<()> {
+        if self.joint_type == JointType::Spherical { Err(SceneError::SphericalJoint) } else { Ok(()) }
+    }
+
+    /// Sets the interval. Becoming cyclic, a revolute joint loses its screw lead.
+    pub fn set_interval(&mut self, cyclic: bool, min: f64, range: f64) {
+        let revolute = self.is_revolute();
+        let pick = |(turn, length): (f64, f64)| if revolute { turn } else { length };
+        let narrowest = if revolute { SMALLEST_TURN } else { 0.0 };
+        if cyclic && revolute {
+            self.screw_lead = 0.0;
+        }
+        self.cyclic = cyclic;
+        self.min = min.clamp(-pick(MIN_BOUNDS), pick(MIN_BOUNDS));
+        self.range = range.clamp(narrowest, pick(RANGE_BOUNDS));
+    }
+
+    /// Sets the screw lead (m per turn); refused silently where it means nothing.
+    pub fn set_screw_lead(&mut self, lead: f64) {
+        if self.is_revolute() && !self.cyclic && self.mode != JointMode::Dynamic {
+            self.screw_lead = lead.clamp(-MAX_SCREW_LEAD, MAX_SCREW_LEAD);
+        }
+    }
+
+    /// Changes the mode with its consequences. Spherical joints cannot be dependent.
+    pub fn set_mode(&mut self, mode: JointMode) {
+        if mode == JointMode::Dependent && self.joint_type == JointType::Spherical {
+            return;
+        }
+        self.mode = mode;
+        self.motion = None;
+        self.error = None;
+        self.target_position = self.position;
+        match mode {
+            JointMode::Dependent => self.control = Control::Free,
+            JointMode::Kinematic => self.dependency = None,
+            JointMode::Dynamic => {
+                self.dependency = None;
+                self.free_force_of_velocity();
+            }
+        }
+    }
+
+    /// Changes the way of control and the target velocity that goes with it.
+    pub fn set_control(&mut self, control: Control) {
+        self.control = control;
+        if control == Control::Velocity {
+            self.target_velocity = if self.is_revolute() { FRAC_PI_2 } else { 0.1 };
+        }
+        self.free_force_of_velocity();
+    }
+
+    fn free_force_of_velocity(&mut self) {
+        if matches!(self.control, Control::Force | Control::Spring) {
+            self.target_velocity = UNREACHABLE_VELOCITY;
+        }
+    }
+
+    /// Sets the target velocity; the force takes its sign.
+    pub fn set_target_velocity(&mut self, velocity: f64) {
+        self.target_velocity = velocity;
+        if velocity * self.target_force < 0.0 {
+            self.target_force = -self.target_force;
+        }
+    }
+
+    /// Sets the target force (N, N m). Signed: a target velocity takes its sign. Otherwise negative ones count as 0, and the force
+    /// takes the sign of the target velocity.
+    pub fn set_target_force(&mut self, force: f64, signed: bool) {
+        if self.joint_type == JointType::Spherical {
+            return;
+        }
+        if signed {
+            self.target_force = force;
+            if force * self.target_velocity < 0.0 {
+                self.target_velocity = -self.target_velocity;
+            }
+        } else {
+            self.target_force = force.max(0.0) * if self.target_velocity < 0.0 { -1.0 } else { 1.0 };
+        }
+    }
+
+    /// Puts the first of velocity, acceleration and jerk limits in place; a shorter list leaves the others.
+    pub fn set_limits(&mut self, limits: &[f64]) {
+        let fields = [&mut self.max_vel, &mut self.max_accel, &mut self.max_jerk];
+        fields.into_iter().zip(limits).for_each(|(field, limit)| *field = *limit);
+    }
+
+    /// Starts or redirects a kinematic motion, keeping the velocity of one in progress.
+    fn start(&mut self, motion: Motion) {
+        if self.mode == JointMode::Kinematic {
+            if self.motion.is_none() {
+                (self.velocity, self.accel) = (0.0, 0.0);
+            }
+            self.motion = Some(motion);
+        } else {
+            self.motion = None;
+        }
+    }
+}
+
+impl Scene {
+    /// Sets the position of a joint (rad, m) as scripts do: limited, unless it has a master. Tells whether it was set: a joint that
+    /// is moving towards a target is left alone.
+    ///
+    /// # Errors
+    /// For spherical joints and positions that are no number.
+    pub fn set_joint_position(&mut self, handle: Handle, position: f64) -> SceneResult<bool> {
+        let joint = self.object(handle)?.joint()?;
+        joint.single_axis()?;
+        finite(&[position])?;
+        if joint.motion.is_some() {
+            return Ok(false);
+        }
+        let position = if joint.dependency.is_some() { position } else { joint.limited(position) };
+        self.move_joint(handle, position)?;
+        Ok(true)
+    }
+
+    /// Sets the mode of a joint.
+    pub fn set_joint_mode(&mut self, handle: Handle, mode: JointMode) -> SceneResult<()> {
+        self.modify_joint(handle, |joint| joint.set_mode(mode))
+    }
+
+    /// Sets whether a joint is cyclic, and its lower limit and range; the position follows.
+    pub fn set_joint_interval(&mut self, handle: Handle, cyclic: bool, [min, range]: [f64; 2]) -> SceneResult<()> {
+        finite(&[min, range])?;
+        self.modify_joint(handle, |joint| joint.set_interval(cyclic, min, range))?;
+        let joint = self.object(handle)?.joint()?;
+        if joint.joint_type == JointType::Spherical || joint.dependency.is_some() {
+            return Ok(());
+        }
+        let position = joint.limited(joint.position);
+        self.move_joint(handle, position)
+    }
+
+    /// Sets the target position (rad, m) and the first of the velocity, acceleration and jerk limits.
+    ///
+    /// # Errors
+    /// For spherical joints and targets that are no number.
+    pub fn set_joint_target_position(&mut self, handle: Handle, target: f64, limits: &[f64]) -> SceneResult<()> {
+        self.object(handle)?.joint()?.single_axis()?;
+        finite(&[target])?;
+        finite(limits)?;
+        self.modify_joint(handle, |joint| {
+            joint.set_limits(limits);
+            joint.target_position = if joint.cyclic { wrap_angle(target) } else { target };
+            joint.start(Motion::ToPosition);
+        })
+    }
+
+    /// Sets the target velocity (rad/s, m/s), the first of the acceleration and jerk limits, and the velocity to start from.
+    ///
+    /// # Errors
+    /// For spherical joints and targets that are no number.
+    pub fn set_joint_target_velocity(
+        &mut self,
+        handle: Handle,
+        target: f64,
+        limits: &[f64],
+        initial: Option<f64>,
+    ) -> SceneResult<()> {
+        self.object(handle)?.joint()?.single_axis()?;
+        finite(&[target, initial.unwrap_or(0.0)])?;
+        finite(limits)?;
+        self.modify_joint(handle, |joint| {
+            let fields = [&mut joint.max_accel, &mut joint.max_jerk];
+            fields.into_iter().zip(limits).for_each(|(field, limit)| *field = *limit);
+            joint.set_target_velocity(target);
+            joint.start(Motion::AtVelocity { initial });
+        })
+    }
+
+    /// Changes parameters of a joint.
+    pub fn modify_joint<R>(&mut self, handle: Handle, change: impl FnOnce(&mut Joint) -> R) -> SceneResult<R> {
+        self.try_modify(handle, Field::Joint, |object| object.joint_mut().map(change))
+    }
+}
+
+/// Fails unless all `numbers` are numbers.
+fn finite(numbers: &[f64]) -> SceneResult<()> {
+    if numbers.iter().all(|n| n.is_finite()) { Ok(()) } else { Err(SceneError::InvalidData) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ends_of_a_turn_are_kept() {
+        assert_eq!((wrap_angle(PI), wrap_angle(-PI)), (PI, -PI));
+        assert!((wrap_angle(4.0) - (4.0 - TAU)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn force_and_velocity_keep_the_same_sign() {
+        let mut joint = Joint::new(JointType::Revolute, JointMode::Dynamic);
+        joint.set_target_velocity(1.0);
+        joint.set_target_force(-5.0, true);
+        assert_eq!((joint.target_velocity, joint.target_force), (-1.0, -5.0));
+        joint.set_target_force(4.0, false);
+        assert_eq!(joint.target_force, -4.0);
+    }
+
+    #[test]
+    fn a_moving_joint_cannot_be_set() {
+        let mut scene = Scene::new();
+        let kind = crate::scene::Kind::Joint(Box::new(Joint::new(JointType::Prismatic, JointMode::Kinematic)));
+        let handle = scene.add("j", kind).unwrap();
+        assert_eq!(scene.set_joint_position(handle, 0.7), Ok(true));
+        assert_eq!(scene.object(handle).unwrap().joint().unwrap().position, 0.5);
+        scene.set_joint_target_position(handle, 0.1, &[]).unwrap();
+        assert_eq!(scene.set_joint_position(handle, 0.0), Ok(false));
+    }
+}

@@ -1,0 +1,134 @@
+//! Joints that follow other joints: q = offset + coefficient * q of the master (SPEC-joints section 5).
+
+use super::joint::{Dependency, JointMode, JointType};
+use super::{Field, Handle, Scene, SceneResult};
+
+/// Largest offset and coefficient.
+const BOUND: f64 = 1e4;
+
+impl Scene {
+    /// Makes `handle` follow `master` (None: nobody). Spherical joints take no part: nothing happens then. A joint that would close
+    /// a circle loses its own master.
+    pub fn set_joint_dependency(
+        &mut self,
+        handle: Handle,
+        master: Option<Handle>,
+        offset: f64,
+        coefficient: f64,
+    ) -> SceneResult<()> {
+        let spherical = |h: Handle| self.object(h)?.joint().map(|j| j.joint_type == JointType::Spherical);
+        if spherical(handle)? || master.map_or(Ok(false), spherical)? || master == Some(handle) {
+            return Ok(());
+        }
+        if let Some(master) = master {
+            self.break_circle(handle, master)?;
+        }
+        let limited = |value: f64| if value.is_nan() { 0.0 } else { value.clamp(-BOUND, BOUND) };
+        let (offset, coefficient) = (limited(offset), limited(coefficient));
+        let dependency = master.map(|master| Dependency { master, offset, coefficient });
+        self.modify_joint(handle, |joint| joint.dependency = dependency)?;
+        self.follow_master(handle)
+    }
+
+    /// Frees the joint through which `master` follows `handle`.
+    fn break_circle(&mut self, handle: Handle, master: Handle) -> SceneResult<()> {
+        let mut follower = master;
+        while let Some(dependency) = self.object(follower)?.joint()?.dependency {
+            if dependency.master == handle {
+                return self.modify_joint(follower, |joint| joint.dependency = None);
+            }
+            follower = dependency.master;
+        }
+        Ok(())
+    }
+
+    /// Puts a joint at `position` as it is (rad, m), and the joints that follow it where they belong.
+    pub fn move_joint(&mut self, handle: Handle, position: f64) -> SceneResult<()> {
+        let mut pending = vec![(handle, position)];
+        while let Some((handle, position)) = pending.pop() {
+            self.try_modify(handle, Field::JointPosition, |object| {
+                object.joint_mut()?.position = position;
+                Ok(())
+            })?;
+            pending.extend(self.followers(handle).map(|(follower, law)| (follower, law.position(position))));
+        }
+        Ok(())
+    }
+
+    /// Joints in dependent mode whose master is `master`.
+    fn followers(&self, master: Handle) -> impl Iterator<Item = (Handle, Dependency)> {
+        let joints = self.objects().filter_map(|object| Some((object.handle(), object.joint().ok()?)));
+        let follows = move |(handle, joint): (Handle, &super::joint::Joint)| {
+            let law = joint.dependency.filter(|law| law.master == master)?;
+            (joint.mode == JointMode::Dependent).then_some((handle, law))
+        };
+        joints.filter_map(follows)
+    }
+
+    /// Moves a dependent joint to where its master wants it.
+    fn follow_master(&mut self, handle: Handle) -> SceneResult<()> {
+        let joint = self.object(handle)?.joint()?;
+        match joint.dependency.filter(|_| joint.mode == JointMode::Dependent) {
+            Some(law) => {
+                let position = law.position(self.object(law.master)?.joint()?.position);
+                self.move_joint(handle, position)
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Velocity of a joint (rad/s, m/s): that of its master, scaled, where it has one.
+    pub fn joint_velocity(&self, handle: Handle) -> SceneResult<f64> {
+        let (mut handle, mut scale) = (handle, 1.0);
+        loop {
+            let joint = self.object(handle)?.joint()?;
+            match joint.dependency.filter(|_| joint.mode == JointMode::Dependent) {
+                Some(law) => (handle, scale) = (law.master, scale * law.coefficient),
+                None => return Ok(scale * joint.velocity),
+            }
+        }
+    }
+}
+
+impl Dependency {
+    fn position(&self, master: f64) -> f64 {
+        self.offset + self.coefficient * master
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Kind;
+    use crate::scene::joint::Joint;
+
+    fn scene_with_joints(count: usize) -> (Scene, Vec<Handle>) {
+        let mut scene = Scene::new();
+        let joint = || Kind::Joint(Box::new(Joint::new(JointType::Revolute, JointMode::Dependent)));
+        let handles = (0..count).map(|_| scene.add("j", joint()).unwrap()).collect();
+        (scene, handles)
+    }
+
+    fn position(scene: &Scene, handle: Handle) -> f64 {
+        scene.object(handle).unwrap().joint().unwrap().position
+    }
+
+    #[test]
+    fn a_chain_follows() {
+        let (mut scene, j) = scene_with_joints(3);
+        scene.set_joint_dependency(j[1], Some(j[0]), 0.1, 2.0).unwrap();
+        scene.set_joint_dependency(j[2], Some(j[1]), 0.0, -1.0).unwrap();
+        scene.set_joint_position(j[0], 0.3).unwrap();
+        assert!((position(&scene, j[2]) + 0.7).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_circle_is_opened_elsewhere() {
+        let (mut scene, j) = scene_with_joints(3);
+        scene.set_joint_dependency(j[1], Some(j[0]), 0.0, 1.0).unwrap();
+        scene.set_joint_dependency(j[2], Some(j[1]), 0.0, 1.0).unwrap();
+        scene.set_joint_dependency(j[0], Some(j[2]), 0.0, 1.0).unwrap();
+        let master = |h: Handle| scene.object(h).unwrap().joint().unwrap().dependency.map(|d| d.master);
+        assert_eq!((master(j[0]), master(j[1]), master(j[2])), (Some(j[2]), None, Some(j[1])));
+    }
+}
