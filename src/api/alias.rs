@@ -23,7 +23,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// @param options index: take another match; proxy: object to start from; noError: -1 instead of an error
 /// @return objectHandle the first match
 #[api("sim._getObject")]
-fn get_object(cx: &Cx, path: Bytes, options: Option<Table>) -> Result<i64> {
+fn get_object(cx: &Cx, path: Bytes, #[default(None)] options: Option<Table>) -> Result<i64> {
     let options = Lookup::read(options.as_ref());
     let emitter = options.emitter(cx)?;
     options.answer(cx.scene().find(&text(&path), emitter, options.index))
@@ -35,7 +35,7 @@ fn get_object(cx: &Cx, path: Bytes, options: Option<Table>) -> Result<i64> {
 /// @param options as in sim.getObject
 /// @return objectHandle the object
 #[api("sim._getObjectHandle")]
-fn get_object_handle(cx: &Cx, path: Bytes, options: Option<Table>) -> Result<i64> {
+fn get_object_handle(cx: &Cx, path: Bytes, #[default(None)] options: Option<Table>) -> Result<i64> {
     let options = Lookup::read(options.as_ref());
     let path = text(&path);
     if path.starts_with(['/', '.', ':']) {

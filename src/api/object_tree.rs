@@ -193,7 +193,7 @@ fn get_object_uid(cx: &Cx, object_handle: Handle) -> Result<i64> {
 /// @param options noError: -1 instead of an error
 /// @return objectHandle the object
 #[api("sim.getObjectFromUid")]
-fn get_object_from_uid(cx: &Cx, uid: i64, options: Option<Table>) -> Result<i64> {
+fn get_object_from_uid(cx: &Cx, uid: i64, #[default(None)] options: Option<Table>) -> Result<i64> {
     let no_error = options.is_some_and(|table| table.0.field("noError").is_some_and(Data::truthy));
     match cx.scene().by_uid(uid) {
         Some(handle) => Ok(handle.raw()),
@@ -289,7 +289,7 @@ fn meant(cx: &Cx, what: i64, handle: Option<Handle>) -> Result<Vec<Handle>> {
 /// @param what sim.handle_single, _tree, _chain or _all
 /// @param objectHandle the object meant
 #[api("sim.addObjectToSelection")]
-fn add_object_to_selection(cx: &mut Cx, what: Number, object_handle: Option<Handle>) -> Result<()> {
+fn add_object_to_selection(cx: &mut Cx, what: Number, #[default(None)] object_handle: Option<Handle>) -> Result<()> {
     let added = meant(cx, what.0, object_handle)?;
     let selection: Vec<Handle> = cx.scene().selection().iter().copied().chain(added).collect();
     cx.scene_mut().select(&selection);
@@ -301,7 +301,7 @@ fn add_object_to_selection(cx: &mut Cx, what: Number, object_handle: Option<Hand
 /// @param what sim.handle_single, _tree, _chain or _all
 /// @param objectHandle the object meant
 #[api("sim.removeObjectFromSelection")]
-fn remove_object_from_selection(cx: &mut Cx, what: Number, object_handle: Option<Handle>) -> Result<()> {
+fn remove_object_from_selection(cx: &mut Cx, what: Number, #[default(None)] object_handle: Option<Handle>) -> Result<()> {
     let removed = meant(cx, what.0, object_handle)?;
     let mut selection = cx.scene().selection().to_vec();
     selection.retain(|handle| !removed.contains(handle));

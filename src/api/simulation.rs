@@ -78,6 +78,7 @@ pub(super) fn main_script_only(cx: &Cx) -> Result<()> {
 #[api("sim.handleSimulationStart")]
 fn handle_simulation_start(cx: &mut Cx) -> Result<()> {
     main_script_only(cx)?;
+    cx.scene_mut().measure_velocities(None);
     Ok(())
 }
 
@@ -85,6 +86,9 @@ fn handle_simulation_start(cx: &mut Cx) -> Result<()> {
 #[api("sim.handleSensingStart")]
 fn handle_sensing_start(cx: &mut Cx) -> Result<()> {
     main_script_only(cx)?;
+    // No time has passed before the sensing part of the first step.
+    let dt = (cx.sim().clock.steps.get() > 0).then(|| cx.scene().settings().time_step);
+    cx.scene_mut().measure_velocities(dt);
     Ok(())
 }
 

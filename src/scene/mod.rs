@@ -40,6 +40,6 @@ pub use error::{SceneError, SceneResult};
 pub use handle::{Handle, Uid, flag, special};
 pub use object::{Kind, Measured, NOT_MODEL, Object};
 pub use pose::Pose;
-pub use poses::Frame;
+pub use poses::{Frame, Placement};
 pub use settings::{DynamicsSettings, Settings};
 pub use store::{CustomData, Scene};

@@ -1,6 +1,9 @@
 //! Where objects are: local and world poses, relative frames.
 
-use super::{Field, Handle, Pose, Scene, SceneError, SceneResult, special};
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
+
+use super::joint::JointType;
+use super::{Field, Handle, Kind, Measured, Pose, Scene, SceneError, SceneResult, pose, special};
 
 /// The frame a pose is expressed in, as scripts name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,6 +25,14 @@ impl Frame {
             _ => Handle::from_raw(raw).map(Self::Object).ok_or(SceneError::NoSuchObject),
         }
     }
+}
+
+/// The part of a pose that a script sets; the rest stays as it is in the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Placement {
+    Position(Vector3<f64>),
+    Rotation(UnitQuaternion<f64>),
+    Pose(Pose),
 }
 
 impl Scene {
@@ -96,5 +107,88 @@ impl Scene {
     /// Puts `handle` at `pose` in the world.
     pub fn set_world_pose(&mut self, handle: Handle, pose: Pose) -> SceneResult<()> {
         self.set_pose_in(handle, pose, Frame::World, false)
+    }
+
+    /// Places `handle` as a script wishes; its children move along. What the physics moves is taken out of it and put back at the
+    /// new place, so that it loses its velocity.
+    pub fn place(&mut self, handle: Handle, placement: Placement, frame: Frame, joint_base: bool) -> SceneResult<()> {
+        let local = self.local_pose_of(handle, placement, frame, joint_base)?;
+        self.set_local_pose(handle, local)?;
+        if self.object(handle)?.dynamic_flag > 1 {
+            self.reset_dynamics_below(handle)?;
+        }
+        Ok(())
+    }
+
+    /// The pose in the parent's frame that `placement` means.
+    fn local_pose_of(&self, handle: Handle, placement: Placement, frame: Frame, joint_base: bool) -> SceneResult<Pose> {
+        let object = self.object(handle)?;
+        let parent = object.parent();
+        let direct = match frame {
+            Frame::Parent => true,
+            Frame::World => parent.is_none(),
+            Frame::Object(other) => !joint_base && parent == Some(other),
+            Frame::Inverse => false,
+        };
+        let to_local = match frame {
+            _ if direct => Pose::identity(),
+            _ => self.parent_frame(handle)?.inverse() * self.frame_pose(handle, frame, joint_base)?,
+        };
+        let inverse = frame == Frame::Inverse;
+        Ok(match placement {
+            Placement::Pose(pose) => to_local * if inverse { pose.inverse() } else { pose },
+            Placement::Position(position) => {
+                let position = to_local * nalgebra::Point3::from(position);
+                Pose::from_parts(Translation3::from(position), object.pose().rotation)
+            }
+            Placement::Rotation(rotation) => {
+                let rotation = if inverse { rotation.inverse() } else { rotation };
+                Pose::from_parts(object.pose().translation, to_local.rotation * rotation)
+            }
+        })
+    }
+
+    /// Asks the physics to build `handle` and all below it anew.
+    pub fn reset_dynamics_below(&mut self, handle: Handle) -> SceneResult<()> {
+        for object in self.subtree(handle) {
+            self.modify(object, Field::Dynamics, |object| object.dynamics_reset = true)?;
+        }
+        Ok(())
+    }
+
+    /// Turns the moving side of a spherical joint; false when `handle` is anything else.
+    pub fn set_spherical_rotation(&mut self, handle: Handle, rotation: UnitQuaternion<f64>) -> SceneResult<bool> {
+        match &self.object(handle)?.kind {
+            Kind::Joint(joint) if joint.joint_type == JointType::Spherical => {}
+            _ => return Ok(false),
+        }
+        self.try_modify(handle, Field::JointPosition, |object| {
+            object.joint_mut()?.spherical = rotation;
+            Ok(true)
+        })
+    }
+
+    /// Measures how fast every object moved since the last call, `dt` seconds ago. Without `dt` measuring begins.
+    pub fn measure_velocities(&mut self, dt: Option<f64>) {
+        let poses: Vec<(Handle, Pose)> =
+            self.objects().filter_map(|object| Some((object.handle(), self.world_pose(object.handle()).ok()?))).collect();
+        for (handle, now) in poses {
+            if let Ok(object) = self.object_mut(handle) {
+                object.measured = measured(object.measured.previous, now, dt);
+            }
+        }
+    }
+}
+
+/// Velocity over one step (SPEC-poses 4).
+fn measured(previous: Option<Pose>, now: Pose, dt: Option<f64>) -> Measured {
+    match (previous, dt) {
+        (Some(before), Some(dt)) if before != now => Measured {
+            previous: Some(now),
+            linear: pose::linear_velocity(&before, &now, dt),
+            euler_rate: pose::angular_velocity_euler(&before, &now, dt),
+            angular: pose::angular_velocity_axis(&before, &now, dt),
+        },
+        _ => Measured { previous: Some(now), ..Measured::default() },
     }
 }
