@@ -144,7 +144,10 @@ impl Sim {
     pub(crate) fn fail(self: &Rc<Self>, script: &Rc<Script>, text: &str) {
         let from_yield = text.contains("attempt to yield across a C-call boundary")
             || text.contains("attempt to yield from outside a coroutine");
-        script.mark_error();
+        // The sandbox lives on, whatever happens in it.
+        if script.script_type != ScriptType::Sandbox {
+            script.mark_error();
+        }
         if !from_yield {
             self.report_error(script, text);
         }
@@ -160,9 +163,6 @@ impl Sim {
 
     /// What follows the outermost call of a script: death after an error, or what the script asked for by `cmd`.
     pub(crate) fn settle(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, value: Option<&Data>) {
-        if script.script_type == ScriptType::Sandbox {
-            return script.set_bit(state::ERROR, false);
-        }
         if script.state() & state::ERROR != 0 {
             return self.kill(script);
         }
