@@ -1,5 +1,188 @@
-//! `sim.*`: typed properties of objects, scene and application.
+//! `sim.*`: typed properties of the application, the scene, objects and scripts.
 
-use super::{ApiFn, functions};
+use api_macro::api;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![];
+use super::{ApiError, ApiFn, Args, Cx, FromScript, Result, functions};
+use crate::scene::Data;
+use crate::script::{Bytes, Color, IntPair, Long, PoseArray, PropertyValue, Quaternion, Table, Text, Vector2, Vector3};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    get_bool_property,
+    set_bool_property,
+    get_int_property,
+    set_int_property,
+    get_long_property,
+    set_long_property,
+    get_float_property,
+    set_float_property,
+    get_string_property,
+    set_string_property,
+    get_buffer_property,
+    set_buffer_property,
+    get_table_property,
+    set_table_property,
+    get_int_array_property,
+    set_int_array_property,
+    get_int_array2_property,
+    set_int_array2_property,
+    get_float_array_property,
+    set_float_array_property,
+    get_vector2_property,
+    set_vector2_property,
+    get_vector3_property,
+    set_vector3_property,
+    get_quaternion_property,
+    set_quaternion_property,
+    get_pose_property,
+    set_pose_property,
+    get_color_property,
+    set_color_property,
+    remove_property,
+    get_property_info,
+    get_property_name,
+];
+
+/// The `options` table of the property functions.
+#[derive(Default)]
+struct Options {
+    /// Failure gives nothing instead of an error.
+    no_error: bool,
+    /// Only names that begin with it.
+    prefix: String,
+}
+
+impl FromScript for Options {
+    const TYPE: &'static str = "map";
+
+    fn from_script(args: &Args<'_>) -> Result<Self> {
+        let table = Table::from_script(args)?.0;
+        let prefix = match table.field("prefix") {
+            Some(Data::Text(prefix)) => String::from_utf8_lossy(prefix).into_owned(),
+            _ => String::new(),
+        };
+        Ok(Self { no_error: table.field("noError").is_some_and(Data::truthy), prefix })
+    }
+}
+
+impl Options {
+    /// Nothing instead of an error, where that was asked for.
+    fn apply<T>(&self, outcome: Result<T>) -> Result<Option<T>> {
+        match outcome {
+            Ok(value) => Ok(Some(value)),
+            Err(_) if self.no_error => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+fn read<T: PropertyValue>(cx: &Cx, target: i64, name: &str) -> Result<T> {
+    let target = cx.sim().property_target(target, cx.script())?;
+    let data = cx.sim().read_property(&target, name, T::TYPE)?;
+    T::from_data(data).ok_or_else(|| ApiError::Other("property is corrupt.".into()))
+}
+
+fn write<T: PropertyValue>(cx: &Cx, target: i64, name: &str, value: T) -> Result<()> {
+    let target = cx.sim().property_target(target, cx.script())?;
+    cx.sim().write_property(&target, name, (T::TYPE, value.into_data()), cx.script())
+}
+
+/// A getter and a setter for each type.
+macro_rules! typed_properties {
+    ($($ty:ty: $get:ident $get_name:tt, $set:ident $set_name:tt;)*) => { $(
+        /// Value of a property.
+        ///
+        /// @param target object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+        /// @param propertyName its name
+        /// @param options noError: nothing instead of an error
+        /// @return propertyState
+        #[api($get_name)]
+        fn $get(
+            cx: &Cx, target: i64, property_name: String, #[default(Options::default())] options: Options,
+        ) -> Result<Option<$ty>> {
+            options.apply(read(cx, target, &property_name))
+        }
+
+        /// Sets a property; names below `customData.` and `signal.` are created.
+        ///
+        /// @param target object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+        /// @param propertyName its name
+        /// @param propertyState the new value
+        /// @param options noError: no error when that fails
+        #[api($set_name)]
+        fn $set(
+            cx: &mut Cx, target: i64, property_name: String, property_state: $ty,
+            #[default(Options::default())] options: Options,
+        ) -> Result<()> {
+            options.apply(write(cx, target, &property_name, property_state)).map(drop)
+        }
+    )* };
+}
+
+typed_properties! {
+    bool: get_bool_property "sim.getBoolProperty", set_bool_property "sim.setBoolProperty";
+    i64: get_int_property "sim.getIntProperty", set_int_property "sim.setIntProperty";
+    Long: get_long_property "sim.getLongProperty", set_long_property "sim.setLongProperty";
+    f64: get_float_property "sim.getFloatProperty", set_float_property "sim.setFloatProperty";
+    Text: get_string_property "sim.getStringProperty", set_string_property "sim.setStringProperty";
+    Bytes: get_buffer_property "sim.getBufferProperty", set_buffer_property "sim.setBufferProperty";
+    Table: get_table_property "sim.getTableProperty", set_table_property "sim._setTableProperty";
+    Vec<i64>: get_int_array_property "sim.getIntArrayProperty", set_int_array_property "sim.setIntArrayProperty";
+    IntPair: get_int_array2_property "sim.getIntArray2Property", set_int_array2_property "sim.setIntArray2Property";
+    Vec<f64>: get_float_array_property "sim.getFloatArrayProperty", set_float_array_property "sim.setFloatArrayProperty";
+    Vector2: get_vector2_property "sim.getVector2Property", set_vector2_property "sim.setVector2Property";
+    Vector3: get_vector3_property "sim.getVector3Property", set_vector3_property "sim.setVector3Property";
+    Quaternion: get_quaternion_property "sim.getQuaternionProperty", set_quaternion_property "sim.setQuaternionProperty";
+    PoseArray: get_pose_property "sim.getPoseProperty", set_pose_property "sim.setPoseProperty";
+    Color: get_color_property "sim.getColorProperty", set_color_property "sim.setColorProperty";
+}
+
+/// Removes custom data, a signal or a named parameter.
+///
+/// @param target object, sim.handle_app or sim.handle_scene
+/// @param propertyName with its prefix `customData.`, `signal.` or `namedParam.`
+/// @param options noError: no error when there is none
+#[api("sim.removeProperty")]
+fn remove_property(
+    cx: &mut Cx,
+    target: i64,
+    property_name: String,
+    #[default(Options::default())] options: Options,
+) -> Result<()> {
+    let target = cx.sim().property_target(target, cx.script())?;
+    options.apply(cx.sim().remove_property(&target, &property_name)).map(drop)
+}
+
+/// What is known about a property; nothing when there is none of that name.
+///
+/// @param target object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+/// @param propertyName its name
+/// @param options accepted
+/// @return type, flags, description
+#[api("sim.getPropertyInfo")]
+fn get_property_info(
+    cx: &Cx,
+    target: i64,
+    property_name: String,
+    #[default(Options::default())] _options: Options,
+) -> Result<Option<(i64, i64, &'static str)>> {
+    let target = cx.sim().property_target(target, cx.script())?;
+    Ok(cx.sim().property_info(&target, &property_name).map(|(ty, flags)| (ty as i64, flags, "")))
+}
+
+/// The properties of a target one by one; nothing past the last one.
+///
+/// @param target object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+/// @param index from 0
+/// @param options prefix: only names that begin with it
+/// @return propertyName, appartenance
+#[api("sim.getPropertyName")]
+fn get_property_name(
+    cx: &Cx,
+    target: i64,
+    index: i64,
+    #[default(Options::default())] options: Options,
+) -> Result<Option<(String, String)>> {
+    let target = cx.sim().property_target(target, cx.script())?;
+    let Ok(index) = usize::try_from(index) else { return Ok(None) };
+    Ok(cx.sim().property_names(&target, &options.prefix).into_iter().nth(index))
+}

@@ -5,6 +5,7 @@
 
 pub mod change;
 mod collection;
+mod custom_data;
 pub mod data;
 pub mod dummy;
 pub mod error;
@@ -35,6 +36,7 @@ mod tree;
 
 pub use change::{Change, Changes, Field};
 pub use collection::{Collection, CollectionItem};
+pub use custom_data::{CustomData, Namespace, ValueType};
 pub use data::{Data, Key};
 pub use error::{SceneError, SceneResult};
 pub use handle::{Handle, Uid, flag, special};
@@ -42,4 +44,4 @@ pub use object::{Kind, Measured, NOT_MODEL, Object};
 pub use pose::Pose;
 pub use poses::{Frame, Placement};
 pub use settings::{DynamicsSettings, Settings};
-pub use store::{CustomData, Scene};
+pub use store::Scene;

@@ -7,8 +7,7 @@ use super::restore::InitialState;
 use super::script_object::ScriptObject;
 use super::sensors::{Camera, Graph, Light, OcTree, PointCloud, ProximitySensor, VisionSensor};
 use super::shape::Shape;
-use super::store::CustomData;
-use super::{Handle, Pose, SceneError, SceneResult, Uid};
+use super::{CustomData, Handle, Pose, SceneError, SceneResult, Uid};
 
 /// The value of [`Object::model_property`] of an object that is no model base.
 pub const NOT_MODEL: i64 = 0xf000;
@@ -36,6 +35,8 @@ pub struct Object {
     /// Order among siblings for scripts (`sim.scriptexecorder_*`).
     pub priority: i64,
     pub custom_data: CustomData,
+    /// Named values that last as long as the scripts that set them; they are not saved.
+    pub signals: CustomData,
     /// Tagged lists of handles: `(tag, handles)`; -1 stands for an object that is gone.
     pub references: Vec<(String, Vec<i64>)>,
     pub original_references: Vec<(String, Vec<i64>)>,
@@ -136,6 +137,7 @@ impl Object {
             size_factor: 1.0,
             priority: 1,
             custom_data: CustomData::default(),
+            signals: CustomData::default(),
             references: Vec::new(),
             original_references: Vec::new(),
             dynamic_flag: 0,

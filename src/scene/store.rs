@@ -3,49 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::object::{Kind, Object};
-use super::{Change, Changes, Data, Field, Handle, SceneError, SceneResult, Settings, Uid};
-
-/// Named values of an object or of the scene, in the order they were created.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct CustomData {
-    entries: Vec<(String, Data)>,
-}
-
-impl CustomData {
-    pub fn get(&self, name: &str) -> Option<&Data> {
-        self.entries.iter().find(|(n, _)| n == name).map(|(_, value)| value)
-    }
-
-    /// Sets `name`; tells whether anything changed.
-    pub fn set(&mut self, name: &str, value: Data) -> bool {
-        match self.entries.iter_mut().find(|(n, _)| n == name) {
-            Some((_, old)) if *old == value => false,
-            Some((_, old)) => {
-                *old = value;
-                true
-            }
-            None => {
-                self.entries.push((name.to_owned(), value));
-                true
-            }
-        }
-    }
-
-    /// Removes `name`; tells whether it existed.
-    pub fn remove(&mut self, name: &str) -> bool {
-        let before = self.entries.len();
-        self.entries.retain(|(n, _)| n != name);
-        self.entries.len() != before
-    }
-
-    pub fn clear(&mut self) {
-        self.entries.clear();
-    }
-
-    pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.entries.iter().map(|(name, _)| name.as_str())
-    }
-}
+use super::{Change, Changes, CustomData, Data, Field, Handle, SceneError, SceneResult, Settings, Uid};
 
 /// A scene: its objects and its settings.
 #[derive(Debug, Default)]
@@ -65,6 +23,8 @@ pub struct Scene {
     changes: Changes,
     /// Custom data of the scene itself (`sim.handle_scene`).
     pub custom_data: CustomData,
+    /// Signals of the scene itself; they are not saved.
+    pub signals: CustomData,
     /// Engine parameters that have no meaning for rapier, kept as they were set: `(parameter, object or -1)`.
     pub engine_params: BTreeMap<(i64, i64), Data>,
 }

@@ -218,9 +218,10 @@ impl Sim {
         }
     }
 
-    /// Gives the interpreter up. It is closed when its last call has returned.
+    /// Gives the interpreter up; it is closed when its last call has returned. Its signals go with it.
     fn close(&self, script: &Script) {
         script.runtime.replace(None);
+        self.drop_signals_of(script);
     }
 
     /// `restartOnError` is a one-shot.

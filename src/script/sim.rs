@@ -8,6 +8,7 @@ use super::binding::Registry;
 use super::clock::Clock;
 use super::console::{Console, LogLine};
 use super::order::OrderCache;
+use super::property::{AppData, SignalOwners};
 use super::random::Random;
 use super::script::{Detached, Script};
 use super::verbosity;
@@ -69,6 +70,8 @@ pub(crate) struct Sim {
     /// Objects there were at simulation start.
     pub known_at_start: RefCell<Option<HashSet<i64>>>,
     pub last_selection: RefCell<Vec<Handle>>,
+    pub app: RefCell<AppData>,
+    pub signal_owners: RefCell<SignalOwners>,
     next_detached: Cell<i64>,
     once: RefCell<HashSet<(String, i64, String)>>,
     started: std::time::Instant,
@@ -78,6 +81,7 @@ impl Sim {
     pub(crate) fn new(options: Options, registry: &'static Registry, console: Box<dyn Console>) -> Rc<Self> {
         Rc::new(Self {
             verbosity: Cell::new(options.verbosity),
+            app: RefCell::new(AppData::new(&options.named_params)),
             options,
             registry,
             scene: RefCell::new(Scene::new()),
@@ -93,6 +97,7 @@ impl Sim {
             delayed_removals: RefCell::default(),
             known_at_start: RefCell::default(),
             last_selection: RefCell::default(),
+            signal_owners: RefCell::default(),
             next_detached: Cell::new(FIRST_DETACHED),
             once: RefCell::default(),
             started: super::wall_clock::now(),

@@ -1,0 +1,40 @@
+//! Properties of the application.
+
+use std::collections::BTreeMap;
+
+use super::access::{Accessor, subject_properties};
+use crate::scene::{CustomData, Namespace};
+
+/// What scripts keep with the application.
+#[derive(Default)]
+pub(crate) struct AppData {
+    pub custom_data: CustomData,
+    pub signals: CustomData,
+    /// Parameters of the command line, and what scripts added.
+    pub named_params: BTreeMap<String, Vec<u8>>,
+}
+
+impl AppData {
+    pub(crate) fn new(params: &BTreeMap<String, String>) -> Self {
+        let named_params = params.iter().map(|(name, value)| (name.clone(), value.as_bytes().to_vec())).collect();
+        Self { named_params, ..Self::default() }
+    }
+
+    pub(crate) fn named_values(&self, namespace: Namespace) -> &CustomData {
+        match namespace {
+            Namespace::CustomData => &self.custom_data,
+            Namespace::Signal => &self.signals,
+        }
+    }
+
+    pub(crate) fn named_values_mut(&mut self, namespace: Namespace) -> &mut CustomData {
+        match namespace {
+            Namespace::CustomData => &mut self.custom_data,
+            Namespace::Signal => &mut self.signals,
+        }
+    }
+}
+
+pub(super) const APP: &[Accessor] = subject_properties! {
+    "consoleVerbosity": i64, |s| s.sim.verbosity.get(), |s, level| s.sim.verbosity.set(level);
+};

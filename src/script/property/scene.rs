@@ -1,0 +1,86 @@
+//! Properties of the scene: simulation, environment, objects, dynamics.
+
+use super::access::{Accessor, subject_properties};
+use super::{Color, Vector3};
+use crate::scene::Handle;
+use crate::script::clock::SimulationState;
+use crate::script::sim::Sim;
+
+impl Sim {
+    fn is_stopped(&self) -> bool {
+        self.clock.state.get() == SimulationState::Stopped
+    }
+
+    /// Sets the simulation step, seconds. Without effect while the simulation is not stopped, as in CoppeliaSim.
+    pub(crate) fn set_time_step(&self, step: f64) {
+        if self.is_stopped() && !step.is_nan() {
+            self.scene.borrow_mut().modify_settings(|settings| settings.time_step = step.clamp(0.0001, 10.0));
+        }
+    }
+
+    /// Turns real-time mode on or off. Without effect while the simulation is not stopped.
+    pub(crate) fn set_real_time(&self, on: bool) {
+        if self.is_stopped() {
+            self.scene.borrow_mut().modify_settings(|settings| settings.real_time = on);
+        }
+    }
+}
+
+/// Rows of properties that are scene settings.
+macro_rules! settings {
+    ($($name:literal: $ty:ty, |$s:ident| $get:expr, |$w:ident, $v:ident| $set:expr;)*) => { subject_properties! { $(
+        $name: $ty, |subject| {
+            let scene = subject.sim.scene.borrow();
+            let $s = scene.settings();
+            $get
+        }, |subject, $v| subject.sim.scene.borrow_mut().modify_settings(|$w| { $set; });
+    )* } };
+}
+
+pub(super) const SIMULATION: &[Accessor] = subject_properties! {
+    "realtimeSimulation": bool, |s| s.sim.scene.borrow().settings().real_time, |s, on| s.sim.set_real_time(on);
+    "simulationTime": f64, |s| s.sim.clock.time.get();
+    "timeStep": f64, |s| s.sim.scene.borrow().settings().time_step, |s, step| s.sim.set_time_step(step);
+    "stepCount": i64, |s| s.sim.clock.steps.get() as i64;
+    "simulationState": i64, |s| s.sim.clock.state.get() as i64;
+};
+
+pub(super) const SIMULATION_SETTINGS: &[Accessor] = settings! {
+    "removeNewObjectsAtEnd": bool, |s| s.remove_new_objects_at_end, |s, on| s.remove_new_objects_at_end = on;
+    "pauseSimulationAtTime": bool, |s| s.pause_at_time, |s, on| s.pause_at_time = on;
+    "pauseSimulationAtError": bool, |s| s.pause_at_error, |s, on| s.pause_at_error = on;
+    "timeToPause": f64, |s| s.time_to_pause, |s, time| s.time_to_pause = time;
+    "realtimeModifier": f64, |s| s.real_time_factor, |s, factor| s.real_time_factor = factor.clamp(0.0, 100.0);
+};
+
+pub(super) const ENVIRONMENT: &[Accessor] = settings! {
+    "visibilityLayers": i64, |s| s.visibility_layers, |s, layers| s.visibility_layers = layers & 0xffff;
+    "acknowledgment": String, |s| s.acknowledgment.clone(), |s, text| s.acknowledgment = text;
+};
+
+pub(super) const CONTAINER: &[Accessor] = subject_properties! {
+    "objectHandles": Vec<i64>, |s| s.sim.scene.borrow().objects().map(|object| object.handle().raw()).collect();
+    "orphanHandles": Vec<i64>, |s| raw(s.sim.scene.borrow().roots());
+    "selectionHandles": Vec<i64>, |s| raw(s.sim.scene.borrow().selection()),
+        |s, handles| {
+            let handles: Vec<Handle> = handles.into_iter().filter_map(Handle::from_raw).collect();
+            s.sim.scene.borrow_mut().select(&handles);
+        };
+};
+
+pub(super) const DYNAMICS: &[Accessor] = settings! {
+    "dynamicsEnabled": bool, |s| s.dynamics.enabled, |s, on| s.dynamics.enabled = on;
+    "showContactPoints": bool, |s| s.dynamics.show_contact_points, |s, on| s.dynamics.show_contact_points = on;
+    "dynamicsEngine": Vec<i64>, |s| s.dynamics.engine.to_vec(), |s, engine| if let [kind, version, ..] = engine[..] {
+        s.dynamics.engine = [kind, version];
+    };
+    "dynamicsStepSize": f64, |s| s.dynamics.step, |s, step| if !step.is_nan() {
+        s.dynamics.step = step.clamp(0.0001, 1.0);
+    };
+    "gravity": Vector3, |s| Vector3(Color::from_f32(s.dynamics.gravity).0),
+        |s, gravity| s.dynamics.gravity = gravity.0.map(|g| g as f32);
+};
+
+fn raw(handles: &[Handle]) -> Vec<i64> {
+    handles.iter().map(|handle| handle.raw()).collect()
+}

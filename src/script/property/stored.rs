@@ -1,0 +1,168 @@
+//! Properties that scripts create: custom data, signals, named parameters.
+
+use std::collections::BTreeMap;
+
+use super::table::flags;
+use super::{Info, Sim, Target};
+use crate::scene::{CustomData, Data, Handle, Namespace, ValueType};
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::script::Script;
+
+/// Who holds named values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Holder {
+    App,
+    Scene,
+    Object(Handle),
+}
+
+/// The script that wrote each signal last. A signal goes with the Lua state of that script.
+pub(crate) type SignalOwners = BTreeMap<(Holder, String), i64>;
+
+/// Whether a new property may have that name.
+pub(crate) fn is_valid_name(name: &str) -> bool {
+    !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.'))
+}
+
+impl Target {
+    /// None for scripts that are no objects: they hold no named values.
+    fn holder(&self) -> Option<Holder> {
+        match self {
+            Self::App => Some(Holder::App),
+            Self::Scene => Some(Holder::Scene),
+            Self::Object(handle) => Some(Holder::Object(*handle)),
+            Self::Script(_) => None,
+        }
+    }
+}
+
+impl Holder {
+    fn in_scene(self) -> Option<Handle> {
+        if let Self::Object(handle) = self { Some(handle) } else { None }
+    }
+}
+
+impl Sim {
+    fn with_stored<R>(
+        &self,
+        holder: Holder,
+        namespace: Namespace,
+        read: impl FnOnce(&CustomData) -> R,
+    ) -> ApiResult<R> {
+        if holder == Holder::App {
+            return Ok(read(self.app.borrow().named_values(namespace)));
+        }
+        let scene = self.scene.borrow();
+        Ok(read(scene.named_values(holder.in_scene(), namespace)?))
+    }
+
+    fn change_stored(
+        &self,
+        holder: Holder,
+        namespace: Namespace,
+        change: impl FnOnce(&mut CustomData) -> bool,
+    ) -> ApiResult<bool> {
+        if holder == Holder::App {
+            return Ok(change(self.app.borrow_mut().named_values_mut(namespace)));
+        }
+        Ok(self.scene.borrow_mut().change_named_values(holder.in_scene(), namespace, change)?)
+    }
+
+    pub(super) fn read_stored(
+        &self,
+        target: &Target,
+        namespace: Namespace,
+        name: &str,
+        ty: ValueType,
+    ) -> ApiResult<Data> {
+        let holder = target.holder().ok_or(ApiError::UnknownProperty)?;
+        self.with_stored(holder, namespace, |values| match values.typed(name) {
+            None => Err(ApiError::UnknownProperty),
+            Some((stored, _)) if stored != ty => Err(ApiError::PropertyType),
+            Some((_, value)) => Ok(value.clone()),
+        })?
+    }
+
+    pub(super) fn write_stored(
+        &self,
+        target: &Target,
+        namespace: Namespace,
+        name: &str,
+        (ty, value): (ValueType, Data),
+        writer: &Script,
+    ) -> ApiResult<()> {
+        if !is_valid_name(name) {
+            return Err(ApiError::PropertyName);
+        }
+        let holder = target.holder().ok_or(ApiError::UnknownProperty)?;
+        self.change_stored(holder, namespace, |values| values.set_typed(name, ty, value))?;
+        if namespace == Namespace::Signal {
+            self.signal_owners.borrow_mut().insert((holder, name.to_owned()), writer.id);
+        }
+        Ok(())
+    }
+
+    pub(super) fn remove_stored(&self, target: &Target, namespace: Namespace, name: &str) -> ApiResult<bool> {
+        let holder = target.holder().ok_or(ApiError::UnknownProperty)?;
+        if namespace == Namespace::Signal {
+            self.signal_owners.borrow_mut().remove(&(holder, name.to_owned()));
+        }
+        self.change_stored(holder, namespace, |values| values.remove_typed(name))
+    }
+
+    pub(super) fn stored_info(&self, target: &Target, namespace: Namespace, name: &str) -> Option<Info> {
+        let ty =
+            self.with_stored(target.holder()?, namespace, |values| values.typed(name).map(|(ty, _)| ty)).ok()??;
+        let volatile = if namespace == Namespace::Signal { flags::MODEL_HASH_EXCLUDE } else { 0 };
+        Some((ty, flags::REMOVABLE | volatile))
+    }
+
+    /// Names of custom data, then of signals, then of named parameters.
+    pub(super) fn stored_names(&self, target: &Target) -> Vec<String> {
+        let Some(holder) = target.holder() else { return Vec::new() };
+        let mut names = Vec::new();
+        for (namespace, prefix) in [(Namespace::CustomData, "customData"), (Namespace::Signal, "signal")] {
+            let found = self.with_stored(holder, namespace, |values| {
+                values.tags().map(|tag| format!("{prefix}.{}", ValueType::split_tag(tag).1)).collect::<Vec<_>>()
+            });
+            names.extend(found.unwrap_or_default());
+        }
+        if holder == Holder::App {
+            names.extend(self.app.borrow().named_params.keys().map(|name| format!("namedParam.{name}")));
+        }
+        names
+    }
+
+    /// Removes the signals whose last writer's Lua state ends.
+    pub(crate) fn drop_signals_of(&self, script: &Script) {
+        let mut owned = Vec::new();
+        self.signal_owners.borrow_mut().retain(|key, owner| {
+            let keep = *owner != script.id;
+            if !keep {
+                owned.push(key.clone());
+            }
+            keep
+        });
+        for (holder, name) in owned {
+            // An object that is gone took its signals along.
+            let _ = self.change_stored(holder, Namespace::Signal, |values| values.remove_typed(&name));
+        }
+    }
+
+    pub(super) fn read_param(&self, name: &str, ty: ValueType) -> ApiResult<Data> {
+        match self.app.borrow().named_params.get(name) {
+            None => Err(ApiError::UnknownProperty),
+            Some(_) if ty != ValueType::String => Err(ApiError::PropertyType),
+            Some(value) => Ok(Data::Text(value.clone())),
+        }
+    }
+
+    pub(super) fn write_param(&self, name: &str, ty: ValueType, value: Data) -> ApiResult<()> {
+        let (ValueType::String, Data::Text(text)) = (ty, value) else { return Err(ApiError::PropertyType) };
+        if !is_valid_name(name) {
+            return Err(ApiError::PropertyName);
+        }
+        self.app.borrow_mut().named_params.insert(name.to_owned(), text);
+        Ok(())
+    }
+}
