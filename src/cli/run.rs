@@ -102,9 +102,13 @@ pub(super) fn run(args: &Args) -> ExitCode {
     let begun = Instant::now();
     let mut sim = Simulator::with_console(args.options(), Box::new(output.clone()));
     args.fill(&mut sim, &sources);
+    let failed_to_load = sim.errors() > 0;
     let mut session = Session::new(&mut sim, args.limits(), args.loops, &interrupt, progress, &output);
     if args.no_start {
         session.loop_freely()
+    } else if failed_to_load && !args.limits().are_set() {
+        // Without its script the run might never end.
+        output.note("A script failed while it was loaded: the simulation is not started.", 0.0);
     } else {
         session.run_simulation()
     }

@@ -20,6 +20,11 @@ pub(super) struct Limits {
 }
 
 impl Limits {
+    /// Whether the end of the run is known.
+    pub(super) fn are_set(self) -> bool {
+        self.steps.is_some() || self.time.is_some()
+    }
+
     fn are_reached(self, sim: &Simulator) -> bool {
         // Time is a sum of steps; it may fall short of a round number by its rounding errors.
         let late = |limit: f64| sim.time() * (1.0 + 1e-12) >= limit;
