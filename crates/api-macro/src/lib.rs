@@ -11,7 +11,7 @@ use syn::{Expr, FnArg, ItemFn, Lit, LitStr, Meta, Pat, PatType, ReturnType, Type
 
 /// See the crate's documentation. The first parameter is the context, `&Cx` (reads) or `&mut Cx`
 /// (writes, or calls scripts); the others implement `FromScript`; the result is `Result<T>` with
-/// `T: IntoScript`. `#[default(expr)]` makes a parameter optional.
+/// `T: IntoScript`. `#[default(expr)]` makes a parameter optional, and so does the type `Option`.
 #[proc_macro_attribute]
 pub fn api(name: TokenStream, item: TokenStream) -> TokenStream {
     let name = parse_macro_input!(name as LitStr);
@@ -27,7 +27,7 @@ fn expand(name: &LitStr, function: &mut ItemFn) -> syn::Result<Tokens> {
     let mutates = takes_mut_context(inputs.next())?;
     let parameters = inputs.map(parameter).collect::<syn::Result<Vec<_>>>()?;
 
-    let required = parameters.iter().filter(|p| p.default.is_none() && !p.variadic).count();
+    let required = parameters.iter().rposition(Parameter::is_required).map_or(0, |last| last + 1);
     let rows = parameters.iter().map(Parameter::row);
     let decoders = parameters.iter().map(Parameter::decoder);
     let locals = parameters.iter().map(|p| &p.ident);
@@ -71,6 +71,10 @@ struct Parameter {
 }
 
 impl Parameter {
+    fn is_required(&self) -> bool {
+        self.default.is_none() && !self.variadic && !is_named(&self.ty, "Option")
+    }
+
     fn row(&self) -> Tokens {
         let Self { ty, lua_name, .. } = self;
         let default = match &self.default {
