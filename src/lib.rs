@@ -2,6 +2,7 @@
 
 pub mod api;
 pub mod cli;
+pub mod docs;
 mod dynamics;
 pub mod scene;
 pub mod script;

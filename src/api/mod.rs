@@ -83,15 +83,17 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
 ];
 
 /// `name<TAB>value` of every constant of `sim`.
-const CONSTANTS: &str = include_str!("constants.tsv");
+pub(crate) const CONSTANTS: &str = include_str!("constants.tsv");
 /// `old<TAB>new`: names that do exactly what another does.
-const ALIASES: &str = include_str!("aliases.tsv");
+pub(crate) const ALIASES: &str = include_str!("aliases.tsv");
 /// `name<TAB>replacement`: names that log their deprecation at the first call.
-const DEPRECATED: &str = include_str!("deprecated.tsv");
+pub(crate) const DEPRECATED: &str = include_str!("deprecated.tsv");
 /// `simName<TAB>name`: old global names that follow no rule.
 const OLD_NAMES: &str = include_str!("old_names.tsv");
 /// `name<TAB>category<TAB>deprecated<TAB>signature` of every function CoppeliaSim's reference has.
 pub(crate) const REFERENCE: &str = include_str!("reference.tsv");
+/// `name<TAB>tier` of the reference's functions: T1 is what published code uses most.
+pub(crate) const TIERS: &str = include_str!("tiers.tsv");
 
 /// Everything scripts can reach, by name. One per process.
 pub(crate) fn registry() -> &'static Registry {
@@ -158,9 +160,14 @@ fn add_constants(registry: &mut Registry) {
     }
 }
 
+/// Module name and text of the files in `lua/sim`.
+pub(crate) fn lua_files() -> impl Iterator<Item = (&'static str, &'static str)> {
+    FILES.iter().copied().filter(|(module, _)| module.starts_with("sim/"))
+}
+
 /// Functions of the files in `lua/sim`: each is a line `function M.name(`.
 fn add_lua_functions(registry: &mut Registry, notices: &Notices) {
-    for (module, source) in FILES.iter().filter(|(module, _)| module.starts_with("sim/")) {
+    for (module, source) in lua_files() {
         for name in
             source.lines().filter_map(|line| line.strip_prefix("function M.")).filter_map(|l| l.split('(').next())
         {
@@ -189,6 +196,6 @@ fn full_name(member: &str) -> &'static str {
     Box::leak(format!("sim.{member}").into_boxed_str())
 }
 
-fn pairs(table: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
+pub(crate) fn pairs(table: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
     table.lines().filter_map(|line| line.split_once('\t'))
 }

@@ -3,6 +3,8 @@
 //! This is the outermost layer, the one that may look at clocks, terminals and signals.
 #![allow(clippy::disallowed_methods, reason = "the outside world is this layer's business")]
 
+mod api;
+mod init;
 mod interrupt;
 mod output;
 mod progress;
@@ -30,6 +32,8 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(run::Args),
+    Api(api::Args),
+    Init(init::Args),
     /// Print a completion script for a shell
     Completions {
         shell: Shell,
@@ -51,6 +55,8 @@ impl Command {
     fn execute(self) -> ExitCode {
         match self {
             Self::Run(args) => run::run(&args),
+            Self::Api(args) => api::api(&args),
+            Self::Init(args) => init::init(&args),
             Self::Completions { shell } => {
                 clap_complete::generate(shell, &mut Cli::command(), "swanilda", &mut std::io::stdout());
                 ExitCode::SUCCESS

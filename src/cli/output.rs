@@ -32,9 +32,9 @@ impl Output {
         Self { format, quiet, bar }
     }
 
-    /// A word of the command line itself.
+    /// A word of the command line itself, in the name the simulator has in the log.
     pub(super) fn note(&self, text: &str, time: f64) {
-        self.write_log(&LogLine { origin: "Swanilda", level: verbosity::SCRIPT_INFOS, text, time, chatter: true });
+        self.write_log(&LogLine { origin: "CoppeliaSim", level: verbosity::SCRIPT_INFOS, text, time, chatter: true });
     }
 
     /// The last line: what the run did and how long it took.

@@ -113,6 +113,10 @@ pub(super) fn run(args: &Args) -> ExitCode {
         session.run_simulation()
     }
     let (steps, time) = session.totals();
+    if interrupt.is_requested() {
+        // Scripts that outlive a run clean up when their scene is closed.
+        sim.clear_scene();
+    }
     let errors = sim.errors();
     drop(sim);
     let code = match (interrupt.is_requested(), errors) {

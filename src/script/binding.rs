@@ -23,8 +23,8 @@ pub struct ApiFn {
     pub name: &'static str,
     pub doc: &'static str,
     pub params: &'static [Param],
-    /// Types of the results, comma separated.
-    pub returns: &'static str,
+    /// Types of the results.
+    pub returns: &'static [&'static str],
     pub mutates: bool,
     pub(crate) call: fn(&mut Args<'_>) -> ApiResult<c_int>,
 }

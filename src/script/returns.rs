@@ -103,9 +103,10 @@ impl IntoScript for Results {
 }
 
 macro_rules! tuples {
-    ($($types:literal, $($t:ident $i:tt),+;)*) => { $(
+    ($($($t:ident $i:tt),+;)*) => { $(
         impl<$($t: IntoScript),+> IntoScript for ($($t,)+) {
-            const TYPE: &'static str = $types;
+            /// `#[api]` reads the types of the elements.
+            const TYPE: &'static str = "any...";
             #[allow(private_interfaces)]
             fn into_script(self, stack: Stack<'_>) -> ApiResult<()> {
                 $(self.$i.into_script(stack)?;)+
@@ -115,8 +116,8 @@ macro_rules! tuples {
     )* };
 }
 tuples! {
-    "(2)", A 0, B 1;
-    "(3)", A 0, B 1, C 2;
-    "(4)", A 0, B 1, C 2, D 3;
-    "(5)", A 0, B 1, C 2, D 3, E 4;
+    A 0, B 1;
+    A 0, B 1, C 2;
+    A 0, B 1, C 2, D 3;
+    A 0, B 1, C 2, D 3, E 4;
 }

@@ -22,7 +22,7 @@ pub fn api(name: TokenStream, item: TokenStream) -> TokenStream {
 fn expand(name: &LitStr, function: &mut ItemFn) -> syn::Result<Tokens> {
     let ident = function.sig.ident.clone();
     let doc = doc_text(function);
-    let output = output_type(function)?;
+    let results = result_types(output_type(function)?);
     let mut inputs = function.sig.inputs.iter_mut();
     let mutates = takes_mut_context(inputs.next())?;
     let parameters = inputs.map(parameter).collect::<syn::Result<Vec<_>>>()?;
@@ -44,7 +44,7 @@ fn expand(name: &LitStr, function: &mut ItemFn) -> syn::Result<Tokens> {
                 name: #name,
                 doc: #doc,
                 params: &[#(#rows),*],
-                returns: <#output as IntoScript>::TYPE,
+                returns: &[#(<#results as IntoScript>::TYPE),*],
                 mutates: #mutates,
                 call,
             };
@@ -142,6 +142,14 @@ fn output_type(function: &ItemFn) -> syn::Result<Type> {
         return Ok(ty.clone());
     }
     Err(syn::Error::new_spanned(&function.sig, "a scriptable function returns `Result<T>`"))
+}
+
+/// Several results are a tuple, none is `()`.
+fn result_types(output: Type) -> Vec<Type> {
+    match output {
+        Type::Tuple(tuple) => tuple.elems.into_iter().collect(),
+        single => vec![single],
+    }
 }
 
 fn takes_mut_context(first: Option<&mut FnArg>) -> syn::Result<bool> {

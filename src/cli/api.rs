@@ -1,0 +1,91 @@
+//! `swanilda api`: the reference, from the binary.
+
+use std::collections::BTreeMap;
+use std::process::ExitCode;
+
+use super::refuse;
+use crate::docs::{self, Function};
+
+/// How many letters a name may be off to be suggested.
+const NEAR: usize = 3;
+/// How many names are suggested.
+const SUGGESTIONS: usize = 5;
+
+/// Print the documentation of a function, or list all
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// E.g. sim.getObjectPosition; the prefix may be left out
+    name: Option<String>,
+}
+
+pub(super) fn api(args: &Args) -> ExitCode {
+    let functions = docs::functions();
+    let Some(name) = &args.name else {
+        print!("{}", list(&functions));
+        return ExitCode::SUCCESS;
+    };
+    if let Some(function) = functions.iter().find(|function| function.name == *name || function.member() == name) {
+        print!("{}", docs::function_text(function));
+        return ExitCode::SUCCESS;
+    }
+    refuse(&unknown(name, &functions))
+}
+
+/// Names with their summaries, by category.
+fn list(functions: &[Function]) -> String {
+    let mut categories: BTreeMap<&str, String> = BTreeMap::new();
+    for function in functions.iter().filter(|function| function.alias_of.is_none()) {
+        let lines = categories.entry(&function.category).or_default();
+        lines.push_str(&format!("  {:<36} {}\n", function.name, function.summary()));
+    }
+    categories.iter().map(|(category, lines)| format!("{category}\n{lines}")).collect::<Vec<_>>().join("\n")
+}
+
+/// What to say about a name that is not there.
+fn unknown(name: &str, functions: &[Function]) -> String {
+    if let Some(signature) = docs::reference_signature(name) {
+        return format!("{name} is not implemented in Swanilda. CoppeliaSim's reference: {signature}");
+    }
+    let wanted = name.strip_prefix("sim.").unwrap_or(name).to_lowercase();
+    let distance = |f: &Function| {
+        let member = f.member().to_lowercase();
+        if wanted.len() > NEAR && member.contains(&wanted) { 1 } else { edit_distance(&wanted, &member) }
+    };
+    let mut near: Vec<(usize, &str)> = functions.iter().map(|f| (distance(f), f.name.as_str())).collect();
+    near.retain(|(distance, _)| *distance <= NEAR);
+    near.sort_unstable();
+    let names: Vec<&str> = near.into_iter().take(SUGGESTIONS).map(|(_, name)| name).collect();
+    match names.as_slice() {
+        [] => format!("there is no function {name}; `swanilda api` lists all"),
+        names => format!("there is no function {name}; did you mean {}?", names.join(", ")),
+    }
+}
+
+/// Letters to insert, remove or replace to make one word the other (Levenshtein).
+fn edit_distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, letter) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, other) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(letter != *other);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::edit_distance;
+
+    #[test]
+    fn counts_edits() {
+        assert_eq!(edit_distance("getobject", "getobject"), 0);
+        assert_eq!(edit_distance("getobjet", "getobject"), 1);
+        assert_eq!(edit_distance("", "abc"), 3);
+        assert_eq!(edit_distance("kitten", "sitting"), 3);
+    }
+}

@@ -1,0 +1,56 @@
+//! `swanilda init`: lets an editor with the Lua language server complete `sim` in a folder.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use serde_json::json;
+
+use super::refuse;
+use crate::docs;
+
+/// Where the stubs go, seen from the folder.
+const STUBS: &str = ".swanilda/stubs";
+
+/// Set up a folder so that an editor completes `sim`
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// The folder; the current one when left out
+    #[arg(default_value = ".")]
+    folder: PathBuf,
+    /// Overwrite what is there
+    #[arg(long)]
+    force: bool,
+}
+
+pub(super) fn init(args: &Args) -> ExitCode {
+    let files =
+        [(args.folder.join(".luarc.json"), settings()), (args.folder.join(STUBS).join("sim.lua"), docs::stubs())];
+    if let Some((path, _)) = files.iter().find(|(path, _)| path.exists() && !args.force) {
+        return refuse(&format!("{} exists; --force overwrites it", path.display()));
+    }
+    for (path, text) in &files {
+        if let Err(error) = write(path, text) {
+            return refuse(&format!("cannot write {}: {error}", path.display()));
+        }
+        println!("wrote {}", path.display());
+    }
+    ExitCode::SUCCESS
+}
+
+fn write(path: &Path, text: &str) -> std::io::Result<()> {
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    fs::write(path, text)
+}
+
+/// Settings of the language server.
+fn settings() -> String {
+    let settings = json!({
+        "runtime.version": "Lua 5.4",
+        "workspace.library": [STUBS],
+        "diagnostics.globals": ["sim"],
+    });
+    format!("{settings:#}\n")
+}

@@ -1,0 +1,46 @@
+//! Which functions of CoppeliaSim's reference work here.
+
+use std::collections::{BTreeMap, HashSet};
+use std::fmt::Write as _;
+
+use super::row::Function;
+use super::{ReferenceRow, reference};
+use crate::api;
+
+/// The table.
+pub(super) fn text(functions: &[Function]) -> String {
+    let built: HashSet<&str> = functions.iter().map(Function::member).collect();
+    let rows: Vec<ReferenceRow> = reference().filter(|row| !row.name.starts_with('_')).collect();
+    let mut out = String::from(
+        "# Coverage of the `sim` reference\n\nGenerated from the sources: `UPDATE=1 cargo test --test generated`. A function that is \
+         missing exists all the same: it raises `not implemented in Swanilda: sim.name`.\n\n",
+    );
+    out.push_str(&tiers(&rows, &built));
+    out.push_str("\n| function | category | status |\n|---|---|---|\n");
+    for row in &rows {
+        let status = if built.contains(row.name) { "works" } else { "missing" };
+        let note = if row.deprecated { ", deprecated" } else { "" };
+        let _ = writeln!(out, "| `sim.{}` | {} | {status}{note} |", row.name, row.category);
+    }
+    out
+}
+
+/// Counts by tier: how much published code needs a function.
+fn tiers(rows: &[ReferenceRow], built: &HashSet<&str>) -> String {
+    const MEANING: [(&str, &str); 4] = [
+        ("T1", "called in five or more public repositories, or by the default main script"),
+        ("T2", "called in two to four, or needed by the stock models and libraries"),
+        ("T3", "called in one, or documented"),
+        ("T4", "deprecated without use, graphical, or removed"),
+    ];
+    let tier_of: BTreeMap<&str, &str> = api::pairs(api::TIERS).collect();
+    let mut out = String::from("| tier | what it is | works | of |\n|---|---|---|---|\n");
+    for (tier, meaning) in MEANING {
+        let of: Vec<_> = rows.iter().filter(|row| tier_of.get(row.name) == Some(&tier)).collect();
+        let works = of.iter().filter(|row| built.contains(row.name)).count();
+        let _ = writeln!(out, "| {tier} | {meaning} | {works} | {} |", of.len());
+    }
+    let works = rows.iter().filter(|row| built.contains(row.name)).count();
+    let _ = writeln!(out, "| | all | {works} | {} |", rows.len());
+    out
+}

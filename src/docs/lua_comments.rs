@@ -1,0 +1,106 @@
+//! Rows from the comments of the Lua library: `--- text`, then `-- @api results = sim.name(parameters)`, `-- @param`, `-- @return`.
+
+use super::row::{Doc, Function, Parameter, Returned};
+use crate::api;
+
+/// The category of each file of `lua/sim`.
+const CATEGORIES: &[(&str, &str)] = &[
+    ("sim/data", "Custom data"),
+    ("sim/deprecated", "Old names"),
+    ("sim/motion", "Motion"),
+    ("sim/path", "Paths"),
+    ("sim/pathobject", "Paths"),
+    ("sim/pose", "Motion"),
+    ("sim/property", "Properties"),
+    ("sim/script", "Scripts"),
+    ("sim/shape", "Shapes"),
+    ("sim/thread", "Threads"),
+    ("sim/tree", "Object tree"),
+];
+
+/// The functions of the library's files.
+pub(super) fn functions() -> Vec<Function> {
+    api::lua_files().flat_map(|(module, source)| in_file(module, source)).collect()
+}
+
+fn in_file(module: &str, source: &str) -> Vec<Function> {
+    let category = CATEGORIES.iter().find(|(name, _)| *name == module).map_or("Other", |(_, category)| category);
+    let mut comment: Vec<&str> = Vec::new();
+    let mut found = Vec::new();
+    for line in source.lines() {
+        if let Some(text) = line.strip_prefix("---").or_else(|| line.strip_prefix("--")) {
+            comment.push(text.trim());
+            continue;
+        }
+        if line.starts_with("function M.") {
+            found.extend(from_comment(category, &comment));
+        }
+        comment.clear();
+    }
+    found
+}
+
+fn from_comment(category: &str, comment: &[&str]) -> Option<Function> {
+    let declaration = comment.iter().find_map(|line| line.strip_prefix("@api "))?;
+    let (results, call) = match declaration.split_once("= sim.") {
+        Some((results, call)) => (results.trim(), call),
+        None => ("", declaration.strip_prefix("sim.")?),
+    };
+    let (member, parameters) = call.split_once('(')?;
+    let prose: Vec<&str> = comment.iter().copied().filter(|line| !line.starts_with("@api ")).collect();
+    let doc = Doc::parse(&prose.join("\n"));
+    let parameters = split_list(parameters.trim_end().strip_suffix(')')?);
+    Some(Function {
+        name: format!("sim.{member}"),
+        category: category.to_owned(),
+        parameters: parameters.iter().map(|text| parameter(text, &doc)).collect(),
+        results: split_list(results).iter().map(|text| result(text, &doc)).collect(),
+        text: doc.text,
+        alias_of: None,
+        deprecated: None,
+    })
+}
+
+/// `int objectHandle = -1`, or `...`.
+fn parameter(text: &str, doc: &Doc) -> Parameter {
+    let (declared, default) = match text.split_once('=') {
+        Some((declared, default)) => (declared.trim(), Some(default.trim().to_owned())),
+        None => (text, None),
+    };
+    let (ty, name) = declared.rsplit_once(' ').unwrap_or(("any", declared));
+    Parameter { name: name.to_owned(), ty: ty.to_owned(), default, text: doc.of_parameter(name) }
+}
+
+fn result(text: &str, doc: &Doc) -> Returned {
+    let (ty, name) = text.rsplit_once(' ').unwrap_or((text, "result"));
+    Returned { name: name.to_owned(), ty: ty.to_owned(), text: doc.of_result(name) }
+}
+
+/// Splits at commas outside of braces.
+fn split_list(text: &str) -> Vec<&str> {
+    let mut depth = 0;
+    let parts = text.split(move |c| {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            _ => {}
+        }
+        c == ',' && depth == 0
+    });
+    parts.map(str::trim).filter(|part| !part.is_empty()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_file;
+
+    #[test]
+    fn reads_a_comment() {
+        let text = "--- Waits.\n-- Long.\n-- @api float left = sim.wait(float dt, int[2] v = {1, 2}, ...)\n-- @param dt seconds\n\
+                    -- @return left overshoot\nfunction M.wait() end\n";
+        let [function] = &in_file("sim/thread", text)[..] else { panic!("one function") };
+        assert_eq!(function.signature(), "float left = sim.wait(float dt, int[2] v = {1, 2}, ...)");
+        assert_eq!((function.text.as_str(), function.category.as_str()), ("Waits.\nLong.", "Threads"));
+        assert_eq!((function.parameters[0].text.as_str(), function.results[0].text.as_str()), ("seconds", "overshoot"));
+    }
+}

@@ -1,0 +1,85 @@
+//! The reference, generated from the rows of the functions: Markdown pages, editor stubs, coverage.
+//!
+//! Everything is read from `#[api]` rows, from the comments of the Lua library, and from the tables of `crate::api`; nothing runs.
+//! `tests/generated.rs` holds the committed files to what this module makes.
+
+mod coverage;
+mod lua_comments;
+mod markdown;
+mod row;
+mod stubs;
+
+use std::collections::BTreeMap;
+
+use crate::api;
+
+pub use markdown::function_text;
+pub use row::{Function, Parameter, Returned};
+
+/// Where the editor stubs are kept in the repository.
+pub const STUBS: &str = "docs/stubs/sim.lua";
+
+/// Every documented function, sorted by name: native ones, those of the Lua library, and other names for them. Names that begin with
+/// an underscore are inner ones and not listed.
+pub fn functions() -> Vec<Function> {
+    let mut all: BTreeMap<String, Function> = BTreeMap::new();
+    for function in lua_comments::functions() {
+        all.insert(function.name.clone(), function);
+    }
+    for (category, functions) in api::CATEGORIES {
+        for function in functions.iter().map(|function| Function::native(category, function)) {
+            all.insert(function.name.clone(), function);
+        }
+    }
+    for (old, new) in api::pairs(api::ALIASES) {
+        if let Some(alias) = all.get(&full(new)).or_else(|| all.get(new)).map(|known| known.renamed(&full(old))) {
+            all.insert(alias.name.clone(), alias);
+        }
+    }
+    for (name, replacement) in api::pairs(api::DEPRECATED) {
+        if let Some(function) = all.get_mut(&full(name)) {
+            function.deprecated = Some(replacement.to_owned());
+        }
+    }
+    all.into_values().filter(|function| !function.is_inner()).collect()
+}
+
+/// Every generated file: path below the repository and text.
+pub fn files() -> Vec<(String, String)> {
+    let functions = functions();
+    let mut files = markdown::pages(&functions);
+    files.push((STUBS.to_owned(), stubs::text(&functions)));
+    files.push(("docs/COVERAGE.md".to_owned(), coverage::text(&functions)));
+    files
+}
+
+/// The editor stubs.
+pub fn stubs() -> String {
+    stubs::text(&functions())
+}
+
+/// Signature of a function of CoppeliaSim's reference, empty when unknown; None when there is no such function.
+pub fn reference_signature(name: &str) -> Option<&'static str> {
+    let member = name.strip_prefix("sim.").unwrap_or(name);
+    reference().find(|row| row.name == member).map(|row| row.signature)
+}
+
+/// One row of CoppeliaSim's reference.
+struct ReferenceRow {
+    name: &'static str,
+    category: &'static str,
+    deprecated: bool,
+    signature: &'static str,
+}
+
+fn reference() -> impl Iterator<Item = ReferenceRow> {
+    api::REFERENCE.lines().map(|line| {
+        let mut columns = line.split('\t');
+        let mut next = || columns.next().unwrap_or_default();
+        ReferenceRow { name: next(), category: next(), deprecated: next() == "deprecated", signature: next() }
+    })
+}
+
+fn full(member: &str) -> String {
+    format!("sim.{member}")
+}

@@ -1,0 +1,163 @@
+//! A function as its documentation tells it.
+
+use crate::api::ApiFn;
+
+/// One documented function.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Function {
+    /// `sim.name`, or a bare name for globals.
+    pub name: String,
+    pub category: String,
+    /// What it does, in one or several lines.
+    pub text: String,
+    pub parameters: Vec<Parameter>,
+    pub results: Vec<Returned>,
+    /// The name this one is another word for.
+    pub alias_of: Option<String>,
+    /// What to use instead; empty when there is nothing.
+    pub deprecated: Option<String>,
+}
+
+/// A parameter; `...` takes all that follow.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Parameter {
+    pub name: String,
+    pub ty: String,
+    /// The value when left out; None when it must be given.
+    pub default: Option<String>,
+    pub text: String,
+}
+
+/// A result.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Returned {
+    pub name: String,
+    pub ty: String,
+    pub text: String,
+}
+
+impl Function {
+    /// From the row `#[api]` made.
+    pub(super) fn native(category: &str, function: &ApiFn) -> Self {
+        let doc = Doc::parse(function.doc);
+        let parameters = function.params.iter().map(|param| Parameter {
+            name: param.name.to_owned(),
+            ty: param.ty.to_owned(),
+            default: param.default.map(lua_literal),
+            text: doc.of_parameter(param.name),
+        });
+        Self {
+            name: function.name.to_owned(),
+            category: category.to_owned(),
+            parameters: parameters.collect(),
+            results: doc.results(function.returns),
+            text: doc.text,
+            alias_of: None,
+            deprecated: None,
+        }
+    }
+
+    /// The same function by another name.
+    pub(super) fn renamed(&self, name: &str) -> Self {
+        Self { name: name.to_owned(), alias_of: Some(self.name.clone()), ..self.clone() }
+    }
+
+    /// The name without `sim.`.
+    pub fn member(&self) -> &str {
+        self.name.strip_prefix("sim.").unwrap_or(&self.name)
+    }
+
+    /// Whether it is for the library itself and not for scripts.
+    pub(super) fn is_inner(&self) -> bool {
+        self.member().starts_with('_')
+    }
+
+    /// `float[3] position = sim.getObjectPosition(int objectHandle, int relativeTo = sim.handle_world)`.
+    pub fn signature(&self) -> String {
+        let parameters: Vec<String> = self.parameters.iter().map(Parameter::declaration).collect();
+        let results: Vec<String> = self.results.iter().map(|r| format!("{} {}", r.ty, r.name)).collect();
+        let assignment = if results.is_empty() { "" } else { " = " };
+        format!("{}{assignment}{}({})", results.join(", "), self.name, parameters.join(", "))
+    }
+
+    /// The first sentence.
+    pub fn summary(&self) -> &str {
+        let line = self.text.lines().next().unwrap_or_default();
+        line.split_once(". ").map_or(line, |(sentence, _)| sentence).trim_end_matches('.')
+    }
+}
+
+impl Parameter {
+    fn declaration(&self) -> String {
+        match (&*self.name, &self.default) {
+            ("...", _) => "...".to_owned(),
+            (name, Some(default)) => format!("{} {name} = {default}", self.ty),
+            (name, None) => format!("{} {name}", self.ty),
+        }
+    }
+}
+
+/// A doc comment taken apart.
+pub(super) struct Doc {
+    pub text: String,
+    parameters: Vec<(String, String)>,
+    returns: Vec<String>,
+}
+
+impl Doc {
+    /// `@param name text` and `@return name text` lines stand apart from the text; lines after them continue them.
+    pub(super) fn parse(doc: &str) -> Self {
+        let (mut text, mut parameters, mut returns) = (Vec::new(), Vec::new(), Vec::new());
+        for line in doc.lines().map(str::trim) {
+            if let Some(rest) = line.strip_prefix("@param ") {
+                let (name, about) = rest.split_once(' ').unwrap_or((rest, ""));
+                parameters.push((name.to_owned(), about.trim().to_owned()));
+            } else if let Some(rest) = line.strip_prefix("@return ") {
+                returns.push(rest.trim().to_owned());
+            } else {
+                text.push(line);
+            }
+        }
+        Self { text: text.join("\n").trim().to_owned(), parameters, returns }
+    }
+
+    pub(super) fn of_parameter(&self, name: &str) -> String {
+        self.parameters.iter().find(|(known, _)| known == name).map(|(_, text)| text.clone()).unwrap_or_default()
+    }
+
+    /// What is said of the result `name`.
+    pub(super) fn of_result(&self, name: &str) -> String {
+        let said = self.returns.iter().filter_map(|line| line.strip_prefix(name)?.strip_prefix(' '));
+        said.collect::<Vec<_>>().join(" ")
+    }
+
+    /// Names and texts for results of these types: a line each, or one line with the names of all.
+    fn results(&self, types: &[&str]) -> Vec<Returned> {
+        let types: Vec<&str> = types.iter().copied().filter(|ty| !ty.is_empty()).collect();
+        let lines: Vec<&str> = match self.returns.as_slice() {
+            [one] if types.len() > 1 => one.split(',').map(str::trim).collect(),
+            lines => lines.iter().map(String::as_str).collect(),
+        };
+        let described = types.iter().enumerate().map(|(i, ty)| {
+            let line = lines.get(i).copied().unwrap_or_default();
+            let (name, text) = line.split_once(' ').unwrap_or((line, ""));
+            let name = if name.is_empty() { "result" } else { name.trim_end_matches(',') };
+            Returned { name: name.to_owned(), ty: (*ty).to_owned(), text: text.trim().to_owned() }
+        });
+        described.collect()
+    }
+}
+
+/// A default value of Rust code in Lua's spelling.
+fn lua_literal(rust: &str) -> String {
+    match rust {
+        "None" => "nil".to_owned(),
+        "Frame::World" | "Frame::default()" => "sim.handle_world".to_owned(),
+        _ if rust.starts_with('[') => rust.replace('[', "{").replace(']', "}"),
+        _ => rust
+            .split_once('(')
+            .filter(|(name, _)| *name == "Number")
+            .map_or(rust, |(_, n)| n.trim_end_matches(')'))
+            .to_owned(),
+    }
+}

@@ -1,0 +1,264 @@
+//! The command line as its users meet it: exit codes, streams, formats.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+const PRINTS_TIME: &str = "sim = require 'sim'
+function sysCall_actuation() print(sim.getSimulationTime()) end
+function sysCall_cleanup() print('cleanup') end";
+
+fn swanilda() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_swanilda"))
+}
+
+/// A folder with one scene in it.
+struct Scene {
+    folder: TempDir,
+}
+
+impl Scene {
+    fn new(code: &str) -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder can be made");
+        fs::write(folder.path().join("scene.lua"), code).expect("our own folder is writable");
+        Self { folder }
+    }
+
+    fn path(&self) -> PathBuf {
+        self.folder.path().join("scene.lua")
+    }
+
+    fn run(&self, args: &[&str]) -> Output {
+        swanilda().arg("run").arg(self.path()).args(args).output().expect("the command starts")
+    }
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[test]
+fn steps_end_the_run_as_a_stop_from_outside() {
+    let output = Scene::new(PRINTS_TIME).run(&["--steps", "2", "--as", "simulation", "--empty"]);
+    assert_eq!(output.status.code(), Some(0));
+    // A stop asked for between two passes lets three more run.
+    assert_eq!(stdout(&output), "0.\n0.05\n0.1\n0.15\n0.2\ncleanup\n");
+    assert!(stderr(&output).contains("5 steps, 0.250 s simulated"), "{}", stderr(&output));
+}
+
+#[test]
+fn time_and_step_length() {
+    let output = Scene::new(PRINTS_TIME).run(&["--time", "0.04", "--dt", "0.02", "--as", "simulation", "--empty"]);
+    assert_eq!(stdout(&output).lines().count(), 2 + 3 + 1, "{}", stdout(&output));
+}
+
+#[test]
+fn quiet_leaves_only_what_scripts_say() {
+    let scene = Scene::new("sim = require 'sim' addLog(sim.verbosity_scriptwarnings, 'mine') print('hello')");
+    let output = scene.run(&["--steps", "1", "--quiet", "--empty"]);
+    assert_eq!(stdout(&output), "hello\n");
+    assert_eq!(stderr(&output).lines().count(), 1, "{}", stderr(&output));
+    assert!(stderr(&output).contains("mine"));
+}
+
+#[test]
+fn verbosity_hides_log_lines() {
+    let scene = Scene::new("sim = require 'sim' addLog(sim.verbosity_scriptwarnings, 'mine')");
+    let output = scene.run(&["--steps", "1", "--verbosity", "errors", "--quiet", "--empty"]);
+    assert_eq!(stderr(&output), "");
+}
+
+#[test]
+fn an_error_names_script_and_line() {
+    let output = Scene::new("\n\nerror('broken')").run(&["--steps", "1", "--empty"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("[/Script:error]"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("\"/Script\"]:3: broken"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_syntax_error_names_script_and_line() {
+    let output = Scene::new("x = 1\ny = = 2").run(&["--steps", "1", "--empty"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("\"/Script\"]:2:"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_caught_error_is_none() {
+    let output = Scene::new("pcall(error, 'x')").run(&["--steps", "1", "--empty"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
+#[test]
+fn a_pause_nobody_ends_is_ended() {
+    let scene = Scene::new("sim = require 'sim' function sysCall_actuation() sim.pauseSimulation() end");
+    let output = scene.run(&["--empty"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stderr(&output).matches("nobody resumes it").count(), 1, "{}", stderr(&output));
+    let scene = Scene::new("function sysCall_actuation() error('x') end");
+    assert_eq!(scene.run(&["--empty"]).status.code(), Some(1));
+}
+
+#[test]
+fn scripts_read_parameters_of_the_command_line() {
+    let scene = Scene::new("sim = require 'sim' print(sim.getNamedStringParam('speed'))");
+    let output = scene.run(&["-D", "speed=1=2", "--steps", "1", "--empty", "--quiet"]);
+    assert_eq!(stdout(&output), "1=2\n", "{}", stderr(&output));
+    assert_eq!(scene.run(&["-D", "speed"]).status.code(), Some(2));
+}
+
+#[test]
+fn modules_are_found_next_to_the_scene() {
+    let scene = Scene::new("print(require('neighbour').answer)");
+    fs::write(scene.folder.path().join("neighbour.lua"), "return {answer = 42}").expect("our own folder is writable");
+    let output = scene.run(&["--steps", "1", "--empty", "--quiet"]);
+    assert_eq!(stdout(&output), "42\n", "{}", stderr(&output));
+}
+
+#[test]
+fn add_ons_start_before_the_scene() {
+    let scene = Scene::new("print('scene')");
+    let add_on = scene.folder.path().join("extra.lua");
+    fs::write(&add_on, "function sysCall_init() print('add-on') end").expect("our own folder is writable");
+    let add_on = add_on.to_string_lossy();
+    let output = scene.run(&["--addon", &add_on, "--steps", "1", "--empty", "--quiet"]);
+    assert_eq!(stdout(&output), "add-on\nscene\n", "{}", stderr(&output));
+}
+
+#[test]
+fn no_start_idles_for_the_given_passes() {
+    let scene = Scene::new("n = 0 function sysCall_nonSimulation() n = n + 1 print(n) end");
+    let output = scene.run(&["--no-start", "--loops", "3", "--empty", "--quiet"]);
+    assert_eq!(stdout(&output), "1\n2\n3\n");
+}
+
+#[test]
+fn json_is_one_object_per_line() {
+    let scene = Scene::new("print('\"quoted\"\\n\\255') error('broken')");
+    let output = scene.run(&["--json", "--steps", "1", "--empty"]);
+    let text = stdout(&output);
+    let objects: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect(line)).collect();
+    let of_type = |ty: &str| objects.iter().find(|object| object["type"] == ty).expect(ty);
+    assert!(of_type("print")["text"].as_str().expect("a text").starts_with("\"quoted\"\n"));
+    assert_eq!(of_type("log")["origin"], "/Script");
+    assert_eq!(of_type("log")["level"], "error");
+    let summary = objects.last().expect("at least a summary");
+    assert_eq!(summary["type"], "summary");
+    assert_eq!(summary["steps"], 4);
+    assert_eq!(summary["errors"], 1);
+    assert_eq!(summary["exitCode"], 1);
+    assert_eq!(stderr(&output), "");
+}
+
+#[test]
+fn wrong_command_lines_and_files_exit_with_2() {
+    let missing = swanilda().args(["run", "/nowhere/scene.lua"]).output().expect("the command starts");
+    assert_eq!(missing.status.code(), Some(2));
+    assert!(stderr(&missing).contains("/nowhere/scene.lua"));
+    let scene = Scene::new("");
+    for wrong in [
+        &["--as", "nonsense"][..],
+        &["--steps", "-1"],
+        &["--time", "inf"],
+        &["--dt", "0"],
+        &["--dt", "nan"],
+        &["--steps", "1", "--time", "1"],
+        &["--addon", "/nowhere.lua"],
+        &["--verbosity", "loud"],
+        &["--nonsense"],
+    ] {
+        assert_eq!(scene.run(wrong).status.code(), Some(2), "{wrong:?}");
+    }
+}
+
+#[test]
+fn real_time_takes_its_time() {
+    let begun = Instant::now();
+    let output = Scene::new("").run(&["--realtime", "--time", "0.2", "--empty"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(begun.elapsed() > Duration::from_millis(200));
+}
+
+#[cfg(unix)]
+#[test]
+fn interrupted_runs_clean_up() {
+    let scene = Scene::new(
+        "sim = require 'sim' print('ready') function sysCall_cleanup() print('cleanup') end
+        function sysCall_afterSimulation() print('stopped') end",
+    );
+    let output = interrupt(&scene, &["--empty", "--quiet"], 1);
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(stdout(&output), "ready\nstopped\ncleanup\n");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_second_interrupt_ends_a_hanging_script() {
+    let scene = Scene::new("print('ready') while true do end");
+    assert_eq!(interrupt(&scene, &["--empty"], 2).status.code(), Some(130));
+}
+
+/// Runs a scene, sends ctrl-c so many times once it has printed a line, and waits for the end.
+#[cfg(unix)]
+fn interrupt(scene: &Scene, args: &[&str], times: u32) -> Output {
+    use std::io::{BufRead, BufReader, Read};
+    let mut command = swanilda();
+    command.arg("run").arg(scene.path()).args(args).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("the command starts");
+    let mut out = BufReader::new(child.stdout.take().expect("piped"));
+    let mut line = String::new();
+    out.read_line(&mut line).expect("the scene prints");
+    for _ in 0..times {
+        let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+        assert!(killed.expect("kill is there").success());
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    let mut rest = Vec::new();
+    out.read_to_end(&mut rest).expect("the pipe is readable");
+    let mut output = child.wait_with_output().expect("the child is ours");
+    output.stdout = [line.into_bytes(), rest].concat();
+    output
+}
+
+#[test]
+fn api_prints_the_reference() {
+    let run = |args: &[&str]| swanilda().arg("api").args(args).output().expect("the command starts");
+    let output = run(&["getSimulationTime"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(stdout(&output).contains("float time = sim.getSimulationTime()"), "{}", stdout(&output));
+    assert!(stdout(&run(&[])).contains("sim.getSimulationTime"));
+    let near = run(&["sim.getSimulationTim"]);
+    assert_eq!(near.status.code(), Some(2));
+    assert!(stderr(&near).contains("did you mean sim.getSimulationTime"), "{}", stderr(&near));
+}
+
+#[test]
+fn init_does_not_overwrite() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let run = |args: &[&str]| {
+        swanilda().arg("init").args(args).current_dir(folder.path()).status().expect("the command starts").code()
+    };
+    assert_eq!(run(&[]), Some(0));
+    let settings = fs::read_to_string(folder.path().join(".luarc.json")).expect("it was written");
+    let settings: Value = serde_json::from_str(&settings).expect("it is JSON");
+    let library = settings["workspace.library"][0].as_str().expect("a folder");
+    assert!(folder.path().join(library).join("sim.lua").exists());
+    assert_eq!(run(&[]), Some(2));
+    assert_eq!(run(&["--force"]), Some(0));
+}
+
+#[test]
+fn completions_and_version() {
+    let completions = swanilda().args(["completions", "bash"]).output().expect("the command starts");
+    assert!(stdout(&completions).contains("swanilda"));
+    let version = swanilda().arg("--version").output().expect("the command starts");
+    assert_eq!(stdout(&version), format!("swanilda {}\n", env!("CARGO_PKG_VERSION")));
+}

@@ -1,0 +1,62 @@
+//! The committed reference is what the sources say. `UPDATE=1 cargo test --test generated` rewrites it.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use swanilda::docs;
+
+#[test]
+fn reference_is_current() {
+    let files = docs::files();
+    let stale: Vec<&str> = files
+        .iter()
+        .filter(|(path, text)| fs::read_to_string(root().join(path)).map_or(true, |committed| committed != *text))
+        .map(|(path, _)| path.as_str())
+        .collect();
+    let left_over = left_over(&files);
+    if std::env::var_os("UPDATE").is_some() {
+        return update(&files, &left_over);
+    }
+    assert!(stale.is_empty(), "stale: {stale:?}\nrun UPDATE=1 cargo test --test generated");
+    assert!(left_over.is_empty(), "no longer generated: {left_over:?}");
+}
+
+#[test]
+fn every_function_says_what_it_does() {
+    let silent: Vec<String> =
+        docs::functions().into_iter().filter(|f| f.text.is_empty() && f.alias_of.is_none()).map(|f| f.name).collect();
+    assert!(silent.is_empty(), "no documentation: {silent:?}");
+}
+
+#[test]
+fn documented_parameters_exist() {
+    let names: BTreeSet<String> = docs::functions().iter().map(|f| f.name.clone()).collect();
+    assert!(names.contains("sim.getObjectPosition"), "the table of functions is read");
+    for function in docs::functions() {
+        let mut seen = BTreeSet::new();
+        for parameter in &function.parameters {
+            assert!(seen.insert(&parameter.name), "{}: two parameters named {}", function.name, parameter.name);
+        }
+    }
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Pages of categories that are no more.
+fn left_over(files: &[(String, String)]) -> Vec<PathBuf> {
+    let Ok(pages) = fs::read_dir(root().join("docs/api")) else { return Vec::new() };
+    let generated: Vec<PathBuf> = files.iter().map(|(path, _)| root().join(path)).collect();
+    pages.flatten().map(|entry| entry.path()).filter(|path| !generated.contains(path)).collect()
+}
+
+fn update(files: &[(String, String)], left_over: &[PathBuf]) {
+    for (path, text) in files {
+        let path = root().join(path);
+        fs::create_dir_all(path.parent().expect("files lie in folders")).expect("the repository is writable");
+        fs::write(path, text).expect("the repository is writable");
+    }
+    left_over.iter().for_each(|path| fs::remove_file(path).expect("the repository is writable"));
+}
