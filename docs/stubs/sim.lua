@@ -66,7 +66,7 @@ function sim.addLog(verbosityLevel, logMessage) end
 --- Adds objects to the selection.
 ---@deprecated sim.setObjectSel
 ---@param what integer sim.handle_single, _tree, _chain or _all
----@param objectHandle integer the object meant
+---@param objectHandle? integer the object meant
 function sim.addObjectToSelection(what, objectHandle) end
 
 --- Adds a reference to those an object has.
@@ -130,6 +130,31 @@ function sim.boolXor16(a, b) end
 ---@return integer result the bits that differ
 function sim.boolXor32(a, b) end
 
+--- The identity.
+---@return number[] matrix upper 3 by 4 block, row by row
+function sim.buildIdentityMatrix() end
+
+--- Matrix of a position and Euler angles.
+---@param position number[] metres
+---@param eulerAngles number[] alpha, beta, gamma, radians
+---@return number[] matrix upper 3 by 4 block, row by row
+function sim.buildMatrix(position, eulerAngles) end
+
+--- Matrix of a position and a quaternion.
+---@deprecated sim.poseToMatrix
+---@param position number[] metres
+---@param quaternion number[] qx, qy, qz, qw
+---@return number[] matrix upper 3 by 4 block, row by row
+function sim.buildMatrixQ(position, quaternion) end
+
+--- Pose of a position, and Euler angles or axes.
+---@param position number[] metres
+---@param eulerAnglesOrAxis number[] Euler angles (mode 0), or an axis
+---@param mode? integer 0: Euler angles; 1 to 3: x, y or z axis; 4 to 6: also the next axis; 7 to 9: also the one after the next
+---@param axis2? number[] where the second axis approximately points
+---@return number[] pose x, y, z, qx, qy, qz, qw
+function sim.buildPose(position, eulerAnglesOrAxis, mode, axis2) end
+
 --- Calls a function of another script (or of this one, by sim.handle_self).
 ---@param functionName string|table name of a global function; dots walk through tables
 ---@param scriptHandle integer the script
@@ -168,15 +193,29 @@ function sim.closePath(path, lengths) end
 ---@return any value in the second type; error if there is no sensible one
 function sim.convertPropertyValue(value, fromType, toType) end
 
+--- Copy of a matrix.
+---@deprecated table.copy
+---@param matrixIn number[] 12 numbers
+---@return number[] matrixOut the same
+function sim.copyMatrix(matrixIn) end
+
 --- Copy of a table, tables inside included.
 ---@param original any[] table
 ---@return any[] copy shares nothing with the original
 function sim.copyTable(original) end
 
---- Creates a dummy as the last root, named `dummy`.
+--- A new dummy at the world's origin, the last root.
 ---@param size number diameter, metres
----@return integer objectHandle the dummy
+---@return integer dummyHandle the dummy
 function sim.createDummy(size) end
+
+--- A new joint at the world's origin; its axis is z.
+---@param jointType integer sim.joint_revolute, sim.joint_prismatic or sim.joint_spherical
+---@param jointMode integer sim.jointmode_*
+---@param options integer not used
+---@param sizes number[] length and diameter, metres, for display
+---@return integer jointHandle the joint
+function sim.createJoint(jointType, jointMode, options, sizes) end
 
 --- Creates a path object from control points.
 ---@param ctrlPts number[] poses, seven numbers each, at least two
@@ -187,6 +226,13 @@ function sim.createDummy(size) end
 ---@param upVector? number[] what is up when the orientation is computed
 ---@return integer pathHandle a dummy, with custom data PATHCTRLPTS and PATH (seven doubles per point)
 function sim.createPath(ctrlPts, options, subdiv, smoothness, orientationMode, upVector) end
+
+--- A new primitive shape, centred on the world's origin: static and not respondable.
+---@param primitiveType integer sim.primitiveshape_*
+---@param sizes number[] full extents, metres
+---@param options? integer 1: back faces culled, 2: sharp edges, 4: open ends, 8: only a mesh, no primitive for the physics
+---@return integer shapeHandle the shape, -1 when there is no such primitive
+function sim.createPrimitiveShape(primitiveType, sizes, options) end
 
 --- Creates a script object as the last root, named `script`.
 ---@param scriptType integer sim.scripttype_*
@@ -224,6 +270,20 @@ function sim.getAutoYield() end
 ---@return number delay milliseconds, as in CoppeliaSim 4.10
 function sim.getAutoYieldDelay() end
 
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return boolean propertyState
+function sim.getBoolProperty(target, propertyName, options) end
+
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return string|table propertyState
+function sim.getBufferProperty(target, propertyName, options) end
+
 --- Value of a buffer signal.
 ---@param name string of the signal
 ---@return string|table value nothing if the signal does not exist
@@ -236,6 +296,13 @@ function sim.getBufferSignal(name) end
 ---@return number t for sim.getPathInterpolatedConfig
 function sim.getClosestPosOnPath(path, lengths, position) end
 
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return number[] propertyState
+function sim.getColorProperty(target, propertyName, options) end
+
 --- Distance between two configurations.
 ---@param a number[] the one
 ---@param b number[] the other
@@ -244,19 +311,125 @@ function sim.getClosestPosOnPath(path, lengths, position) end
 ---@return number distance root of the sum of squares
 function sim.getConfigDistance(a, b, metric, types) end
 
+--- Euler angles of a matrix.
+---@param matrix number[] upper 3 by 4 block, row by row
+---@return number[] eulerAngles alpha, beta, gamma, radians
+function sim.getEulerAnglesFromMatrix(matrix) end
+
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return number[] propertyState
+function sim.getFloatArrayProperty(target, propertyName, options) end
+
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return number propertyState
+function sim.getFloatProperty(target, propertyName, options) end
+
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return integer[] propertyState
+function sim.getIntArray2Property(target, propertyName, options) end
+
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return integer[] propertyState
+function sim.getIntArrayProperty(target, propertyName, options) end
+
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return integer propertyState
+function sim.getIntProperty(target, propertyName, options) end
+
 --- Whether the simulation keeps to wall-clock time.
 ---@return integer result 1 or 0
 function sim.getIsRealTimeSimulation() end
 
+--- What a joint follows: position = offset + multCoeff * position of the master.
+---@param jointHandle integer the joint
+---@return integer masterJointHandle -1 if there is none
+---@return number offset rad or metres
+---@return number multCoeff the factor
+function sim.getJointDependency(jointHandle) end
+
+--- Interval of a joint.
+---@param objectHandle integer the joint
+---@return boolean cyclic whether it has no limits
+---@return number[] interval lower limit and range (not the upper limit), rad or metres
+function sim.getJointInterval(objectHandle) end
+
+--- Mode of a joint.
+---@param jointHandle integer the joint
+---@return integer jointMode sim.jointmode_*
+---@return integer options always 0
+function sim.getJointMode(jointHandle) end
+
+--- Position of a joint.
+---@param objectHandle integer the joint, revolute or prismatic
+---@return number position rad or metres
+function sim.getJointPosition(objectHandle) end
+
+--- Target force of a joint.
+---@param jointHandle integer the joint
+---@return number forceOrTorque signed, N or N m
+function sim.getJointTargetForce(jointHandle) end
+
+--- Target position of a joint.
+---@param objectHandle integer the joint, revolute or prismatic
+---@return number targetPosition rad or metres
+function sim.getJointTargetPosition(objectHandle) end
+
+--- Target velocity of a joint.
+---@param objectHandle integer the joint, revolute or prismatic
+---@return number targetVelocity rad/s or m/s
+function sim.getJointTargetVelocity(objectHandle) end
+
+--- Type of a joint.
+---@param objectHandle integer the joint
+---@return integer jointType sim.joint_*
+function sim.getJointType(objectHandle) end
+
+--- Velocity of a joint.
+---@param jointHandle integer the joint
+---@return number velocity rad/s or m/s
+function sim.getJointVelocity(jointHandle) end
+
+--- The dummy another is linked to.
+---@param dummyHandle integer the dummy
+---@return integer linkDummyHandle its partner, -1 if there is none
+function sim.getLinkDummy(dummyHandle) end
+
 --- Names of the plugins this script has loaded.
 ---@return string[] names sorted
 function sim.getLoadedPlugins() end
+
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return integer propertyState
+function sim.getLongProperty(target, propertyName, options) end
 
 --- Names of persistent data that match a pattern.
 ---@deprecated properties
 ---@param pattern string of Lua
 ---@return string[] tags in the order of sim.getPersistentDataTags
 function sim.getMatchingPersistentDataTags(pattern) end
+
+--- Inverse of a matrix.
+---@param matrix number[] upper 3 by 4 block, row by row
+---@return number[] matrix its inverse
+function sim.getMatrixInverse(matrix) end
 
 --- Size of the box around a model.
 ---@param handle integer base of the model
@@ -310,14 +483,18 @@ function sim.getObjectAliasRelative(handle, baseHandle, aliasOptions, options) e
 ---@return integer childObjectHandle -1 past the end
 function sim.getObjectChild(objectHandle, index) end
 
+--- From an object to the frame its children live in: the motion of a joint, the identity for most others.
+---@param objectHandle integer the object
+---@return number[] pose x, y, z, qx, qy, qz, qw
+function sim.getObjectChildPose(objectHandle) end
+
 --- Object with an identifier.
 ---@param uid integer the identifier
----@param options table noError: -1 instead of an error
+---@param options? table noError: -1 instead of an error
 ---@return integer objectHandle the object
 function sim.getObjectFromUid(uid, options) end
 
 --- Handle of the object at a path or with an old-style name.
----@deprecated sim.getObject
 ---@param path string as in sim.getObject, or an old name such as robot#0
 ---@param options? table noError: -1 instead of an error
 ---@return integer objectHandle the object
@@ -334,22 +511,46 @@ function sim.getObjectHandle_noErrorNoSuffixAdjustment(name) end
 ---@return integer totalSiblingsCount itself included
 function sim.getObjectHierarchyOrder(objectHandle) end
 
+--- Pose of an object as a matrix.
+---@param objectHandle integer the object
+---@param relativeToObjectHandle? integer the frame to express it in
+---@return number[] matrix upper 3 by 4 block, row by row
+function sim.getObjectMatrix(objectHandle, relativeToObjectHandle) end
+
 --- Old-style name of an object: its alias, unless sim.setObjectName gave it another.
 ---@deprecated sim.getObjectAlias
 ---@param objectHandle integer the object
 ---@return string objectName the name
 function sim.getObjectName(objectHandle) end
 
+--- Euler angles of an object.
+---@param objectHandle integer the object
+---@param relativeToObjectHandle? integer the frame to express them in
+---@return number[] eulerAngles alpha, beta, gamma, radians
+function sim.getObjectOrientation(objectHandle, relativeToObjectHandle) end
+
 --- Parent of an object.
 ---@param objectHandle integer the object
 ---@return integer parentObjectHandle -1 for roots
 function sim.getObjectParent(objectHandle) end
+
+--- Pose of an object.
+---@param objectHandle integer the object; sim.handleflag_wxyzquat puts w first
+---@param relativeToObjectHandle? integer the frame to express it in
+---@return number[] pose x, y, z, qx, qy, qz, qw
+function sim.getObjectPose(objectHandle, relativeToObjectHandle) end
 
 --- Position of an object.
 ---@param objectHandle integer the object
 ---@param relativeToObjectHandle? integer the frame to express it in
 ---@return number[] position metres
 function sim.getObjectPosition(objectHandle, relativeToObjectHandle) end
+
+--- Rotation of an object.
+---@param objectHandle integer the object; sim.handleflag_wxyzquat puts w first
+---@param relativeToObjectHandle? integer the frame to express it in
+---@return number[] quaternion qx, qy, qz, qw
+function sim.getObjectQuaternion(objectHandle, relativeToObjectHandle) end
 
 --- Selected objects.
 ---@return integer[] objectHandles the last selected one last
@@ -369,6 +570,12 @@ function sim.getObjectType(objectHandle) end
 ---@param objectHandle integer the object
 ---@return integer uid the identifier
 function sim.getObjectUid(objectHandle) end
+
+--- Measured velocity of an object, between the last two simulation steps, world axes.
+---@param objectHandle integer the object; with sim.handleflag_axis the angular velocity is axis times angle
+---@return number[] linearVelocity m/s
+---@return number[] angularVelocity Euler angles of the step in the object's previous frame, rad/s
+function sim.getObjectVelocity(objectHandle) end
 
 --- Object by its position in the order of creation.
 ---@param index integer from 0
@@ -406,6 +613,18 @@ function sim.getPathInterpolatedConfig(path, lengths, t, method, types) end
 ---@return number total the last of them
 function sim.getPathLengths(path, dof, distCallback) end
 
+--- Inverse of a pose.
+---@param pose number[] x, y, z, qx, qy, qz, qw
+---@return number[] pose its inverse
+function sim.getPoseInverse(pose) end
+
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return number[] propertyState
+function sim.getPoseProperty(target, propertyName, options) end
+
 --- All properties of a target.
 ---@param target integer object, sim.handle_scene, sim.handle_app, ...
 ---@param options? table skipLarge: leave out properties with much data
@@ -431,12 +650,26 @@ function sim.getProperty(target, name, options) end
 ---@return function getter for instance sim.getIntProperty
 function sim.getPropertyGetter(type, onlyName) end
 
+--- What is known about a property; nothing when there is none of that name.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param Options? table
+---@return any type flags, description
+function sim.getPropertyInfo(target, propertyName, Options) end
+
 --- Type, flags and description of one property, as a table.
 ---@param target integer object, sim.handle_scene, sim.handle_app, ...
 ---@param name string of the property
 ---@param options? table as in sim.getPropertyInfo
 ---@return table info with type, flags, infoTxt and a field per flag; nil if there is no such property
 function sim.getPropertyInfos(target, name, options) end
+
+--- The properties of a target one by one; nothing past the last one.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param index integer from 0
+---@param options? table prefix: only names that begin with it
+---@return any propertyName appartenance
+function sim.getPropertyName(target, index, options) end
 
 --- Function that writes properties of a type, or its name.
 ---@param type integer sim.propertytype_*
@@ -449,16 +682,36 @@ function sim.getPropertySetter(type, onlyName) end
 ---@return string word what follows propertytype_
 function sim.getPropertyTypeString(type) end
 
+--- Rotation of a matrix.
+---@deprecated sim.matrixToPose
+---@param matrix number[] upper 3 by 4 block, row by row
+---@return number[] quaternion qx, qy, qz, qw
+function sim.getQuaternionFromMatrix(matrix) end
+
 --- Inverse of a quaternion.
 ---@param quaternion number[] x, y, z, w
 ---@return number[] quaternion the opposite rotation
 function sim.getQuaternionInverse(quaternion) end
+
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return number[] propertyState
+function sim.getQuaternionProperty(target, propertyName, options) end
 
 --- The one object referenced under a tag.
 ---@param objectHandle integer the object that refers
 ---@param tag? string of the reference
 ---@return integer referencedHandle error if there is none, or more than one
 function sim.getReferencedHandle(objectHandle, tag) end
+
+--- Axis and angle that turn one orientation into another.
+---@param matrixStart number[] matrix or pose
+---@param matrixGoal number[] matrix or pose
+---@return number[] axis in the frame both are expressed in
+---@return number angle 0 to pi, radians
+function sim.getRotationAxis(matrixStart, matrixGoal) end
 
 --- An object whose methods are the global functions of another script: proxy:name(...).
 ---@param handle integer script, object that has a script, or path to one
@@ -508,6 +761,20 @@ function sim.getSimulationTime() end
 ---@return number timeStep seconds
 function sim.getSimulationTimeStep() end
 
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return string propertyState
+function sim.getStringProperty(target, propertyName, options) end
+
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return table propertyState
+function sim.getTableProperty(target, propertyName, options) end
+
 --- Whether the running coroutine may be pre-empted.
 ---@deprecated
 ---@return boolean allowed
@@ -536,6 +803,20 @@ function sim.getThreadSwitchTiming() end
 --- Names of the global variables of this script that are not functions.
 ---@return string[] variables sorted
 function sim.getUserVariables() end
+
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return number[] propertyState
+function sim.getVector2Property(target, propertyName, options) end
+
+--- Value of a property.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param options? table noError: nothing instead of an error
+---@return number[] propertyState
+function sim.getVector3Property(target, propertyName, options) end
 
 --- Whether this script may yield now.
 ---@return boolean allowed
@@ -620,6 +901,30 @@ function sim.includeRel(path) end
 ---@param scriptHandle integer the script
 function sim.initScript(scriptHandle) end
 
+--- Matrix between two others: positions on the line, rotations on the shortest arc.
+---@param matrixIn1 number[] at 0
+---@param matrixIn2 number[] at 1
+---@param interpolFactor number not limited to 0 to 1
+---@return number[] resultMatrix upper 3 by 4 block, row by row
+function sim.interpolateMatrices(matrixIn1, matrixIn2, interpolFactor) end
+
+--- Pose between two others: positions on the line, rotations on the shortest arc.
+---@param poseIn1 number[] at 0
+---@param poseIn2 number[] at 1
+---@param interpolFactor number not limited to 0 to 1
+---@return number[] resultPose x, y, z, qx, qy, qz, qw
+function sim.interpolatePoses(poseIn1, poseIn2, interpolFactor) end
+
+--- Inverts a matrix in place.
+---@param matrix number[] is changed
+---@return integer result 1
+function sim.invertMatrix(matrix) end
+
+--- Inverts a pose in place.
+---@param pose number[] is changed
+---@return integer result 1
+function sim.invertPose(pose) end
+
 --- Whether a handle is one of an object, a collection or a script.
 ---@param objectHandle integer the handle
 ---@return boolean result true if so
@@ -645,6 +950,11 @@ function sim.isPluginLoaded(name) end
 ---@param name string for instance simIK
 ---@return integer handle 0
 function sim.loadPlugin(name) end
+
+--- Pose of a matrix.
+---@param matrix number[] upper 3 by 4 block, row by row
+---@return number[] pose x, y, z, qx, qy, qz, qw
+function sim.matrixToPose(matrix) end
 
 --- Moves joints or a set of numbers to a target, with limited velocity, acceleration and jerk.
 --- Blocks in a thread. The older form takes flags, pos, vel, accel, maxVel, maxAccel, maxJerk, targetPos, targetVel,
@@ -715,8 +1025,31 @@ function sim.moveToPose_step(motionObject) end
 ---@param acceleration? number limit; nil: none
 function sim.moveToPosition(object, relativeTo, position, angles, velocity, acceleration) end
 
+--- Product of two matrices.
+---@param matrixIn1 number[] left factor
+---@param matrixIn2 number[] right factor
+---@return number[] resultMatrix upper 3 by 4 block, row by row
+function sim.multiplyMatrices(matrixIn1, matrixIn2) end
+
+--- Product of two poses.
+---@param poseIn1 number[] left factor
+---@param poseIn2 number[] right factor
+---@return number[] resultPose x, y, z, qx, qy, qz, qw
+function sim.multiplyPoses(poseIn1, poseIn2) end
+
+--- Transforms vectors. Nothing is normalised.
+---@param matrix number[] matrix (12 numbers), pose (7) or quaternion (4)
+---@param inVectors number[] three numbers for each vector
+---@return number[] outVectors three numbers for each vector
+function sim.multiplyVector(matrix, inVectors) end
+
 --- Asks for a pause. Nothing happens when the simulation is not running or is about to stop.
 function sim.pauseSimulation() end
+
+--- Matrix of a pose.
+---@param pose number[] x, y, z, qx, qy, qz, qw
+---@return number[] matrix upper 3 by 4 block, row by row
+function sim.poseToMatrix(pose) end
 
 --- Ends the program after the current pass.
 function sim.quitSimulator() end
@@ -786,13 +1119,19 @@ function sim.removeObject(objectHandle) end
 --- Takes objects out of the selection.
 ---@deprecated sim.setObjectSel
 ---@param what integer sim.handle_single, _tree, _chain or _all
----@param objectHandle integer the object meant
+---@param objectHandle? integer the object meant
 function sim.removeObjectFromSelection(what, objectHandle) end
 
 --- Removes objects. Children that are not listed survive: they go to the nearest ancestor left.
 ---@param objectHandles integer[] the objects
 ---@param delayedRemoval? boolean remove them when the scripts have run
 function sim.removeObjects(objectHandles, delayedRemoval) end
+
+--- Removes custom data, a signal or a named parameter.
+---@param target integer object, sim.handle_app or sim.handle_scene
+---@param propertyName string with its prefix `customData.`, `signal.` or `namedParam.`
+---@param options? table noError: no error when there is none
+function sim.removeProperty(target, propertyName, options) end
 
 --- Removes the objects another one refers to, and the references.
 ---@param objectHandle integer the object that refers
@@ -860,6 +1199,14 @@ function sim.rmlMoveToJointPositions(joints, flags, currentVel, currentAccel, ma
 ---@return number timeLeft unused part of the last step
 function sim.rmlMoveToPosition(object, relativeTo, flags, currentVel, currentAccel, maxVel, maxAccel, maxJerk, targetPosition, targetQuaternion, targetVel) end
 
+--- Turns a matrix or pose around an axis.
+---@param matrixIn number[] matrix or pose
+---@param axis number[] direction, any length
+---@param axisPos number[] a point on the axis, metres
+---@param angle number radians, right-handed
+---@return number[] matrixOut of the same kind
+function sim.rotateAroundAxis(matrixIn, axis, axisPos, angle) end
+
 --- Runs a function later, at a point in time.
 ---@param f function function or name of a global function
 ---@param args any[] its arguments
@@ -878,11 +1225,127 @@ function sim.setAutoYield(allow) end
 ---@param delay number seconds, kept as whole milliseconds
 function sim.setAutoYieldDelay(delay) end
 
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState boolean the new value
+---@param options? table noError: no error when that fails
+function sim.setBoolProperty(target, propertyName, propertyState, options) end
+
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState string|table the new value
+---@param options? table noError: no error when that fails
+function sim.setBufferProperty(target, propertyName, propertyState, options) end
+
 --- Sets a buffer signal.
 ---@param name string of the signal
 ---@param value string|table bytes
 ---@return integer result 1
 function sim.setBufferSignal(name, value) end
+
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState number[] the new value
+---@param options? table noError: no error when that fails
+function sim.setColorProperty(target, propertyName, propertyState, options) end
+
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState number[] the new value
+---@param options? table noError: no error when that fails
+function sim.setFloatArrayProperty(target, propertyName, propertyState, options) end
+
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState number the new value
+---@param options? table noError: no error when that fails
+function sim.setFloatProperty(target, propertyName, propertyState, options) end
+
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState integer[] the new value
+---@param options? table noError: no error when that fails
+function sim.setIntArray2Property(target, propertyName, propertyState, options) end
+
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState integer[] the new value
+---@param options? table noError: no error when that fails
+function sim.setIntArrayProperty(target, propertyName, propertyState, options) end
+
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState integer the new value
+---@param options? table noError: no error when that fails
+function sim.setIntProperty(target, propertyName, propertyState, options) end
+
+--- Makes a joint in dependent mode follow another.
+---@param jointHandle integer the joint
+---@param masterJointHandle integer the joint to follow, -1 for none
+---@param offset number rad or metres
+---@param multCoeff number factor on the master's position
+---@return integer result 0
+function sim.setJointDependency(jointHandle, masterJointHandle, offset, multCoeff) end
+
+--- Changes the interval of a joint; the position follows.
+---@param objectHandle integer the joint
+---@param cyclic boolean whether it has no limits
+---@param interval number[] lower limit and range (not the upper limit), rad or metres
+function sim.setJointInterval(objectHandle, cyclic, interval) end
+
+--- Changes the mode of a joint. Leaving the dependent mode ends the dependency.
+---@param jointHandle integer the joint
+---@param jointMode integer sim.jointmode_*
+---@param options? integer not used
+---@return integer result 1
+function sim.setJointMode(jointHandle, jointMode, options) end
+
+--- Moves a joint, within its interval.
+---@param objectHandle integer the joint, revolute or prismatic
+---@param position number rad or metres
+---@return integer result 1, or 0 when the joint is moving towards a target and was left alone
+function sim.setJointPosition(objectHandle, position) end
+
+--- Sets the target force of a joint: what it drives with, or may drive with at most.
+---@param objectHandle integer the joint
+---@param forceOrTorque number N or N m
+---@param signedValue? boolean whether the sign counts; otherwise it follows the target velocity
+function sim.setJointTargetForce(objectHandle, forceOrTorque, signedValue) end
+
+--- Sets the target position of a joint. A kinematic joint starts to move there.
+---@param objectHandle integer the joint, revolute or prismatic
+---@param targetPosition number rad or metres
+---@param motionParams? number[] highest velocity, acceleration and jerk; may be shorter
+---@return integer result 1
+function sim.setJointTargetPosition(objectHandle, targetPosition, motionParams) end
+
+--- Sets the target velocity of a joint. A kinematic joint starts to move.
+---@param objectHandle integer the joint, revolute or prismatic
+---@param targetVelocity number rad/s or m/s
+---@param motionParams? number[] highest acceleration and jerk; may be shorter
+---@param initVel number velocity to start from
+---@return integer result 1
+function sim.setJointTargetVelocity(objectHandle, targetVelocity, motionParams, initVel) end
+
+--- Links two dummies; earlier partners of both are released.
+---@param dummyHandle integer the dummy
+---@param linkDummyHandle number its new partner, -1 for none
+function sim.setLinkDummy(dummyHandle, linkDummyHandle) end
+
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState integer the new value
+---@param options? table noError: no error when that fails
+function sim.setLongProperty(target, propertyName, propertyState, options) end
 
 --- Chooses the suffix old-style names are looked up with. Objects have no suffixes any more, so this does nothing.
 ---@param SuffixNumber integer
@@ -908,10 +1371,22 @@ function sim.setNamedInt32Param(name, value) end
 ---@param objectAlias string|table need not be unique
 function sim.setObjectAlias(objectHandle, objectAlias) end
 
+--- Turns the moving side of a spherical joint. Other objects are left as they are.
+---@param objectHandle integer the joint
+---@param pose number[] of which the rotation is taken
+---@return integer result 1, or -1 if it is no spherical joint
+function sim.setObjectChildPose(objectHandle, pose) end
+
 --- Moves an object among its siblings.
 ---@param objectHandle integer the object
 ---@param order integer from 0; negative positions count from the end
 function sim.setObjectHierarchyOrder(objectHandle, order) end
+
+--- Places an object.
+---@param objectHandle integer the object
+---@param matrix number[] upper 3 by 4 block, row by row
+---@param relativeToObjectHandle? number[] the frame it is expressed in
+function sim.setObjectMatrix(objectHandle, matrix, relativeToObjectHandle) end
 
 --- Sets the old-style name of an object; its alias stays.
 ---@deprecated sim.setObjectAlias
@@ -920,12 +1395,36 @@ function sim.setObjectHierarchyOrder(objectHandle, order) end
 ---@return integer result 1
 function sim.setObjectName(objectHandle, objectName) end
 
+--- Turns an object; its position stays.
+---@param objectHandle integer the object
+---@param eulerAngles number[] alpha, beta, gamma, radians
+---@param relativeToObjectHandle? number[] the frame they are expressed in
+function sim.setObjectOrientation(objectHandle, eulerAngles, relativeToObjectHandle) end
+
 --- Makes an object the last child of another.
 ---@param objectHandle integer the object
 ---@param parentObjectHandle integer -1 makes it a root
 ---@param keepInPlace? boolean keep its place in the world, otherwise its pose relative to the parent
 ---@return integer result 1
 function sim.setObjectParent(objectHandle, parentObjectHandle, keepInPlace) end
+
+--- Places an object.
+---@param objectHandle integer the object; sim.handleflag_wxyzquat: w comes first
+---@param pose number[] x, y, z, qx, qy, qz, qw
+---@param relativeToObjectHandle? number[] the frame it is expressed in
+function sim.setObjectPose(objectHandle, pose, relativeToObjectHandle) end
+
+--- Moves an object; its orientation stays.
+---@param objectHandle integer the object
+---@param position number[] metres
+---@param relativeToObjectHandle? number[] the frame it is expressed in
+function sim.setObjectPosition(objectHandle, position, relativeToObjectHandle) end
+
+--- Turns an object; its position stays.
+---@param objectHandle integer the object; sim.handleflag_wxyzquat: w comes first
+---@param quaternion number[] qx, qy, qz, qw
+---@param relativeToObjectHandle? number[] the frame it is expressed in
+function sim.setObjectQuaternion(objectHandle, quaternion, relativeToObjectHandle) end
 
 --- Selects objects instead of those selected so far.
 ---@param objectHandles integer[] unknown ones are left out
@@ -935,6 +1434,13 @@ function sim.setObjectSel(objectHandles) end
 ---@deprecated sim.setObjectSel
 ---@param objectHandles integer[] unknown ones are left out
 function sim.setObjectSelection(objectHandles) end
+
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState number[] the new value
+---@param options? table noError: no error when that fails
+function sim.setPoseProperty(target, propertyName, propertyState, options) end
 
 --- Sets several properties.
 ---@param target integer object, sim.handle_scene, sim.handle_app, ...
@@ -947,6 +1453,13 @@ function sim.setProperties(target, values) end
 ---@param value any of the right kind
 ---@param type? integer for custom data only: sim.propertytype_*, or the word after it
 function sim.setProperty(target, name, value, type) end
+
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState number[] the new value
+---@param options? table noError: no error when that fails
+function sim.setQuaternionProperty(target, propertyName, propertyState, options) end
 
 --- Makes a shape look like another one did.
 ---@param handle integer the shape
@@ -971,6 +1484,13 @@ function sim.setSimilarName(handle, original, suffix) end
 ---@return integer prevLevel the level before, to be given back to this function later
 function sim.setStepping(enable) end
 
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState string the new value
+---@param options? table noError: no error when that fails
+function sim.setStringProperty(target, propertyName, propertyState, options) end
+
 --- Sets a property that holds a table.
 ---@param target integer object, sim.handle_scene, sim.handle_app, ...
 ---@param name string of the property
@@ -994,6 +1514,20 @@ function sim.setThreadSwitchAllowed(allow) end
 ---@deprecated sim.setAutoYieldDelay
 ---@param milliseconds integer whole
 function sim.setThreadSwitchTiming(milliseconds) end
+
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState number[] the new value
+---@param options? table noError: no error when that fails
+function sim.setVector2Property(target, propertyName, propertyState, options) end
+
+--- Sets a property; names below `customData.` and `signal.` are created.
+---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
+---@param propertyName string its name
+---@param propertyState number[] the new value
+---@param options? table noError: no error when that fails
+function sim.setVector3Property(target, propertyName, propertyState, options) end
 
 --- Allows or forbids yielding altogether, in this script.
 ---@param allow any false raises the level, true lowers it, a number sets it; yielding is possible at level 0
