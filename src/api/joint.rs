@@ -84,12 +84,7 @@ fn get_joint_mode(cx: &Cx, joint_handle: Handle) -> Result<(i64, i64)> {
 /// @param options not used
 /// @return result 1
 #[api("sim.setJointMode")]
-fn set_joint_mode(
-    cx: &mut Cx,
-    joint_handle: Handle,
-    joint_mode: Number,
-    #[default(0)] options: Number,
-) -> Result<i64> {
+fn set_joint_mode(cx: &mut Cx, joint_handle: Handle, joint_mode: Number, #[default(0)] options: Number) -> Result<i64> {
     let _ = options;
     let mode = JointMode::from_code(joint_mode.0).ok_or(SceneError::InvalidArgument)?;
     cx.scene_mut().set_joint_mode(joint_handle, mode)?;

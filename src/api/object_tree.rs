@@ -301,7 +301,11 @@ fn add_object_to_selection(cx: &mut Cx, what: Number, #[default(None)] object_ha
 /// @param what sim.handle_single, _tree, _chain or _all
 /// @param objectHandle the object meant
 #[api("sim.removeObjectFromSelection")]
-fn remove_object_from_selection(cx: &mut Cx, what: Number, #[default(None)] object_handle: Option<Handle>) -> Result<()> {
+fn remove_object_from_selection(
+    cx: &mut Cx,
+    what: Number,
+    #[default(None)] object_handle: Option<Handle>,
+) -> Result<()> {
     let removed = meant(cx, what.0, object_handle)?;
     let mut selection = cx.scene().selection().to_vec();
     selection.retain(|handle| !removed.contains(handle));

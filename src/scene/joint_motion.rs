@@ -31,7 +31,8 @@ impl Scene {
         }
         for handle in resting {
             // The handle was just read.
-            let _ = self.try_modify(handle, Field::JointPosition, |object| object.joint_mut().map(|j| j.velocity = 0.0));
+            let _ =
+                self.try_modify(handle, Field::JointPosition, |object| object.joint_mut().map(|j| j.velocity = 0.0));
         }
         moving
     }
@@ -58,7 +59,8 @@ impl Scene {
     pub fn stop_joint_motions(&mut self) {
         let joints: Vec<Handle> = self.objects().filter(|o| o.joint().is_ok()).map(Object::handle).collect();
         for handle in joints {
-            let moves = self.object(handle).and_then(Object::joint).is_ok_and(|j| j.motion.is_some() || j.velocity != 0.0);
+            let moves =
+                self.object(handle).and_then(Object::joint).is_ok_and(|j| j.motion.is_some() || j.velocity != 0.0);
             if moves {
                 // The handle was just read.
                 let _ = self.modify_joint(handle, |joint| {

@@ -170,8 +170,10 @@ impl Scene {
 
     /// Measures how fast every object moved since the last call, `dt` seconds ago. Without `dt` measuring begins.
     pub fn measure_velocities(&mut self, dt: Option<f64>) {
-        let poses: Vec<(Handle, Pose)> =
-            self.objects().filter_map(|object| Some((object.handle(), self.world_pose(object.handle()).ok()?))).collect();
+        let poses: Vec<(Handle, Pose)> = self
+            .objects()
+            .filter_map(|object| Some((object.handle(), self.world_pose(object.handle()).ok()?)))
+            .collect();
         for (handle, now) in poses {
             if let Ok(object) = self.object_mut(handle) {
                 object.measured = measured(object.measured.previous, now, dt);

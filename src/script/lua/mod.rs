@@ -12,11 +12,15 @@
 //!   act, from a frame that owns nothing ([`callback`]). Allocation failure aborts (see `allocate`), so that pushing never raises.
 
 mod callback;
+mod calls;
 mod coroutine;
 mod stack;
 mod state;
+mod tables;
 
 pub(crate) use callback::{Callback, push_callback};
+pub(crate) use calls::{LuaError, MULTIPLE};
 pub(crate) use coroutine::{HOOK_INTERVAL, install_coroutine_hooks, set_count_hook};
-pub(crate) use stack::{FunctionRef, LuaError, MULTIPLE, Stack, Type};
+pub(crate) use stack::{Stack, Type};
 pub(crate) use state::State;
+pub(crate) use tables::FunctionRef;

@@ -1,0 +1,135 @@
+//! Compiling and calling Lua, and looking at who runs.
+
+use std::ffi::{c_int, c_void};
+
+use mlua_sys as ffi;
+
+use super::super::env::Env;
+use super::stack::Stack;
+
+/// "All results", for [`Stack::protected_call`].
+pub(crate) const MULTIPLE: c_int = ffi::LUA_MULTRET;
+
+/// An error that ended a protected call.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct LuaError {
+    /// The error value as text with Lua's traceback, or `(error unknown)` when it was no string.
+    pub text: String,
+}
+
+impl LuaError {
+    /// The text without the traceback.
+    pub(crate) fn message(&self) -> &str {
+        self.text.split("\nstack traceback:").next().unwrap_or(&self.text)
+    }
+}
+
+impl<'a> Stack<'a> {
+    /// Compiles `code` (text or bytecode made by this binary) and pushes the chunk. Lua shows positions as `[string "name"]:line:`
+    /// unless the name starts with `=` or `@`.
+    pub(crate) fn load(self, code: &[u8], name: &str, bytecode: bool) -> Result<(), LuaError> {
+        let name = std::ffi::CString::new(name.replace('\0', " ")).unwrap_or_default();
+        let mode = if bytecode { c"b" } else { c"t" };
+        // SAFETY: `luaL_loadbufferx` reports errors as values.
+        let status = unsafe {
+            ffi::luaL_loadbufferx(self.raw(), code.as_ptr().cast(), code.len(), name.as_ptr(), mode.as_ptr())
+        };
+        if status == ffi::LUA_OK { Ok(()) } else { Err(self.pop_error()) }
+    }
+
+    /// Calls the function below its `arguments` on the stack, replacing them by `results` values.
+    pub(crate) fn protected_call(self, arguments: c_int, results: c_int) -> Result<(), LuaError> {
+        let handler = self.top() - arguments;
+        // SAFETY: the handler goes below the function; `lua_pcall` catches every error.
+        let status = unsafe {
+            ffi::lua_pushcclosure(self.raw(), message_handler, 0);
+            ffi::lua_rotate(self.raw(), handler, 1);
+            ffi::lua_pcall(self.raw(), arguments, results, handler)
+        };
+        let outcome = if status == ffi::LUA_OK { Ok(()) } else { Err(self.pop_error()) };
+        self.remove(handler);
+        outcome
+    }
+
+    fn pop_error(self) -> LuaError {
+        let text = self.text(-1).map_or_else(|| "(error unknown)".into(), |t| String::from_utf8_lossy(&t).into_owned());
+        self.pop(1);
+        LuaError { text }
+    }
+
+    /// The line being executed by the function `level` calls up; -1 when that is not a Lua function.
+    pub(crate) fn current_line(self, level: c_int) -> c_int {
+        // SAFETY: `lua_Debug` is plain data that `lua_getstack` fills.
+        unsafe {
+            let mut record: ffi::lua_Debug = std::mem::zeroed();
+            if ffi::lua_getstack(self.raw(), level, &raw mut record) == 0 {
+                return -1;
+            }
+            ffi::lua_getinfo(self.raw(), c"l".as_ptr(), &raw mut record);
+            record.currentline
+        }
+    }
+
+    /// Lua's traceback of this coroutine.
+    pub(crate) fn traceback(self) -> String {
+        // SAFETY: pushes one string.
+        unsafe { ffi::luaL_traceback(self.raw(), self.raw(), std::ptr::null(), 1) };
+        let text = self.text(-1).unwrap_or_default();
+        self.pop(1);
+        String::from_utf8_lossy(&text).into_owned()
+    }
+
+    /// Compiled form of the Lua function on top, which is popped.
+    pub(crate) fn dump(self) -> Vec<u8> {
+        unsafe extern "C-unwind" fn write(
+            _: *mut ffi::lua_State,
+            block: *const c_void,
+            size: usize,
+            out: *mut c_void,
+        ) -> c_int {
+            // SAFETY: `out` is the vector below; `block` has `size` bytes.
+            unsafe { (*out.cast::<Vec<u8>>()).extend_from_slice(std::slice::from_raw_parts(block.cast(), size)) };
+            0
+        }
+        let mut out = Vec::new();
+        // SAFETY: `write` gets the vector it expects.
+        unsafe { ffi::lua_dump(self.raw(), write, (&raw mut out).cast(), 0) };
+        self.pop(1);
+        out
+    }
+
+    /// What `State::new` was given.
+    pub(crate) fn owner(self) -> &'a Env {
+        // SAFETY: `State::new` wrote it, coroutines inherit it, and it outlives the state.
+        unsafe { &**ffi::lua_getextraspace(self.raw()).cast::<*const Env>() }
+    }
+
+    pub(crate) fn is_main_coroutine(self) -> bool {
+        self.push_running_coroutine();
+        // SAFETY: reads only.
+        let main = unsafe {
+            ffi::lua_rawgeti(self.raw(), ffi::LUA_REGISTRYINDEX, ffi::LUA_RIDX_MAINTHREAD);
+            ffi::lua_rawequal(self.raw(), -1, -2) != 0
+        };
+        self.pop(2);
+        main
+    }
+
+    /// Pushes the coroutine this stack belongs to.
+    pub(crate) fn push_running_coroutine(self) {
+        // SAFETY: pushes one value.
+        unsafe { ffi::lua_pushthread(self.raw()) };
+    }
+}
+
+/// Adds the traceback to string errors and leaves other values alone, as `debug.traceback` does.
+unsafe extern "C-unwind" fn message_handler(raw: *mut ffi::lua_State) -> c_int {
+    // SAFETY: called by Lua with the error value at index 1.
+    unsafe {
+        if ffi::lua_type(raw, 1) == ffi::LUA_TSTRING || ffi::lua_type(raw, 1) == ffi::LUA_TNUMBER {
+            let message = ffi::lua_tolstring(raw, 1, std::ptr::null_mut());
+            ffi::luaL_traceback(raw, raw, message, 1);
+        }
+        1
+    }
+}

@@ -1,0 +1,169 @@
+//! Tables, globals and the registry: raw access, which runs no Lua code.
+
+use std::ffi::{CStr, c_int};
+
+use mlua_sys as ffi;
+
+use super::stack::{Stack, Type};
+
+/// A Lua function kept alive in the registry of its state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct FunctionRef(c_int);
+
+/// Size hints beyond this are not worth their memory: tables grow by themselves.
+const MAX_HINT: usize = 1 << 16;
+
+impl Stack<'_> {
+    /// Replaces the key on top by `table[key]`.
+    pub(crate) fn raw_get(self, table: c_int) -> Type {
+        let table = self.absolute(table);
+        self.expect_table(table);
+        // SAFETY: a table; raw access runs no code.
+        unsafe { ffi::lua_rawget(self.raw(), table) };
+        self.kind(-1)
+    }
+
+    /// Length of the table at `index` as `#` tells without metamethods.
+    pub(crate) fn raw_len(self, index: c_int) -> usize {
+        // SAFETY: reads only; 0 for what has no length.
+        unsafe { ffi::lua_rawlen(self.raw(), index) as usize }
+    }
+
+    pub(crate) fn new_table(self, array: usize, fields: usize) {
+        let hint = |n: usize| n.min(MAX_HINT) as c_int;
+        unsafe { ffi::lua_createtable(self.raw(), hint(array), hint(fields)) }
+    }
+
+    fn expect_table(self, index: c_int) {
+        assert_eq!(self.kind(index), Type::Table, "raw access is for tables");
+    }
+
+    /// Pushes `table[i]`.
+    pub(crate) fn raw_get_index(self, table: c_int, i: i64) -> Type {
+        self.expect_table(table);
+        // SAFETY: a table; raw access runs no code.
+        unsafe { ffi::lua_rawgeti(self.raw(), table, i) };
+        self.kind(-1)
+    }
+
+    /// `table[i]` as a number, without leaving it on the stack.
+    pub(crate) fn number_at(self, table: c_int, i: i64) -> Option<f64> {
+        self.raw_get_index(table, i);
+        let number = self.number(-1);
+        self.pop(1);
+        number
+    }
+
+    /// Pops a value into `table[i]`.
+    pub(crate) fn raw_set_index(self, table: c_int, i: i64) {
+        self.expect_table(table);
+        // SAFETY: a table; raw access runs no code.
+        unsafe { ffi::lua_rawseti(self.raw(), table, i) }
+    }
+
+    /// Pushes `table[name]`.
+    pub(crate) fn raw_get_field(self, table: c_int, name: &str) -> Type {
+        let table = self.absolute(table);
+        self.expect_table(table);
+        self.push_bytes(name.as_bytes());
+        // SAFETY: a table; raw access runs no code.
+        unsafe { ffi::lua_rawget(self.raw(), table) };
+        self.kind(-1)
+    }
+
+    /// Pops a value into `table[name]`.
+    pub(crate) fn raw_set_field(self, table: c_int, name: &str) {
+        let table = self.absolute(table);
+        self.expect_table(table);
+        self.push_bytes(name.as_bytes());
+        self.insert(-2);
+        // SAFETY: a table and a string key.
+        unsafe { ffi::lua_rawset(self.raw(), table) }
+    }
+
+    /// Pops key and value into the table; nil and NaN keys are dropped.
+    pub(crate) fn raw_set(self, table: c_int) {
+        let table = self.absolute(table);
+        self.expect_table(table);
+        if self.kind(-2) == Type::Nil || self.number(-2).is_some_and(f64::is_nan) {
+            self.pop(2);
+            return;
+        }
+        // SAFETY: a table and a valid key.
+        unsafe { ffi::lua_rawset(self.raw(), table) }
+    }
+
+    /// Pops a key, pushes the next key and value of the table; false at the end.
+    ///
+    /// The key must be nil or have come from this function, and the table must not have got new fields meanwhile.
+    pub(crate) fn next(self, table: c_int) -> bool {
+        self.expect_table(table);
+        // SAFETY: with a key from the same unchanged table `lua_next` does not raise.
+        unsafe { ffi::lua_next(self.raw(), table) != 0 }
+    }
+
+    /// Pushes the global table.
+    pub(crate) fn push_globals(self) {
+        // SAFETY: the registry always holds the global table.
+        unsafe { ffi::lua_rawgeti(self.raw(), ffi::LUA_REGISTRYINDEX, ffi::LUA_RIDX_GLOBALS) };
+    }
+
+    /// Pushes the global `name`, without metamethods.
+    pub(crate) fn push_global(self, name: &str) -> Type {
+        self.push_globals();
+        let kind = self.raw_get_field(-1, name);
+        self.remove(-2);
+        kind
+    }
+
+    /// Pops a value into the global `name`.
+    pub(crate) fn set_global(self, name: &str) {
+        self.push_globals();
+        self.insert(-2);
+        self.raw_set_field(-2, name);
+        self.pop(1);
+    }
+
+    /// Pushes a value kept under `key` by [`set_registry`](Self::set_registry).
+    pub(crate) fn push_registry(self, key: &'static CStr) -> Type {
+        // SAFETY: raw access by the address of a static.
+        unsafe { ffi::lua_rawgetp(self.raw(), ffi::LUA_REGISTRYINDEX, key.as_ptr().cast()) };
+        self.kind(-1)
+    }
+
+    /// Pops a value and keeps it under `key`.
+    pub(crate) fn set_registry(self, key: &'static CStr) {
+        // SAFETY: raw access by the address of a static.
+        unsafe { ffi::lua_rawsetp(self.raw(), ffi::LUA_REGISTRYINDEX, key.as_ptr().cast()) }
+    }
+
+    /// Pushes the metatable of the value at `index`, if it has one.
+    pub(crate) fn push_metatable(self, index: c_int) -> bool {
+        // SAFETY: reads only.
+        unsafe { ffi::lua_getmetatable(self.raw(), index) != 0 }
+    }
+
+    /// Pops a table and makes it the metatable of the table at `index`.
+    pub(crate) fn set_metatable(self, index: c_int) {
+        self.expect_table(-1);
+        // SAFETY: both are tables.
+        unsafe { ffi::lua_setmetatable(self.raw(), index) };
+    }
+
+    /// Pops a function and keeps it.
+    pub(crate) fn keep_function(self) -> FunctionRef {
+        // SAFETY: pops the top into the registry.
+        FunctionRef(unsafe { ffi::luaL_ref(self.raw(), ffi::LUA_REGISTRYINDEX) })
+    }
+
+    pub(crate) fn push_function(self, function: FunctionRef) -> Type {
+        // SAFETY: reads the registry.
+        unsafe { ffi::lua_rawgeti(self.raw(), ffi::LUA_REGISTRYINDEX, i64::from(function.0)) };
+        self.kind(-1)
+    }
+
+    pub(crate) fn release_function(self, function: FunctionRef) {
+        // SAFETY: a reference from `keep_function`, released once.
+        unsafe { ffi::luaL_unref(self.raw(), ffi::LUA_REGISTRYINDEX, function.0) }
+    }
+}
