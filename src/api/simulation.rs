@@ -164,5 +164,5 @@ fn handle_dynamics(cx: &mut Cx, delta_time: f64) -> Result<i64> {
     if !matches!(cx.script().script_type, ScriptType::Main | ScriptType::Simulation) {
         return Err(ApiError::MainOrSimulationScriptOnly);
     }
-    Ok(Rc::clone(cx.sim()).handle_dynamics(delta_time))
+    Rc::clone(cx.sim()).handle_dynamics(delta_time)
 }

@@ -1,10 +1,217 @@
 //! The scene's physics, by rapier. The only place that names rapier.
+//!
+//! A dynamics call is divided into passes. [`Dynamics::begin`] brings the engine up to date with the scene, then every pass is
+//! [`prepare`](Dynamics::prepare) (static bodies and motors), [`start_pass`](Dynamics::start_pass), [`Pass::run`] and
+//! [`finish_pass`](Dynamics::finish_pass) (the scene learns the result), and [`end`](Dynamics::end) closes the call. Between these the
+//! scene and the dynamics are nobody's, so that scripts may run; while a pass runs the scene may be read and written, and the engine
+//! takes notice at the next call.
+//!
+//! - `plan`: who takes part, decided over the scene alone; compared with what exists, so that only changes touch the engine.
+//! - `bodies`, `colliders`, `links`: plans made real; `motors`: the control law; `load`, `contacts`: what is read back.
+//!
+//! Bodies never sleep and no state outlives the run: the same scene gives the same bytes.
+
+mod bodies;
+mod colliders;
+mod contacts;
+mod convert;
+mod links;
+mod load;
+mod motors;
+mod plan;
+mod report;
+#[cfg(test)]
+mod tests;
+mod world;
+
+use std::collections::BTreeMap;
+
+use rapier3d_f64::math::Vector;
+
+use bodies::Bodies;
+use contacts::Contact;
+pub(crate) use contacts::{Judge, Verdict};
+use links::Links;
+
+use motors::Motion;
+use plan::Plan;
+pub(crate) use report::Trigger;
+use world::World;
+
+use crate::scene::joint::{Control, Joint, JointMode};
+use crate::scene::{Handle, Scene};
 
 /// The physics world that belongs to a scene.
 #[derive(Default)]
-pub(crate) struct Dynamics;
+pub(crate) struct Dynamics {
+    /// Out while a pass runs.
+    world: Option<World>,
+    bodies: Bodies,
+    links: Links,
+    contacts: Vec<Contact>,
+    /// The state of the scene the plan was made for.
+    revision: Option<u64>,
+    call: Option<Call>,
+    /// Whether the engine asks about every pair that may touch.
+    asks: bool,
+}
+
+/// A dynamics call in progress.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Call {
+    pub passes: u32,
+    /// Length of a pass, seconds.
+    pub step: f64,
+}
+
+/// A call asked for during another one.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Busy;
+
+/// A joint in callback control: what a script needs to know to answer.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct JointRequest {
+    pub joint: Handle,
+    /// No pass has run yet with this joint.
+    pub first: bool,
+    pub position: f64,
+    pub velocity: f64,
+    /// Target minus position, the shortest way.
+    pub error: f64,
+    /// Of the last pass, on the parent.
+    pub effort: f64,
+}
+
+/// A pass ready to run. Holds the engine, so that a script called meanwhile finds no physics to disturb.
+pub(crate) struct Pass {
+    world: World,
+    gravity: Vector,
+    step: f64,
+}
+
+impl Pass {
+    /// Advances the engine; `judge` is asked about pairs of shapes that may touch.
+    pub(crate) fn run(&mut self, judge: Option<Judge<'_>>) {
+        self.world.step(self.step, self.gravity, &contacts::Rules::new(judge));
+    }
+}
 
 impl Dynamics {
     /// Forgets the world: it is built anew at the next step.
-    pub(crate) fn reset(&mut self) {}
+    pub(crate) fn reset(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Begins a call that advances `time_step` seconds; None when there is nothing to simulate.
+    pub(crate) fn begin(&mut self, scene: &mut Scene, time_step: f64) -> Result<Option<Call>, Busy> {
+        if self.call.is_some() {
+            return Err(Busy);
+        }
+        self.contacts.clear();
+        let settings = &scene.settings().dynamics;
+        if !settings.enabled || !time_step.is_finite() || time_step <= 0.0 {
+            return Ok(None);
+        }
+        let passes = settings.passes(time_step);
+        self.follow(scene);
+        if !self.bodies.iter().any(|(_, body)| body.build.dynamic) {
+            return Ok(None);
+        }
+        let world = self.world.get_or_insert_with(World::new);
+        self.bodies.plan_sweeps(world, scene);
+        for link in self.links.values_mut() {
+            link.efforts.clear();
+            link.loads.clear();
+        }
+        self.call = Some(Call { passes, step: time_step / f64::from(passes) });
+        Ok(self.call)
+    }
+
+    /// Makes a new plan when something it depends on has changed.
+    fn follow(&mut self, scene: &mut Scene) {
+        let revision = scene.changes().dynamics_revision();
+        if self.revision == Some(revision) && !self.bodies.were_touched(scene) && !links::were_touched(&self.links, scene) {
+            return;
+        }
+        let world = self.world.get_or_insert_with(World::new);
+        let plan = Plan::new(scene);
+        self.bodies.follow(plan.bodies, world, scene);
+        links::follow(&mut self.links, plan.links, &self.bodies, world, scene);
+        let linked = |shape| self.links.values().any(|link| link.plan.first == shape || link.plan.second == shape);
+        self.bodies.set_linked(world, linked);
+        contacts::ask_about_all(world, self.asks);
+        self.revision = Some(scene.changes().dynamics_revision());
+    }
+
+    /// Before pass number `pass` (from 1): moves the static bodies and sets the motors. Returns the joints only a script can drive.
+    pub(crate) fn prepare(&mut self, scene: &Scene, pass: u32) -> Vec<JointRequest> {
+        let (Some(world), Some(call)) = (self.world.as_mut(), self.call) else { return Vec::new() };
+        self.bodies.sweep(f64::from(pass) / f64::from(call.passes), world);
+        let motions: BTreeMap<Handle, Motion> = self.links.iter().map(|(&handle, link)| (handle, link.motion)).collect();
+        let mut requests = Vec::new();
+        for (&handle, link) in &mut self.links {
+            let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) else { continue };
+            let drive = match joint.mode {
+                JointMode::Dependent => master_of(joint, &motions)
+                    .and_then(|master| motors::follow_master(joint, link.motion, master, call.step)),
+                _ if joint.control == Control::Callback => {
+                    requests.push(request(handle, joint, link));
+                    None
+                }
+                _ => link.motor.drive(joint, link.motion, call.step),
+            };
+            link.set_drive(drive, world);
+        }
+        requests
+    }
+
+    /// Gives a joint in callback control what its script answered.
+    pub(crate) fn drive(&mut self, joint: Handle, velocity: Option<f64>, force: Option<f64>) {
+        if let (Some(link), Some(world)) = (self.links.get_mut(&joint), self.world.as_mut()) {
+            link.set_drive(motors::answered(velocity, force), world);
+        }
+    }
+
+    /// Readies a pass: forces of scripts, gravity. `asks`: whether somebody wants to judge contacts.
+    pub(crate) fn start_pass(&mut self, scene: &Scene, asks: bool) -> Option<Pass> {
+        let mut world = self.world.take()?;
+        let call = self.call?;
+        if self.asks != asks {
+            self.asks = asks;
+            contacts::ask_about_all(&mut world, asks);
+        }
+        self.bodies.apply_forces(&mut world, scene);
+        for link in self.links.values_mut() {
+            link.before_step(&world);
+        }
+        let gravity = scene.settings().dynamics.gravity.map(f64::from);
+        let gravity = if gravity.iter().all(|x| x.is_finite()) { gravity } else { [0.0; 3] };
+        Some(Pass { world, gravity: convert::to_vector(gravity), step: call.step })
+    }
+
+    /// Whether the engine holds this shape, joint or force sensor.
+    pub(crate) fn simulates(&self, object: Handle) -> bool {
+        self.bodies.get(object).is_some()
+            || self.links.get(&object).is_some_and(|link| link.plan.kind != plan::LinkKind::Weld)
+    }
+
+    /// The contacts of the last call, in the order of its passes.
+    pub(crate) fn contacts(&self) -> &[Contact] {
+        &self.contacts
+    }
+}
+
+fn master_of(joint: &Joint, motions: &BTreeMap<Handle, Motion>) -> Option<Motion> {
+    motions.get(&joint.dependency?.master).copied()
+}
+
+fn request(handle: Handle, joint: &Joint, link: &links::Link) -> JointRequest {
+    JointRequest {
+        joint: handle,
+        first: link.fresh,
+        position: link.motion.position,
+        velocity: link.motion.velocity,
+        error: motors::position_error(joint, link.motion.position),
+        effort: link.efforts.last().copied().unwrap_or(0.0),
+    }
 }

@@ -8,6 +8,7 @@ mod collection;
 mod custom_data;
 pub mod data;
 pub mod dummy;
+pub mod dynamics_report;
 pub mod error;
 pub mod force_sensor;
 pub mod handle;

@@ -27,7 +27,7 @@ impl Sim {
     }
 
     /// Whether no script can respond to `call`: nobody has ever defined it, and it starts nobody.
-    fn nobody_responds(&self, call: SysCall) -> bool {
+    pub(crate) fn nobody_responds(&self, call: SysCall) -> bool {
         !call.wakes() && self.callbacks_in_use.get() & call.bit() == 0
     }
 

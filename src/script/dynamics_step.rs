@@ -1,12 +1,157 @@
-//! One dynamics call: sub-steps with the callbacks of scripts between them.
+//! One dynamics call: sub-steps with the callbacks of scripts between them (SPEC-dynamics section 2).
 
 use std::rc::Rc;
 
+use super::callback::SysCall;
+use super::error::{ApiError, ApiResult};
+use super::order::attached_scripts;
 use super::sim::Sim;
+use crate::dynamics::{Call, Dynamics, JointRequest, Trigger, Verdict};
+use crate::scene::joint::Joint;
+use crate::scene::{Data, Handle, Scene};
 
 impl Sim {
     /// Advances the dynamics by `time_step` seconds; returns the number of sub-steps.
-    pub(crate) fn handle_dynamics(self: &Rc<Self>, _time_step: f64) -> i64 {
-        0
+    ///
+    /// # Errors
+    /// When called by a script that this very call has called.
+    pub(crate) fn handle_dynamics(self: &Rc<Self>, time_step: f64) -> ApiResult<i64> {
+        let begun = self.with_dynamics(|dynamics, scene| dynamics.begin(scene, time_step));
+        let busy = || ApiError::Other("the dynamics are already being handled.".into());
+        let Some(call) = begun.ok_or_else(busy)?.map_err(|_| busy())? else { return Ok(0) };
+        for pass in 1..=call.passes {
+            self.dynamics_callback(call, pass, false);
+            self.drive_joints(call, pass);
+            self.dynamics_pass(pass);
+            self.dynamics_callback(call, pass, true);
+        }
+        let triggers = self.with_dynamics(Dynamics::end).unwrap_or_default();
+        triggers.iter().for_each(|trigger| self.force_sensor_triggered(trigger));
+        Ok(i64::from(call.passes))
+    }
+
+    fn with_dynamics<R>(&self, work: impl FnOnce(&mut Dynamics, &mut Scene) -> R) -> Option<R> {
+        let mut dynamics = self.dynamics.borrow_mut();
+        dynamics.as_mut().map(|dynamics| work(dynamics, &mut self.scene.borrow_mut()))
+    }
+
+    fn dynamics_callback(self: &Rc<Self>, call: Call, pass: u32, after_step: bool) {
+        if self.nobody_responds(SysCall::Dyn) {
+            return;
+        }
+        let data = Data::map([
+            ("passCnt", i64::from(pass).into()),
+            ("totalPasses", i64::from(call.passes).into()),
+            ("dt", call.step.into()),
+            ("dynStepSize", call.step.into()),
+            ("afterStep", after_step.into()),
+        ]);
+        self.broadcast(SysCall::Dyn, &[data]);
+    }
+
+    /// Sets the motors; joints in callback control are driven as a script answers.
+    fn drive_joints(self: &Rc<Self>, call: Call, pass: u32) {
+        let requests = self.with_dynamics(|dynamics, scene| dynamics.prepare(scene, pass)).unwrap_or_default();
+        for request in requests {
+            let Some(data) = self.joint_data(&request, call, pass) else { continue };
+            let answer = self.ask(&self.joint_chain(request.joint), SysCall::Joint, &[data]);
+            let number = |names: [&str; 2]| {
+                names.into_iter().find_map(|name| answer.as_ref()?.field(name)?.as_f64())
+            };
+            let (velocity, force) = (number(["velocity", "vel"]), number(["force", "ctrl"]));
+            self.with_dynamics(|dynamics, _| dynamics.drive(request.joint, velocity, force));
+        }
+    }
+
+    fn joint_data(&self, request: &JointRequest, call: Call, pass: u32) -> Option<Data> {
+        let scene = self.scene.borrow();
+        let joint = scene.object(request.joint).and_then(|object| object.joint()).ok()?;
+        Some(joint_data(joint, request, call, pass))
+    }
+
+    /// One sub-step. The scene is nobody's while the engine works, because it may ask scripts about contacts.
+    fn dynamics_pass(self: &Rc<Self>, number: u32) {
+        let asks = !self.nobody_responds(SysCall::Contact);
+        let started = self.with_dynamics(|dynamics, scene| dynamics.start_pass(scene, asks));
+        let Some(mut pass) = started.flatten() else { return };
+        let judge = |first: Handle, second: Handle| self.judge_contact(first, second);
+        pass.run(asks.then_some(&judge));
+        self.with_dynamics(|dynamics, scene| dynamics.finish_pass(pass, number, scene));
+    }
+
+    fn judge_contact(self: &Rc<Self>, first: Handle, second: Handle) -> Verdict {
+        let engine = self.scene.borrow().settings().dynamics.engine[0];
+        let data = Data::map([
+            ("handle1", first.raw().into()),
+            ("handle2", second.raw().into()),
+            ("engine", engine.into()),
+        ]);
+        let answer = self.ask(&self.everyone_reversed(), SysCall::Contact, &[data]);
+        answer.map_or(Verdict::Default, |answer| verdict(&answer))
+    }
+
+    fn force_sensor_triggered(self: &Rc<Self>, trigger: &Trigger) {
+        let data = Data::map([
+            ("handle", trigger.sensor.raw().into()),
+            ("force", trigger.raw.0.into()),
+            ("torque", trigger.raw.1.into()),
+            ("filteredForce", trigger.filtered.0.into()),
+            ("filteredTorque", trigger.filtered.1.into()),
+        ]);
+        let attached = attached_scripts(&self.scene.borrow(), trigger.sensor);
+        for script in attached.into_iter().filter_map(|script| self.script(script.raw())) {
+            self.deliver(&script, SysCall::Trigger, std::slice::from_ref(&data));
+        }
+    }
+}
+
+/// The keys of `sysCall_joint` in callback control, as Bullet's.
+fn joint_data(joint: &Joint, request: &JointRequest, call: Call, pass: u32) -> Data {
+    let limits = (joint.min, joint.min + joint.range);
+    Data::map([
+        ("mode", (joint.mode as i64).into()),
+        ("first", request.first.into()),
+        ("revolute", joint.is_revolute().into()),
+        ("cyclic", joint.cyclic.into()),
+        ("handle", request.joint.raw().into()),
+        ("lowLimit", limits.0.into()),
+        ("highLimit", limits.1.into()),
+        ("passCnt", i64::from(pass).into()),
+        ("totalPasses", i64::from(call.passes).into()),
+        ("pos", request.position.into()),
+        ("currentPos", request.position.into()),
+        ("vel", request.velocity.into()),
+        ("currentVel", request.velocity.into()),
+        ("targetPos", joint.target_position.into()),
+        ("error", request.error.into()),
+        ("errorValue", request.error.into()),
+        ("effort", request.effort.into()),
+        ("dt", call.step.into()),
+        ("dynStepSize", call.step.into()),
+        ("targetVel", joint.target_velocity.into()),
+        ("force", joint.target_force.into()),
+        ("maxForce", joint.target_force.abs().into()),
+        ("maxVel", joint.max_vel.into()),
+        ("velUpperLimit", joint.max_vel.into()),
+        ("maxAccel", joint.max_accel.into()),
+        ("maxJerk", joint.max_jerk.into()),
+    ])
+}
+
+/// What the table returned by `sysCall_contact` means (SPEC-dynamics section 4).
+fn verdict(answer: &Data) -> Verdict {
+    let number = |engine: &str, name: &str| {
+        let nested = answer.field(engine).and_then(|table| table.field(name));
+        nested.or_else(|| answer.field(&format!("{engine}.{name}"))).and_then(Data::as_f64)
+    };
+    match (answer.field("ignoreContact"), answer.field("collisionResponse")) {
+        (Some(ignore), response) if !ignore.truthy() => match response.is_some_and(Data::truthy) {
+            true => Verdict::Collide {
+                friction: number("bullet", "friction").unwrap_or(1.0),
+                restitution: number("bullet", "restitution").unwrap_or(0.0),
+            },
+            false => Verdict::PassThrough,
+        },
+        _ => Verdict::Default,
     }
 }

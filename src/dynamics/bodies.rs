@@ -1,0 +1,273 @@
+//! Rigid bodies: building them from plans, moving the static ones along with the scene, noticing what scripts moved.
+
+use std::collections::BTreeMap;
+
+use rapier3d_f64::prelude::{
+    ActiveHooks, CoefficientCombineRule, ColliderBuilder, ColliderHandle, MassProperties, RigidBody, RigidBodyBuilder,
+    RigidBodyHandle, RigidBodyType,
+};
+
+use super::colliders;
+use super::convert::{from_pose, to_matrix, to_pose, to_vector};
+use super::plan::{BodyBuild, BodyPlan, Surface};
+use super::world::World;
+use crate::scene::pose::interpolate;
+use crate::scene::{Field, Handle, Pose, Scene};
+
+/// A static body that moved less than this between two calls has not moved: metres and radians.
+const STILL: (f64, f64) = (1e-5, 0.05 * std::f64::consts::PI / 180.0);
+/// Sweeps of the solver that bodies held by links get on top of the usual ones.
+pub(super) const LINKED_ITERATIONS: usize = 16;
+
+/// The bodies by shape.
+#[derive(Default)]
+pub(super) struct Bodies {
+    by_shape: BTreeMap<Handle, Body>,
+    /// Base-to-tip.
+    order: Vec<Handle>,
+}
+
+/// A shape's body in the engine.
+pub(super) struct Body {
+    pub rigid: RigidBodyHandle,
+    pub colliders: Vec<ColliderHandle>,
+    pub build: BodyBuild,
+    surface: Surface,
+    /// Pose in the parent frame as last read from or written to the scene.
+    pub local: Pose,
+    /// Where a static body goes during this call: from, to.
+    sweep: Option<(Pose, Pose)>,
+}
+
+/// What a collider is known by in callbacks: shape, root of its tree, mask.
+#[derive(Clone, Copy)]
+pub(super) struct Tag {
+    pub shape: Handle,
+    pub root: Handle,
+    pub mask: u16,
+}
+
+impl Tag {
+    pub(super) fn pack(self) -> u128 {
+        u128::from(self.shape.0) | u128::from(self.root.0) << 32 | u128::from(self.mask) << 64
+    }
+
+    pub(super) fn unpack(data: u128) -> Self {
+        Self { shape: Handle(data as u32), root: Handle((data >> 32) as u32), mask: (data >> 64) as u16 }
+    }
+}
+
+impl Bodies {
+    pub(super) fn get(&self, shape: Handle) -> Option<&Body> {
+        self.by_shape.get(&shape)
+    }
+
+    /// All bodies, base-to-tip.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (Handle, &Body)> {
+        self.order.iter().filter_map(|shape| Some((*shape, self.by_shape.get(shape)?)))
+    }
+
+    pub(super) fn clear(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Whether a script moved a shape, or asks for it to be built anew.
+    pub(super) fn were_touched(&self, scene: &Scene) -> bool {
+        self.by_shape.iter().any(|(&shape, body)| match scene.object(shape) {
+            Ok(object) => object.dynamics_reset || (body.build.dynamic && object.pose() != body.local),
+            Err(_) => true,
+        })
+    }
+
+    /// Makes the engine's bodies those of the plan; those whose making is unchanged go on as they are.
+    pub(super) fn follow(&mut self, plan: Vec<(Handle, BodyPlan)>, world: &mut World, scene: &mut Scene) {
+        let mut old = std::mem::take(&mut self.by_shape);
+        self.order.clear();
+        for (shape, plan) in plan {
+            let kept = old.remove(&shape).filter(|body| body.build == plan.build && !wants_rebuild(scene, shape, body));
+            let body = match kept {
+                Some(body) => body.with_surface(shape, plan.surface, world),
+                None => Body::insert(shape, plan, world, scene),
+            };
+            self.order.push(shape);
+            self.by_shape.insert(shape, body);
+        }
+        for body in old.into_values() {
+            world.remove_body(body.rigid);
+        }
+    }
+}
+
+fn wants_rebuild(scene: &Scene, shape: Handle, body: &Body) -> bool {
+    let moved = |object: &crate::scene::Object| body.build.dynamic && object.pose() != body.local;
+    scene.object(shape).is_ok_and(|object| object.dynamics_reset || moved(object))
+}
+
+impl Body {
+    /// Builds the body where its shape is, with the initial velocity the shape carries, which is used up by that.
+    fn insert(shape: Handle, plan: BodyPlan, world: &mut World, scene: &mut Scene) -> Self {
+        let pose = scene.world_pose(shape).unwrap_or_else(|_| Pose::identity());
+        let local = scene.object(shape).map(|object| object.pose()).unwrap_or(pose);
+        let mut rigid = rigid_body(&plan, &pose);
+        if let Ok(velocity) = take_initial_velocity(scene, shape)
+            && plan.build.dynamic
+        {
+            rigid.set_linvel(to_vector(velocity.linear), true);
+            rigid.set_angvel(to_vector(velocity.angular), true);
+        }
+        let rigid = world.bodies.insert(rigid);
+        let mut body = Self {
+            rigid,
+            colliders: Vec::new(),
+            build: plan.build,
+            surface: plan.surface,
+            local,
+            sweep: None,
+        };
+        body.insert_colliders(shape, world);
+        body
+    }
+
+    fn insert_colliders(&mut self, shape: Handle, world: &mut World) {
+        if !self.build.respondable {
+            return;
+        }
+        let tag = Tag { shape, root: self.surface.root, mask: self.surface.mask };
+        let forms = self.build.parts.iter().flat_map(|part| colliders::forms(part, self.build.dynamic));
+        for (pose, form) in forms.collect::<Vec<_>>() {
+            let collider = ColliderBuilder::new(form)
+                .position(pose)
+                .density(0.0)
+                .friction(self.surface.friction)
+                .restitution(self.surface.restitution)
+                .friction_combine_rule(CoefficientCombineRule::Multiply)
+                .restitution_combine_rule(CoefficientCombineRule::Multiply)
+                .active_hooks(hooks_for(tag.mask))
+                .user_data(tag.pack());
+            self.colliders.push(world.colliders.insert_with_parent(collider, self.rigid, &mut world.bodies));
+        }
+    }
+
+    fn with_surface(mut self, shape: Handle, surface: Surface, world: &mut World) -> Self {
+        if self.surface == surface {
+            return self;
+        }
+        self.surface = surface;
+        let tag = Tag { shape, root: surface.root, mask: surface.mask };
+        for &handle in &self.colliders {
+            if let Some(collider) = world.colliders.get_mut(handle) {
+                collider.set_friction(surface.friction);
+                collider.set_restitution(surface.restitution);
+                collider.set_active_hooks(hooks_for(surface.mask));
+                collider.user_data = tag.pack();
+            }
+        }
+        if let Some(rigid) = world.bodies.get_mut(self.rigid) {
+            rigid.set_linear_damping(surface.linear_damping);
+            rigid.set_angular_damping(surface.angular_damping);
+        }
+        self
+    }
+
+    /// Whether the engine still has the body.
+    pub(super) fn pose(&self, world: &World) -> Option<Pose> {
+        world.bodies.get(self.rigid).map(|rigid| from_pose(rigid.position()))
+    }
+}
+
+/// The default mask meets every other one, so that only shapes with another mask need to be asked about.
+fn hooks_for(mask: u16) -> ActiveHooks {
+    if mask == u16::MAX { ActiveHooks::empty() } else { ActiveHooks::FILTER_CONTACT_PAIRS }
+}
+
+fn rigid_body(plan: &BodyPlan, pose: &Pose) -> RigidBody {
+    let kind = if plan.build.dynamic { RigidBodyType::Dynamic } else { RigidBodyType::Fixed };
+    let mass = &plan.build.mass;
+    let inertia = to_matrix(&(mass.inertia * mass.mass));
+    RigidBodyBuilder::new(kind)
+        .pose(to_pose(pose))
+        .additional_mass_properties(MassProperties::with_inertia_matrix(to_vector(mass.com), mass.mass, inertia))
+        .linear_damping(plan.surface.linear_damping)
+        .angular_damping(plan.surface.angular_damping)
+        .can_sleep(false)
+        .allow_fast_rotation(true)
+        .build()
+}
+
+fn take_initial_velocity(
+    scene: &mut Scene,
+    shape: Handle,
+) -> crate::scene::SceneResult<crate::scene::shape::Velocity> {
+    let object = scene.object(shape)?;
+    let velocity = object.shape()?.dynamics.initial_velocity;
+    if object.dynamics_reset || velocity != Default::default() {
+        scene.try_modify(shape, Field::Dynamics, |object| {
+            object.dynamics_reset = false;
+            object.shape_mut()?.dynamics.initial_velocity = Default::default();
+            Ok(())
+        })?;
+    }
+    Ok(velocity)
+}
+
+impl Bodies {
+    /// Plans the way of the static bodies over the call: from where the engine has them to where the scene has them.
+    pub(super) fn plan_sweeps(&mut self, world: &mut World, scene: &Scene) {
+        for (&shape, body) in self.by_shape.iter_mut().filter(|(_, body)| !body.build.dynamic) {
+            let (Some(from), Ok(to)) = (body.pose(world), scene.world_pose(shape)) else { continue };
+            body.sweep = (has_moved(&from, &to) && super::convert::is_finite(&to)).then_some((from, to));
+            if let Some(rigid) = world.bodies.get_mut(body.rigid)
+                && body.sweep.is_some()
+                && rigid.is_fixed()
+            {
+                rigid.set_body_type(RigidBodyType::KinematicPositionBased, true);
+            }
+        }
+    }
+
+    /// Moves the static bodies to `fraction` of their way.
+    pub(super) fn sweep(&self, fraction: f64, world: &mut World) {
+        for body in self.by_shape.values() {
+            let Some((from, to)) = &body.sweep else { continue };
+            if let Some(rigid) = world.bodies.get_mut(body.rigid) {
+                rigid.set_next_kinematic_position(to_pose(&interpolate(from, to, fraction)));
+            }
+        }
+    }
+
+    /// Gives the bodies the forces scripts ask for, in place of those of the pass before.
+    pub(super) fn apply_forces(&self, world: &mut World, scene: &Scene) {
+        for (&shape, body) in self.by_shape.iter().filter(|(_, body)| body.build.dynamic) {
+            let Ok(shape) = scene.object(shape).and_then(|object| object.shape()) else { continue };
+            let Some(rigid) = world.bodies.get_mut(body.rigid) else { continue };
+            rigid.reset_forces(false);
+            rigid.reset_torques(false);
+            if shape.force.iter().chain(&shape.torque).all(|x| x.is_finite()) {
+                rigid.add_force(to_vector(shape.force), true);
+                rigid.add_torque(to_vector(shape.torque), true);
+            }
+        }
+    }
+
+    /// Remembers where the shape is now, so that a move by a script is noticed.
+    pub(super) fn note_local(&mut self, shape: Handle, local: Pose) {
+        if let Some(body) = self.by_shape.get_mut(&shape) {
+            body.local = local;
+        }
+    }
+
+    /// Gives the bodies at the ends of links more sweeps of the solver, all others the usual number.
+    pub(super) fn set_linked(&self, world: &mut World, is_linked: impl Fn(Handle) -> bool) {
+        for (&shape, body) in &self.by_shape {
+            let iterations = if is_linked(shape) { LINKED_ITERATIONS } else { 0 };
+            if let Some(rigid) = world.bodies.get_mut(body.rigid) {
+                rigid.set_additional_pgs_iterations(iterations);
+            }
+        }
+    }
+}
+
+fn has_moved(from: &Pose, to: &Pose) -> bool {
+    let shift = (to.translation.vector - from.translation.vector).norm();
+    shift > STILL.0 || from.rotation.angle_to(&to.rotation) > STILL.1
+}

@@ -1,0 +1,153 @@
+//! Contacts: who may touch whom, what scripts say about it, and the list scripts can read afterwards.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+use rapier3d_f64::prelude::{
+    ActiveHooks, ColliderSet, ContactModificationContext, ContactPair, PairFilterContext, PhysicsHooks, SolverFlags,
+};
+
+use super::bodies::Tag;
+use super::convert::from_vector;
+use super::world::World;
+use crate::scene::Handle;
+
+/// A point where two shapes touched in one sub-step. World axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Contact {
+    /// Index of the sub-step, from 0.
+    pub pass: u32,
+    pub shapes: [Handle; 2],
+    /// Metres.
+    pub point: [f64; 3],
+    /// What the second shape does to the first, newtons.
+    pub force: [f64; 3],
+    /// Points to the first shape.
+    pub normal: [f64; 3],
+}
+
+impl Contact {
+    /// The contact as seen from `shape`: it comes first.
+    pub(crate) fn seen_from(mut self, shape: Handle) -> Self {
+        if self.shapes[0] != shape {
+            self.shapes.swap(0, 1);
+            self.force = self.force.map(|x| -x);
+            self.normal = self.normal.map(|x| -x);
+        }
+        self
+    }
+}
+
+/// What scripts say about a pair of shapes that may touch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Verdict {
+    /// The shapes' own materials decide.
+    Default,
+    PassThrough,
+    Collide {
+        friction: f64,
+        restitution: f64,
+    },
+}
+
+/// Asked once per pair of shapes and sub-step.
+pub(crate) type Judge<'a> = &'a dyn Fn(Handle, Handle) -> Verdict;
+
+/// The rules of one sub-step.
+pub(super) struct Rules<'a> {
+    judge: Option<Judge<'a>>,
+    verdicts: RefCell<BTreeMap<(Handle, Handle), Verdict>>,
+}
+
+impl<'a> Rules<'a> {
+    pub(super) fn new(judge: Option<Judge<'a>>) -> Self {
+        Self { judge, verdicts: RefCell::default() }
+    }
+
+    fn verdict(&self, a: Tag, b: Tag) -> Verdict {
+        if !masks_meet(a, b) {
+            return Verdict::PassThrough;
+        }
+        let Some(judge) = self.judge else { return Verdict::Default };
+        let known = self.verdicts.borrow().get(&(a.shape, b.shape)).copied();
+        known.unwrap_or_else(|| {
+            let verdict = judge(a.shape, b.shape);
+            self.verdicts.borrow_mut().insert((a.shape, b.shape), verdict);
+            verdict
+        })
+    }
+}
+
+/// The collision response rule: local masks within a tree, global masks between trees.
+fn masks_meet(a: Tag, b: Tag) -> bool {
+    let bits = if a.root == b.root { 0x00ff } else { 0xff00 };
+    a.mask & b.mask & bits != 0
+}
+
+impl PhysicsHooks for Rules<'_> {
+    fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
+        let [a, b] = tags(context.colliders, context.collider1, context.collider2)?;
+        (self.verdict(a, b) != Verdict::PassThrough).then(SolverFlags::default)
+    }
+
+    fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
+        let Some([a, b]) = tags(context.colliders, context.collider1, context.collider2) else { return };
+        let verdict = self.verdict(a, b);
+        if let (Verdict::Collide { friction, restitution }, Some(contact)) = (verdict, context.rigid_mut()) {
+            *contact.friction = friction;
+            *contact.restitution = restitution;
+        }
+    }
+}
+
+fn tags(
+    colliders: &ColliderSet,
+    first: rapier3d_f64::prelude::ColliderHandle,
+    second: rapier3d_f64::prelude::ColliderHandle,
+) -> Option<[Tag; 2]> {
+    Some([Tag::unpack(colliders.get(first)?.user_data), Tag::unpack(colliders.get(second)?.user_data)])
+}
+
+/// Makes the engine ask about every pair, or only about those with masks of their own. Asking costs: rapier then computes resting
+/// contacts anew in every sub-step.
+pub(super) fn ask_about_all(world: &mut World, all: bool) {
+    for (_, collider) in world.colliders.iter_mut() {
+        let masked = Tag::unpack(collider.user_data).mask != u16::MAX;
+        let hooks = match (all, masked) {
+            (true, _) => ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS,
+            (false, true) => ActiveHooks::FILTER_CONTACT_PAIRS,
+            (false, false) => ActiveHooks::empty(),
+        };
+        collider.set_active_hooks(hooks);
+    }
+}
+
+/// Adds the contacts of a sub-step of `step` seconds to the list.
+pub(super) fn collect(world: &World, pass: u32, step: f64, list: &mut Vec<Contact>) {
+    for pair in world.narrow_phase.contact_pairs() {
+        if let Some([a, b]) = tags(&world.colliders, pair.collider1, pair.collider2) {
+            collect_pair(world, pair, [a.shape, b.shape], pass, step, list);
+        }
+    }
+}
+
+fn collect_pair(world: &World, pair: &ContactPair, shapes: [Handle; 2], pass: u32, step: f64, list: &mut Vec<Contact>) {
+    for manifold in pair.solver_manifolds() {
+        // rapier's normal points from the first shape to the second.
+        let normal = -manifold.data.normal;
+        for contact in &manifold.data.solver_contacts {
+            let Some(data) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
+            if data.data.impulse == 0.0 {
+                continue;
+            }
+            let (a, b) = manifold.data.solver_contact_world_points(contact, &world.bodies);
+            list.push(Contact {
+                pass,
+                shapes,
+                point: from_vector((a + b) * 0.5),
+                force: from_vector(normal * (data.data.impulse / step)),
+                normal: from_vector(normal),
+            });
+        }
+    }
+}

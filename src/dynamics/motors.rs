@@ -1,0 +1,166 @@
+//! What a joint's motor is asked to do in a sub-step: the control law of SPEC-joints section 7.
+//!
+//! Pure functions; values in rad or m, N m or N, seconds.
+
+use std::f64::consts::TAU;
+
+use crate::scene::joint::{Control, Joint};
+use crate::scene::ruckig;
+
+/// The time in which position control closes the fraction P of its error, whatever the sub-step.
+const CONTROL_PERIOD: f64 = 0.005;
+/// The velocity of a motor that shall only push.
+const PUSH_VELOCITY: f64 = 10_000.0;
+/// The force of a motor that nothing holds up.
+const ANY_FORCE: f64 = 10_000.0;
+/// The force of a locked motor and of a joint that follows another.
+const RIGID_FORCE: f64 = 1e9;
+
+/// A motor's order for one sub-step: reach `velocity` with at most `force`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Drive {
+    pub velocity: f64,
+    pub force: f64,
+}
+
+/// Where a joint is, as the engine sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Motion {
+    pub position: f64,
+    pub velocity: f64,
+}
+
+/// What a motor remembers between sub-steps.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Motor {
+    /// Sum of error times sub-step.
+    integral: f64,
+    /// Velocity and acceleration of the profile being followed.
+    profile: (f64, f64),
+    /// Where the motor was locked.
+    lock: Option<f64>,
+}
+
+impl Motor {
+    /// The order for the next `step` seconds; None when the motor is off. Callback control is not decided here.
+    pub(super) fn drive(&mut self, joint: &Joint, now: Motion, step: f64) -> Option<Drive> {
+        let limit = joint.target_force.abs();
+        if joint.control != Control::Velocity || !joint.motor_lock || joint.target_velocity != 0.0 {
+            self.lock = None;
+        }
+        match joint.control {
+            Control::Free | Control::Callback => None,
+            Control::Force => Some(push(joint.target_force)),
+            Control::Velocity if joint.motor_lock && joint.target_velocity == 0.0 => Some(self.hold(now, step)),
+            Control::Velocity => Some(Drive { velocity: self.velocity(joint, now, step), force: limit }),
+            Control::Position => Some(Drive { velocity: self.approach(joint, now, step), force: limit }),
+            Control::Spring => {
+                let effort = joint.spring[0] * position_error(joint, now.position) - joint.spring[1] * now.velocity;
+                Some(Drive { velocity: joint.target_velocity.abs().copysign(effort), force: effort.abs() })
+            }
+        }
+    }
+
+    fn hold(&mut self, now: Motion, step: f64) -> Drive {
+        let place = *self.lock.get_or_insert(now.position);
+        Drive { velocity: (place - now.position) / step, force: RIGID_FORCE }
+    }
+
+    fn velocity(&mut self, joint: &Joint, now: Motion, step: f64) -> f64 {
+        if !joint.velocity_profile {
+            return joint.target_velocity;
+        }
+        let (velocity, acceleration) = self.profile;
+        let (target, max_accel, max_jerk) = (joint.target_velocity, joint.max_accel, joint.max_jerk);
+        self.follow(ruckig::velocity_step(now.position, velocity, acceleration, target, max_accel, max_jerk, step))
+    }
+
+    fn approach(&mut self, joint: &Joint, now: Motion, step: f64) -> f64 {
+        let error = position_error(joint, now.position);
+        if joint.position_profile {
+            let (velocity, acceleration) = self.profile;
+            let limits = (joint.max_vel, joint.max_accel, joint.max_jerk);
+            let target = now.position + error;
+            let next = ruckig::position_step(
+                now.position, velocity, acceleration, target, limits.0, limits.1, limits.2, step,
+            );
+            return self.follow(next);
+        }
+        let [p, i, d] = joint.pid;
+        self.integral = if i == 0.0 { 0.0 } else { self.integral + error * step };
+        let wish = (p * error + i * self.integral - d * now.velocity) / CONTROL_PERIOD;
+        wish.clamp(-joint.max_vel.abs(), joint.max_vel.abs())
+    }
+
+    /// Takes over a step of a profile; limits that allow none leave the joint where it is.
+    fn follow(&mut self, next: Result<(f64, f64, f64), ruckig::RuckigError>) -> f64 {
+        let (_, velocity, acceleration) = next.unwrap_or_default();
+        self.profile = (velocity, acceleration);
+        velocity
+    }
+}
+
+/// The order that a joint callback's answer means.
+pub(super) fn answered(velocity: Option<f64>, force: Option<f64>) -> Option<Drive> {
+    match (velocity, force) {
+        (None, None) => Some(Drive { velocity: 0.0, force: 0.0 }),
+        (None, Some(force)) => Some(push(force)),
+        (Some(velocity), None) => Some(Drive { velocity, force: ANY_FORCE }),
+        (Some(velocity), Some(force)) => Some(Drive { velocity, force: force.abs() }),
+    }
+}
+
+/// A joint that depends on another one of the dynamics follows it rigidly. `master`: the other joint.
+pub(super) fn follow_master(joint: &Joint, now: Motion, master: Motion, step: f64) -> Option<Drive> {
+    let law = joint.dependency?;
+    let error = law.offset + law.coefficient * master.position - now.position;
+    Some(Drive { velocity: error / step + law.coefficient * master.velocity, force: RIGID_FORCE })
+}
+
+fn push(force: f64) -> Drive {
+    Drive { velocity: PUSH_VELOCITY.copysign(force), force: force.abs() }
+}
+
+/// Target minus position; the shortest way for a cyclic joint.
+pub(super) fn position_error(joint: &Joint, position: f64) -> f64 {
+    let error = joint.target_position - position;
+    if joint.cyclic { wrap(error) } else { error }
+}
+
+/// The same angle in [-pi, pi].
+pub(super) fn wrap(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::joint::{JointMode, JointType};
+
+    fn joint(control: Control) -> Joint {
+        Joint { control, ..Joint::new(JointType::Revolute, JointMode::Dynamic) }
+    }
+
+    const AT_ZERO: Motion = Motion { position: 0.0, velocity: 0.0 };
+
+    #[test]
+    fn position_control_closes_a_tenth_of_the_error_in_five_milliseconds() {
+        let joint = Joint { target_position: 0.1, ..joint(Control::Position) };
+        let drive = Motor::default().drive(&joint, AT_ZERO, 0.005).expect("on");
+        assert!((drive.velocity * 0.005 - 0.01).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_spring_pushes_with_its_effort() {
+        let joint = Joint { spring: [2.0, 0.1], target_velocity: 1000.0, target_position: 0.5, ..joint(Control::Spring) };
+        let drive = Motor::default().drive(&joint, Motion { position: 0.0, velocity: 1.0 }, 0.005).expect("on");
+        assert!((drive.force - 0.9).abs() < 1e-12);
+        assert_eq!(drive.velocity, 1000.0);
+    }
+
+    #[test]
+    fn a_cyclic_joint_takes_the_short_way() {
+        let joint = Joint { target_position: -3.0, ..joint(Control::Position) };
+        assert!((position_error(&joint, 3.0) - (TAU - 6.0)).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,263 @@
+//! Who takes part in the dynamics: which shapes own bodies, and what links them (SPEC-dynamics section 3).
+//!
+//! Pure decisions over the scene; nothing here knows rapier. A plan is made anew whenever something it depends on has changed, and
+//! compared with what exists.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use crate::scene::dummy::LinkType;
+use crate::scene::joint::{Joint, JointMode, JointType};
+use crate::scene::mass::MassProperties;
+use crate::scene::mesh::Mesh;
+use crate::scene::shape::{Primitive, Shape};
+use crate::scene::{Handle, Kind, Object, Pose, Scene, Uid};
+
+/// `sim.modelproperty_not_dynamic` and `_not_respondable`.
+const NOT_DYNAMIC: i64 = 0x20;
+const NOT_RESPONDABLE: i64 = 0x40;
+/// Roots further from the origin than this are out of service, metres.
+const ACTIVITY_RANGE: f64 = 1000.0;
+
+/// What the engine should hold.
+#[derive(Default)]
+pub(super) struct Plan {
+    /// Base-to-tip.
+    pub bodies: Vec<(Handle, BodyPlan)>,
+    /// By the joint, force sensor or (smaller) dummy that stands for the link.
+    pub links: BTreeMap<Handle, LinkPlan>,
+}
+
+/// A rigid body.
+pub(super) struct BodyPlan {
+    pub build: BodyBuild,
+    pub surface: Surface,
+}
+
+/// What a body is made of: when any of it changes, the body is built anew and loses its velocity.
+#[derive(PartialEq)]
+pub(super) struct BodyBuild {
+    pub uid: Uid,
+    pub dynamic: bool,
+    pub respondable: bool,
+    pub mass: MassProperties,
+    pub parts: Vec<PartForm>,
+}
+
+/// The form of one part of a shape.
+pub(super) struct PartForm {
+    pub mesh: Rc<Mesh>,
+    pub pose: Pose,
+    pub primitive: Option<Primitive>,
+    pub convex: bool,
+}
+
+impl PartialEq for PartForm {
+    /// Meshes are shared and never changed in place: the same allocation is the same mesh.
+    fn eq(&self, other: &Self) -> bool {
+        Rc::ptr_eq(&self.mesh, &other.mesh)
+            && self.pose == other.pose
+            && self.primitive == other.primitive
+            && self.convex == other.convex
+    }
+}
+
+/// What may change about a body while it moves on.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) struct Surface {
+    pub root: Handle,
+    /// Low byte: local mask, high byte: global mask.
+    pub mask: u16,
+    pub friction: f64,
+    pub restitution: f64,
+    pub linear_damping: f64,
+    pub angular_damping: f64,
+}
+
+/// A constraint between two bodies: `first` carries the base of the link, `second` its moving side.
+#[derive(Clone, PartialEq)]
+pub(super) struct LinkPlan {
+    pub uid: Uid,
+    pub kind: LinkKind,
+    pub first: Handle,
+    pub second: Handle,
+    /// Base of the link in the first body's shape frame.
+    pub base: Pose,
+    /// Moving side of the link in the second body's shape frame.
+    pub tip: Pose,
+    /// Whether `second` is the child of the link in the scene, whose pose follows from the link.
+    pub second_is_child: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum LinkKind {
+    Revolute,
+    Prismatic,
+    Spherical,
+    Sensor,
+    Weld,
+}
+
+impl Plan {
+    pub(super) fn new(scene: &Scene) -> Self {
+        let order = scene.all_breadth_first();
+        let bodies: Vec<_> = order.iter().filter_map(|&handle| Some((handle, body(scene, handle)?))).collect();
+        let mut plan = Self { bodies, links: BTreeMap::new() };
+        let roles: BTreeMap<Handle, bool> = plan.bodies.iter().map(|(h, body)| (*h, body.build.dynamic)).collect();
+        for handle in order {
+            if let Some(link) = link(scene, handle, &roles) {
+                plan.links.insert(handle, link);
+            }
+        }
+        plan
+    }
+
+    /// Whether anything can move by itself.
+    pub(super) fn has_dynamic_bodies(&self) -> bool {
+        self.bodies.iter().any(|(_, body)| body.build.dynamic)
+    }
+}
+
+fn body(scene: &Scene, handle: Handle) -> Option<BodyPlan> {
+    let object = scene.object(handle).ok()?;
+    let shape = object.shape().ok()?;
+    let dynamics = &shape.dynamics;
+    if !dynamics.respondable && dynamics.is_static && !carries_links(scene, object) {
+        return None;
+    }
+    let flags = scene.calculated_model_property(handle);
+    let (dynamic_tree, respondable_tree) = (flags & NOT_DYNAMIC == 0, flags & NOT_RESPONDABLE == 0);
+    if !(dynamic_tree || respondable_tree) || is_out_of_range(scene, handle) {
+        return None;
+    }
+    let build = BodyBuild {
+        uid: object.uid(),
+        dynamic: dynamic_tree && !dynamics.is_static,
+        respondable: respondable_tree && dynamics.respondable,
+        mass: shape.mass,
+        parts: shape.parts.iter().map(PartForm::of).collect(),
+    };
+    Some(BodyPlan { build, surface: surface(scene, handle, shape) })
+}
+
+impl PartForm {
+    fn of(part: &crate::scene::shape::Part) -> Self {
+        Self { mesh: part.mesh.clone(), pose: part.pose, primitive: part.primitive.clone(), convex: part.convex }
+    }
+}
+
+fn surface(scene: &Scene, handle: Handle, shape: &Shape) -> Surface {
+    Surface {
+        root: scene.root_of(handle),
+        mask: shape.dynamics.respondable_mask as u16,
+        friction: shape.material.friction,
+        restitution: shape.material.restitution,
+        linear_damping: shape.material.linear_damping,
+        angular_damping: shape.material.angular_damping,
+    }
+}
+
+/// Far trees, and those at no place at all, are not simulated.
+fn is_out_of_range(scene: &Scene, handle: Handle) -> bool {
+    let root = scene.root_of(handle);
+    let here = |h| scene.world_pose(h).is_ok_and(|pose| pose.translation.vector.norm() <= ACTIVITY_RANGE);
+    !here(root) || !scene.world_pose(handle).is_ok_and(|pose| super::convert::is_finite(&pose))
+}
+
+/// Whether a static shape that collides with nothing is needed as the base of a joint, force sensor or weld.
+fn carries_links(scene: &Scene, shape: &Object) -> bool {
+    children(scene, shape).any(|child| match &child.kind {
+        Kind::Joint(joint) => is_dynamic_mode(scene, joint) && !closing_children(scene, child).is_empty(),
+        Kind::ForceSensor(_) => !closing_children(scene, child).is_empty(),
+        Kind::Dummy(_) => welded_to(scene, child).is_some(),
+        _ => false,
+    })
+}
+
+fn children<'a>(scene: &'a Scene, object: &'a Object) -> impl Iterator<Item = &'a Object> {
+    object.children().iter().filter_map(|&child| scene.object(child).ok())
+}
+
+/// Also a joint that follows a dynamic one counts as dynamic.
+fn is_dynamic_mode(scene: &Scene, joint: &Joint) -> bool {
+    let mode_of = |handle| scene.object(handle).and_then(Object::joint).map(|joint| joint.mode);
+    match joint.mode {
+        JointMode::Dynamic => true,
+        JointMode::Dependent => joint.dependency.is_some_and(|d| mode_of(d.master) == Ok(JointMode::Dynamic)),
+        JointMode::Kinematic => false,
+    }
+}
+
+/// Children that can be the moving side of a link: non-static shapes and dummies that close a loop.
+fn closing_children<'a>(scene: &'a Scene, link: &'a Object) -> Vec<&'a Object> {
+    children(scene, link)
+        .filter(|child| match &child.kind {
+            Kind::Shape(shape) => !shape.dynamics.is_static,
+            Kind::Dummy(_) => welded_to(scene, child).is_some(),
+            _ => false,
+        })
+        .collect()
+}
+
+/// The partner of a childless dummy in a loop closure, childless as well.
+fn welded_to<'a>(scene: &'a Scene, dummy: &Object) -> Option<&'a Object> {
+    let data = dummy.dummy().ok()?;
+    let partner = scene.object(data.link?).ok()?;
+    let closes = data.link_type == LinkType::LoopClosure && dummy.children().is_empty() && partner.children().is_empty();
+    closes.then_some(partner)
+}
+
+/// The link an object stands for, if all its conditions hold. `roles`: the bodies, and whether they are dynamic.
+fn link(scene: &Scene, handle: Handle, roles: &BTreeMap<Handle, bool>) -> Option<LinkPlan> {
+    let object = scene.object(handle).ok()?;
+    let first = object.parent().filter(|parent| roles.contains_key(parent))?;
+    if scene.calculated_model_property(handle) & NOT_DYNAMIC != 0 {
+        return None;
+    }
+    let kind = match &object.kind {
+        Kind::Joint(joint) if is_dynamic_mode(scene, joint) => match joint.joint_type {
+            JointType::Revolute => LinkKind::Revolute,
+            JointType::Prismatic => LinkKind::Prismatic,
+            JointType::Spherical => LinkKind::Spherical,
+        },
+        Kind::ForceSensor(_) => LinkKind::Sensor,
+        Kind::Dummy(_) => return weld(scene, object, first, roles),
+        _ => return None,
+    };
+    let [child] = closing_children(scene, object)[..] else { return None };
+    let (second, tip) = match &child.kind {
+        Kind::Shape(_) => (child.handle(), child.pose().inverse()),
+        _ => {
+            let partner = welded_to(scene, child)?;
+            (partner.parent()?, partner.pose() * child.pose().inverse())
+        }
+    };
+    let second_is_child = second == child.handle();
+    let moves = |body: Handle| roles.get(&body).copied();
+    let linked = if second_is_child { moves(second)? } else { moves(first)? || moves(second)? };
+    (linked && first != second).then(|| LinkPlan {
+        uid: object.uid(),
+        kind,
+        first,
+        second,
+        base: object.pose(),
+        tip,
+        second_is_child,
+    })
+}
+
+/// Two dummies right below shapes: the first of the two stands for the link.
+fn weld(scene: &Scene, dummy: &Object, first: Handle, roles: &BTreeMap<Handle, bool>) -> Option<LinkPlan> {
+    let partner = welded_to(scene, dummy)?;
+    let second = partner.parent()?;
+    let moves = *roles.get(&first)? || *roles.get(&second)?;
+    (moves && first != second && dummy.handle() < partner.handle()).then(|| LinkPlan {
+        uid: dummy.uid(),
+        kind: LinkKind::Weld,
+        first,
+        second,
+        base: dummy.pose(),
+        tip: partner.pose(),
+        second_is_child: false,
+    })
+}

@@ -1,0 +1,207 @@
+//! The way back: what the scene learns after a pass and at the end of a call.
+
+use nalgebra::UnitQuaternion;
+
+use super::bodies::Body;
+use super::convert::{from_pose, from_vector};
+use super::links::{Link, Links};
+use super::load::Load;
+use super::motors::wrap;
+use super::plan::LinkKind;
+use super::world::World;
+use super::{Dynamics, Pass, contacts};
+use crate::scene::dynamics_report::JointReport;
+use crate::scene::force_sensor::{Filter, ForceSensor};
+use crate::scene::shape::Velocity;
+use crate::scene::{Field, Handle, Kind, Pose, Scene};
+
+/// Bits of [`Object::dynamic_flag`](crate::scene::Object::dynamic_flag).
+const RESPONDABLE: i64 = 1;
+const DYNAMIC: i64 = 2;
+const JOINT: i64 = 4;
+const SENSOR: i64 = 32;
+const DUMMY: i64 = 64;
+
+/// A force sensor whose threshold was exceeded often enough.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Trigger {
+    pub sensor: Handle,
+    /// Mean over the passes of the last call: force and torque.
+    pub raw: Load,
+    pub filtered: Load,
+}
+
+impl Dynamics {
+    /// Takes the engine back after pass number `pass` (from 1) and tells the scene: joints and force sensors first, then shapes,
+    /// base-to-tip.
+    pub(crate) fn finish_pass(&mut self, pass: Pass, number: u32, scene: &mut Scene) {
+        let Pass { world, step, .. } = pass;
+        if self.call.is_none() {
+            return;
+        }
+        for (&handle, link) in &mut self.links {
+            if let Some(moving_side) = link.after_step(&world, step) {
+                report_link(scene, handle, link, moving_side);
+            }
+        }
+        let shapes: Vec<Handle> = self.bodies.iter().filter(|(_, b)| b.build.dynamic).map(|(shape, _)| shape).collect();
+        for shape in shapes {
+            let Some((pose, velocity)) = self.bodies.get(shape).and_then(|body| state(body, &world)) else { continue };
+            let pose = (!is_held(&self.links, scene, shape)).then_some(pose);
+            // A shape that was removed meanwhile has nothing to be told.
+            if let Ok(local) = scene.report_body(shape, pose, velocity) {
+                self.bodies.note_local(shape, local);
+            }
+        }
+        contacts::collect(&world, number - 1, step, &mut self.contacts);
+        self.world = Some(world);
+    }
+
+    /// Ends the call: forces are used up, readings are averaged, flags tell who took part. Returns the force sensors that trigger.
+    pub(crate) fn end(&mut self, scene: &mut Scene) -> Vec<Trigger> {
+        self.call = None;
+        let forced: Vec<Handle> = scene.objects().filter(|o| is_forced(o)).map(|o| o.handle()).collect();
+        for shape in forced {
+            let _ = scene.try_modify(shape, Field::Pose, |object| {
+                let shape = object.shape_mut()?;
+                (shape.force, shape.torque) = ([0.0; 3], [0.0; 3]);
+                Ok(())
+            });
+        }
+        let triggers = self.links.iter().filter_map(|(&handle, link)| read(scene, handle, link)).collect();
+        self.write_flags(scene);
+        triggers
+    }
+
+    fn write_flags(&self, scene: &mut Scene) {
+        let changes: Vec<(Handle, i64)> = scene
+            .objects()
+            .map(|object| (object.handle(), self.flag_of(object.handle(), &object.kind), object.dynamic_flag))
+            .filter(|(_, flag, old)| flag != old)
+            .map(|(handle, flag, _)| (handle, flag))
+            .collect();
+        for (handle, flag) in changes {
+            // The flag follows from what takes part; it does not change it.
+            let _ = scene.modify(handle, Field::Pose, |object| object.dynamic_flag = flag);
+        }
+    }
+
+    fn flag_of(&self, handle: Handle, kind: &Kind) -> i64 {
+        match kind {
+            Kind::Shape(_) => self.bodies.get(handle).map_or(0, |body| {
+                i64::from(body.build.respondable) * RESPONDABLE + i64::from(body.build.dynamic) * DYNAMIC
+            }),
+            Kind::Joint(_) if self.links.contains_key(&handle) => JOINT,
+            Kind::ForceSensor(_) if self.links.contains_key(&handle) => SENSOR,
+            Kind::Dummy(_) if self.links.contains_key(&handle) => DUMMY,
+            _ => 0,
+        }
+    }
+}
+
+/// Whether the shape hangs on a link that is its parent, so that its place in the scene follows from the link.
+fn is_held(links: &Links, scene: &Scene, shape: Handle) -> bool {
+    let parent = scene.object(shape).ok().and_then(|object| object.parent());
+    parent.and_then(|parent| links.get(&parent)).is_some_and(|link| link.plan.second_is_child && link.plan.second == shape)
+}
+
+fn state(body: &Body, world: &World) -> Option<(Pose, Velocity)> {
+    let rigid = world.bodies.get(body.rigid)?;
+    let velocity = Velocity { linear: from_vector(rigid.linvel()), angular: from_vector(rigid.angvel()) };
+    Some((from_pose(rigid.position()), velocity))
+}
+
+fn report_link(scene: &mut Scene, handle: Handle, link: &Link, moving_side: Pose) {
+    // A link that was removed meanwhile has nothing to be told.
+    let _ = match link.plan.kind {
+        LinkKind::Weld => Ok(()),
+        LinkKind::Sensor => scene.report_sensor(handle, moving_side),
+        kind => {
+            let cyclic = scene.object(handle).and_then(|o| o.joint()).is_ok_and(|joint| joint.cyclic);
+            let position = link.motion.position;
+            let report = JointReport {
+                position: if cyclic && kind == LinkKind::Revolute { wrap(position) } else { position },
+                rotation: if kind == LinkKind::Spherical { moving_side.rotation } else { UnitQuaternion::identity() },
+                velocity: link.motion.velocity,
+                moving_side,
+                effort: link.efforts.last().copied().unwrap_or(0.0),
+            };
+            scene.report_joint(handle, &report)
+        }
+    };
+}
+
+fn is_forced(object: &crate::scene::Object) -> bool {
+    object.shape().is_ok_and(|shape| shape.force != [0.0; 3] || shape.torque != [0.0; 3])
+}
+
+/// Averages what a link measured over the call.
+fn read(scene: &mut Scene, handle: Handle, link: &Link) -> Option<Trigger> {
+    match link.plan.kind {
+        LinkKind::Sensor => {
+            let load = mean(&link.loads)?;
+            let latest = *link.loads.last()?;
+            let fired = scene.try_modify(handle, Field::JointPosition, |object| {
+                let sensor = object.force_sensor_mut()?;
+                sensor.raw = Some(latest);
+                Ok(take_sample(sensor, load))
+            });
+            fired.ok().flatten().map(|filtered| Trigger { sensor: handle, raw: load, filtered })
+        }
+        LinkKind::Revolute | LinkKind::Prismatic => {
+            let mean = link.efforts.iter().sum::<f64>() / link.efforts.len().max(1) as f64;
+            let _ = scene.try_modify(handle, Field::JointPosition, |object| {
+                object.joint_mut()?.force = Some(mean);
+                Ok(())
+            });
+            None
+        }
+        LinkKind::Spherical | LinkKind::Weld => None,
+    }
+}
+
+fn mean(loads: &[Load]) -> Option<Load> {
+    let sum = |part: fn(&Load) -> [f64; 3]| {
+        [0, 1, 2].map(|axis| loads.iter().map(|load| part(load)[axis]).sum::<f64>() / loads.len() as f64)
+    };
+    (!loads.is_empty()).then(|| (sum(|load| load.0), sum(|load| load.1)))
+}
+
+/// Puts a value into the filter; returns the filtered value when the sensor triggers.
+fn take_sample(sensor: &mut ForceSensor, load: Load) -> Option<Load> {
+    let size = sensor.sample_size.max(1);
+    sensor.samples.push_back(load);
+    while sensor.samples.len() > size {
+        sensor.samples.pop_front();
+    }
+    if sensor.samples.len() < size {
+        return None;
+    }
+    let filtered = filter(sensor.filter, sensor.samples.make_contiguous())?;
+    sensor.filtered = Some(filtered);
+    let exceeds = |vector: [f64; 3], threshold: f64| vector.iter().map(|x| x * x).sum::<f64>().sqrt() >= threshold;
+    let violated = sensor.force_threshold_enabled && exceeds(filtered.0, sensor.force_threshold)
+        || sensor.torque_threshold_enabled && exceeds(filtered.1, sensor.torque_threshold);
+    sensor.violations = if violated { sensor.violations + 1 } else { 0 };
+    if sensor.violations < sensor.consecutive_violations.max(1) {
+        return None;
+    }
+    sensor.violations = 0;
+    Some(filtered)
+}
+
+fn filter(kind: Filter, samples: &[Load]) -> Option<Load> {
+    match kind {
+        Filter::Average => mean(samples),
+        Filter::Median => {
+            let median = |part: fn(&Load) -> [f64; 3]| {
+                [0, 1, 2].map(|axis| {
+                    let mut values: Vec<f64> = samples.iter().map(|load| part(load)[axis]).collect();
+                    values.sort_by(f64::total_cmp);
+                    values[values.len() / 2]
+                })
+            };
+            (!samples.is_empty()).then(|| (median(|load| load.0), median(|load| load.1)))
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! The physics on scenes built by hand.
+
+use super::*;

@@ -1,0 +1,96 @@
+//! rapier's world: its sets, its settings, one sub-step.
+//!
+//! A sub-step is one semi-implicit Euler step: rapier's own sub-division is switched off, so that free bodies move exactly as in the
+//! original and impulses divided by the step are forces.
+
+use rapier3d_f64::math::Vector;
+use rapier3d_f64::prelude::{
+    BroadPhaseBvh, CCDSolver, ColliderSet, FrictionModel, ImpulseJointSet, IntegrationParameters, IslandManager,
+    MultibodyJointSet, NarrowPhase, PhysicsHooks, PhysicsPipeline, RigidBodySet, SoftBodySet,
+};
+
+/// Sweeps of the solver over all constraints of a sub-step.
+const ITERATIONS: usize = 4;
+/// Penetration left alone, metres.
+const SLOP: f64 = 2e-4;
+/// Distance at which contacts are prepared, metres.
+const PREDICTION: f64 = 0.01;
+
+/// Everything rapier needs for one scene.
+pub(super) struct World {
+    pub bodies: RigidBodySet,
+    pub colliders: ColliderSet,
+    pub joints: ImpulseJointSet,
+    pub narrow_phase: NarrowPhase,
+    broad_phase: BroadPhaseBvh,
+    islands: IslandManager,
+    multibodies: MultibodyJointSet,
+    soft_bodies: SoftBodySet,
+    ccd: CCDSolver,
+    pipeline: PhysicsPipeline,
+    parameters: IntegrationParameters,
+}
+
+impl World {
+    pub(super) fn new() -> Self {
+        Self {
+            bodies: RigidBodySet::new(),
+            colliders: ColliderSet::new(),
+            joints: ImpulseJointSet::new(),
+            narrow_phase: NarrowPhase::new(),
+            broad_phase: BroadPhaseBvh::new(),
+            islands: IslandManager::new(),
+            multibodies: MultibodyJointSet::new(),
+            soft_bodies: SoftBodySet::new(),
+            ccd: CCDSolver::new(),
+            pipeline: PhysicsPipeline::new(),
+            parameters: parameters(),
+        }
+    }
+
+    /// Advances everything by `step` seconds under `gravity` (m/s2).
+    pub(super) fn step(&mut self, step: f64, gravity: Vector, hooks: &dyn PhysicsHooks) {
+        self.parameters.dt = step;
+        self.pipeline.step(
+            gravity,
+            &self.parameters,
+            &mut self.islands,
+            &mut self.broad_phase,
+            &mut self.narrow_phase,
+            &mut self.bodies,
+            &mut self.colliders,
+            &mut self.joints,
+            &mut self.multibodies,
+            &mut self.soft_bodies,
+            &mut self.ccd,
+            hooks,
+            &(),
+        );
+    }
+
+    /// Removes a body with its colliders and joints.
+    pub(super) fn remove_body(&mut self, body: rapier3d_f64::prelude::RigidBodyHandle) {
+        self.bodies.remove(
+            body,
+            &mut self.islands,
+            &mut self.colliders,
+            &mut self.joints,
+            &mut self.multibodies,
+            &mut self.soft_bodies,
+            true,
+        );
+    }
+}
+
+fn parameters() -> IntegrationParameters {
+    IntegrationParameters {
+        num_solver_iterations: 1,
+        num_internal_pgs_iterations: ITERATIONS,
+        normalized_allowed_linear_error: SLOP,
+        normalized_prediction_distance: PREDICTION,
+        normalized_max_linear_velocity: f64::MAX,
+        friction_model: FrictionModel::Simplified,
+        warmstart_joints: true,
+        ..IntegrationParameters::default()
+    }
+}

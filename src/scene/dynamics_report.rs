@@ -1,0 +1,87 @@
+//! What the physics writes into the scene. None of it asks the physics to look again.
+
+use nalgebra::UnitQuaternion;
+
+use super::shape::Velocity;
+use super::{Field, Handle, Kind, Pose, Scene, SceneResult};
+
+/// The state of a dynamic joint after a sub-step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointReport {
+    /// Of a revolute or prismatic joint, rad or m.
+    pub position: f64,
+    /// Of a spherical joint.
+    pub rotation: UnitQuaternion<f64>,
+    pub velocity: f64,
+    /// The moving side as the engine has it, in the frame of the joint.
+    pub moving_side: Pose,
+    /// Effort of the motor on the parent, N m or N.
+    pub effort: f64,
+}
+
+impl Scene {
+    /// Puts a simulated shape where the engine has it, in the world; returns its pose in the parent's frame.
+    pub fn report_body(&mut self, shape: Handle, world: Option<Pose>, velocity: Velocity) -> SceneResult<Pose> {
+        let local = match world {
+            Some(world) => self.parent_frame(shape)?.inverse() * world,
+            None => self.object(shape)?.pose(),
+        };
+        self.try_modify(shape, Field::Pose, |object| {
+            object.pose = local;
+            object.shape_mut()?.velocity = velocity;
+            Ok(local)
+        })
+    }
+
+    /// Takes over where the engine has a joint. What the ideal joint cannot express is kept as its error.
+    pub fn report_joint(&mut self, joint: Handle, report: &JointReport) -> SceneResult<()> {
+        self.try_modify(joint, Field::JointPosition, |object| {
+            let joint = object.joint_mut()?;
+            joint.position = report.position;
+            joint.spherical = report.rotation;
+            joint.velocity = report.velocity;
+            joint.raw_force = Some(report.effort);
+            joint.error = Some(joint.ideal_pose().inverse() * report.moving_side);
+            Ok(())
+        })
+    }
+
+    /// Takes over the deviation of a force sensor's two sides.
+    pub fn report_sensor(&mut self, sensor: Handle, moving_side: Pose) -> SceneResult<()> {
+        self.try_modify(sensor, Field::JointPosition, |object| {
+            object.force_sensor_mut()?.error = Some(moving_side);
+            Ok(())
+        })
+    }
+
+    /// Forgets what the physics left behind: velocities, forces, readings, deviations.
+    pub fn forget_dynamics(&mut self) {
+        let handles: Vec<Handle> = self.objects().map(super::Object::handle).collect();
+        for handle in handles {
+            if let Ok(object) = self.object_mut(handle) {
+                object.dynamic_flag = 0;
+                object.dynamics_reset = false;
+                forget(&mut object.kind);
+            }
+        }
+    }
+}
+
+fn forget(kind: &mut Kind) {
+    match kind {
+        Kind::Shape(shape) => {
+            shape.velocity = Velocity::default();
+            (shape.force, shape.torque) = ([0.0; 3], [0.0; 3]);
+        }
+        Kind::Joint(joint) => {
+            (joint.force, joint.raw_force, joint.error) = (None, None, None);
+            joint.velocity = 0.0;
+        }
+        Kind::ForceSensor(sensor) => {
+            sensor.samples.clear();
+            (sensor.raw, sensor.filtered, sensor.error) = (None, None, None);
+            sensor.violations = 0;
+        }
+        _ => {}
+    }
+}
