@@ -1,5 +1,97 @@
 //! `sim.*`: colours of shapes and other objects.
 
-use super::{ApiFn, functions};
+use api_macro::api;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![];
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::colour::{ColourName, Component};
+use crate::scene::{Handle, SceneError};
+use crate::script::Number;
+
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![get_shape_color, set_shape_color, get_object_color, set_object_color];
+
+fn component(code: Number) -> Result<Component> {
+    Component::from_code(code.0).ok_or(ApiError::Scene(SceneError::InvalidArgument))
+}
+
+/// A colour of a shape.
+///
+/// @param shapeHandle the shape
+/// @param colorName nil: the first mesh, a text: the first mesh whose colour is called so, '@compound': of each mesh
+/// @param colorComponent sim.colorcomponent_*
+/// @return result 1, or 0 when no mesh is called so
+/// @return rgbData red, green, blue; one number for transparency, 1 for opaque
+#[api("sim.getShapeColor")]
+fn get_shape_color(
+    cx: &Cx,
+    shape_handle: Handle,
+    color_name: Option<String>,
+    color_component: Number,
+) -> Result<(i64, Vec<f64>)> {
+    let component = component(color_component)?;
+    let colour = cx.scene().object(shape_handle)?.shape()?.colour(&ColourName::from_script(color_name), component);
+    Ok(colour.map_or_else(|| (0, vec![0.0; component.width()]), |colour| (1, colour)))
+}
+
+/// Colours a shape.
+///
+/// @param shapeHandle the shape
+/// @param colorName nil: every mesh, a text: meshes whose colour is called so, '@compound': each mesh its own
+/// @param colorComponent sim.colorcomponent_*
+/// @param rgbData red, green, blue; one number for transparency, 1 for opaque
+/// @return result 1
+#[api("sim.setShapeColor")]
+fn set_shape_color(
+    cx: &mut Cx,
+    shape_handle: Handle,
+    color_name: Option<String>,
+    color_component: Number,
+    rgb_data: Vec<f64>,
+) -> Result<i64> {
+    let component = component(color_component)?;
+    if rgb_data.len() < component.width() {
+        return Err(ApiError::TableSize);
+    }
+    cx.scene_mut().set_shape_colour(shape_handle, &ColourName::from_script(color_name), component, &rgb_data)?;
+    Ok(1)
+}
+
+/// A colour of an object.
+///
+/// @param objectHandle the object
+/// @param index which mesh of a shape, from 0
+/// @param colorComponent sim.colorcomponent_*
+/// @return rgbData red, green, blue; nothing when the object has no such colour
+#[api("sim.getObjectColor")]
+fn get_object_color(
+    cx: &Cx,
+    object_handle: Handle,
+    index: Number,
+    color_component: Number,
+) -> Result<Option<Vec<f64>>> {
+    let Ok(index) = usize::try_from(index.0) else { return Ok(None) };
+    Ok(cx.scene().object_colour(object_handle, index, component(color_component)?)?)
+}
+
+/// Colours an object.
+///
+/// @param objectHandle the object
+/// @param index which mesh of a shape, from 0
+/// @param colorComponent sim.colorcomponent_*
+/// @param rgbData red, green, blue
+/// @return result false when the object has no such colour
+#[api("sim.setObjectColor")]
+fn set_object_color(
+    cx: &mut Cx,
+    object_handle: Handle,
+    index: Number,
+    color_component: Number,
+    rgb_data: Vec<f64>,
+) -> Result<bool> {
+    let component = component(color_component)?;
+    if rgb_data.len() < component.width() {
+        return Err(ApiError::TableSize);
+    }
+    let Ok(index) = usize::try_from(index.0) else { return Ok(false) };
+    Ok(cx.scene_mut().set_object_colour(object_handle, index, component, &rgb_data)?)
+}

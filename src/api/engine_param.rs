@@ -1,5 +1,97 @@
-//! `sim.*`: parameters of the physics engines.
+//! `sim.*`: parameters of physics engines (deprecated names).
 
-use super::{ApiFn, functions};
+use api_macro::api;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![];
+use super::{ApiFn, Cx, Result, functions};
+use crate::scene::{Handle, SceneError};
+use crate::script::Number;
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    get_engine_float_param,
+    set_engine_float_param,
+    get_engine_int32_param,
+    set_engine_int32_param,
+    get_engine_bool_param,
+    set_engine_bool_param,
+];
+
+/// The object a script means: none for negative numbers, which stand for the engine itself.
+fn target(handle: Number) -> Result<Option<Handle>> {
+    match handle.0 {
+        ..0 => Ok(None),
+        raw => Ok(Some(Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?)),
+    }
+}
+
+/// A float parameter of a physics engine.
+///
+/// @param paramId sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+/// @param objectHandle a shape, joint or dummy; -1 for a global parameter
+/// @return floatParam the value
+#[api("sim.getEngineFloatParam")]
+fn get_engine_float_param(cx: &Cx, param_id: Number, object_handle: Number) -> Result<f64> {
+    Ok(cx.scene().engine_param(param_id.0, target(object_handle)?)?)
+}
+
+/// Sets a float parameter of a physics engine.
+///
+/// @param paramId sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+/// @param objectHandle a shape, joint or dummy; -1 for a global parameter
+/// @param floatParam the value
+#[api("sim.setEngineFloatParam")]
+fn set_engine_float_param(
+    cx: &mut Cx,
+    param_id: Number,
+    object_handle: Number,
+    float_param: f64,
+) -> Result<()> {
+    let target = target(object_handle)?;
+    Ok(cx.scene_mut().set_engine_param(param_id.0, target, float_param)?)
+}
+
+/// An integer parameter of a physics engine.
+///
+/// @param paramId sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+/// @param objectHandle a shape, joint or dummy; -1 for a global parameter
+/// @return int32Param the value
+#[api("sim.getEngineInt32Param")]
+fn get_engine_int32_param(cx: &Cx, param_id: Number, object_handle: Number) -> Result<i64> {
+    Ok(cx.scene().engine_param(param_id.0, target(object_handle)?)? as i64)
+}
+
+/// Sets an integer parameter of a physics engine.
+///
+/// @param paramId sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+/// @param objectHandle a shape, joint or dummy; -1 for a global parameter
+/// @param int32Param the value
+#[api("sim.setEngineInt32Param")]
+fn set_engine_int32_param(
+    cx: &mut Cx,
+    param_id: Number,
+    object_handle: Number,
+    int32_param: Number,
+) -> Result<()> {
+    let target = target(object_handle)?;
+    Ok(cx.scene_mut().set_engine_param(param_id.0, target, int32_param.0 as f64)?)
+}
+
+/// A switch of a physics engine.
+///
+/// @param paramId sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+/// @param objectHandle a shape, joint or dummy; -1 for a global parameter
+/// @return boolParam the value
+#[api("sim.getEngineBoolParam")]
+fn get_engine_bool_param(cx: &Cx, param_id: Number, object_handle: Number) -> Result<bool> {
+    Ok(cx.scene().engine_param(param_id.0, target(object_handle)?)? != 0.0)
+}
+
+/// Sets a switch of a physics engine.
+///
+/// @param paramId sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+/// @param objectHandle a shape, joint or dummy; -1 for a global parameter
+/// @param boolParam the value
+#[api("sim.setEngineBoolParam")]
+fn set_engine_bool_param(cx: &mut Cx, param_id: Number, object_handle: Number, bool_param: bool) -> Result<()> {
+    let target = target(object_handle)?;
+    Ok(cx.scene_mut().set_engine_param(param_id.0, target, f64::from(u8::from(bool_param)))?)
+}

@@ -45,7 +45,7 @@ fn create_joint(
     joint_type: Number,
     joint_mode: Number,
     options: Number,
-    sizes: Option<[f64; 2]>,
+    #[default(None)] sizes: Option<[f64; 2]>,
 ) -> Result<Handle> {
     let _ = options;
     let joint_type = JointType::from_code(joint_type.0).ok_or(SceneError::InvalidArgument)?;
@@ -220,7 +220,7 @@ fn set_joint_target_velocity(
     object_handle: Handle,
     target_velocity: f64,
     #[default(Vec::new())] motion_params: Vec<f64>,
-    init_vel: Option<f64>,
+    #[default(None)] init_vel: Option<f64>,
 ) -> Result<i64> {
     cx.scene_mut().set_joint_target_velocity(object_handle, target_velocity, &motion_params, init_vel)?;
     Ok(1)

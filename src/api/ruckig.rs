@@ -1,5 +1,119 @@
-//! `sim.*`: motion profiles.
+//! `sim.*`: trajectories with limited velocity, acceleration and jerk.
+//!
+//! A trajectory belongs to the script that made it and goes with it.
 
-use super::{ApiFn, functions};
+use api_macro::api;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![];
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::ruckig::{BAD_CYCLE_TIME, RuckigError, Trajectory};
+use crate::script::Number;
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![ruckig_pos, ruckig_vel, ruckig_step, ruckig_remove];
+
+/// Plans a motion to positions.
+///
+/// @param dofs number of axes
+/// @param baseCycleTime seconds; step times are multiples of it
+/// @param flags sim.ruckig_*, -1 for time synchronisation
+/// @param currentPosVelAccel positions, then velocities, then accelerations
+/// @param maxVelAccelJerk limits, then minima where the flags say so
+/// @param selection 0 leaves an axis out
+/// @param targetPosVel positions, then velocities
+/// @return handle for sim.ruckigStep
+#[api("sim.ruckigPos")]
+fn ruckig_pos(
+    cx: &mut Cx,
+    dofs: Number,
+    base_cycle_time: f64,
+    flags: Number,
+    current_pos_vel_accel: Vec<f64>,
+    max_vel_accel_jerk: Vec<f64>,
+    selection: Vec<i64>,
+    target_pos_vel: Vec<f64>,
+) -> Result<i64> {
+    let trajectory = Trajectory::new_position(
+        axes(dofs),
+        base_cycle_time,
+        flags.0,
+        &current_pos_vel_accel,
+        &max_vel_accel_jerk,
+        &selection,
+        &target_pos_vel,
+    );
+    Ok(cx.env().trajectories.borrow_mut().add(trajectory.map_err(refusal)?))
+}
+
+/// Plans a change of velocities.
+///
+/// @param dofs number of axes
+/// @param baseCycleTime seconds; step times are multiples of it
+/// @param flags sim.ruckig_*, -1 for time synchronisation
+/// @param currentPosVelAccel positions, then velocities, then accelerations
+/// @param maxAccelJerk limits, then minimum accelerations where the flags say so
+/// @param selection 0 leaves an axis out
+/// @param targetVel velocities
+/// @return handle for sim.ruckigStep
+#[api("sim.ruckigVel")]
+fn ruckig_vel(
+    cx: &mut Cx,
+    dofs: Number,
+    base_cycle_time: f64,
+    flags: Number,
+    current_pos_vel_accel: Vec<f64>,
+    max_accel_jerk: Vec<f64>,
+    selection: Vec<i64>,
+    target_vel: Vec<f64>,
+) -> Result<i64> {
+    let trajectory = Trajectory::new_velocity(
+        axes(dofs),
+        base_cycle_time,
+        flags.0,
+        &current_pos_vel_accel,
+        &max_accel_jerk,
+        &selection,
+        &target_vel,
+    );
+    Ok(cx.env().trajectories.borrow_mut().add(trajectory.map_err(refusal)?))
+}
+
+/// Follows a trajectory.
+///
+/// @param handle from sim.ruckigPos or sim.ruckigVel
+/// @param cycleTime seconds to advance by
+/// @return result 0 running, 1 there, negative on failure
+/// @return newPosVelAccel positions, then velocities, then accelerations
+/// @return synchronizationTime seconds left; negative in the last step
+#[api("sim.ruckigStep")]
+fn ruckig_step(cx: &mut Cx, handle: Number, cycle_time: f64) -> Result<(i64, Vec<f64>, f64)> {
+    let mut trajectories = cx.env().trajectories.borrow_mut();
+    let step = trajectories.get_mut(handle.0).ok_or_else(unknown)?.step(cycle_time);
+    match step.code {
+        BAD_CYCLE_TIME => {
+            Err(ApiError::Other("specified cycle time is not a multiple of the base cycle time.".into()))
+        }
+        code => Ok((code.into(), step.pva, step.sync)),
+    }
+}
+
+/// Forgets a trajectory.
+///
+/// @param handle from sim.ruckigPos or sim.ruckigVel
+#[api("sim.ruckigRemove")]
+fn ruckig_remove(cx: &mut Cx, handle: Number) -> Result<()> {
+    cx.env().trajectories.borrow_mut().remove(handle.0).map(drop).ok_or_else(unknown)
+}
+
+fn axes(dofs: Number) -> usize {
+    usize::try_from(dofs.0).unwrap_or(0)
+}
+
+fn unknown() -> ApiError {
+    ApiError::Other("Ruckig object does not exist.".into())
+}
+
+fn refusal(error: RuckigError) -> ApiError {
+    match error {
+        RuckigError::TableSize => ApiError::TableSize,
+        _ => ApiError::Other(error.to_string()),
+    }
+}

@@ -1,5 +1,44 @@
-//! `sim.*`: grouping, merging and dividing.
+//! `sim.*`: joining shapes into one, and taking them apart.
 
-use super::{ApiFn, functions};
+use api_macro::api;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![];
+use super::{ApiFn, Cx, Result, functions};
+use crate::scene::{Handle, SceneError};
+use crate::script::{Handles, Number};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![group_shapes, ungroup_shape];
+
+/// Makes one shape of several. The originals are removed; the last one gives its pose, place, name and flags.
+///
+/// @param shapeHandles the shapes
+/// @param merge whether the result is one mesh instead of a compound
+/// @return shapeHandle the new shape
+#[api("sim.groupShapes")]
+fn group_shapes(cx: &mut Cx, shape_handles: Handles, #[default(false)] merge: bool) -> Result<Handle> {
+    let (group, members) = cx.scene_mut().group_shapes(&shape_handles.0, merge)?;
+    replace(cx, &members, vec![group])?;
+    Ok(group)
+}
+
+/// Takes a compound apart into the shapes it was made of.
+///
+/// @param shapeHandle the shape; -2 minus the handle divides a single mesh into its islands
+/// @return simpleShapeHandles the new shapes, or the shape itself when there is nothing to take apart
+#[api("sim.ungroupShape")]
+fn ungroup_shape(cx: &mut Cx, shape_handle: Number) -> Result<Vec<Handle>> {
+    let (raw, divide) = if shape_handle.0 < -1 { (-2 - shape_handle.0, true) } else { (shape_handle.0, false) };
+    let handle = Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?;
+    let pieces = if divide { cx.scene_mut().divide_shape(handle) } else { cx.scene_mut().ungroup_shape(handle) };
+    match pieces? {
+        Some(pieces) => replace(cx, &[handle], pieces),
+        None => Ok(vec![handle]),
+    }
+}
+
+/// Tells everyone of the new shapes and removes the old ones.
+fn replace(cx: &mut Cx, old: &[Handle], new: Vec<Handle>) -> Result<Vec<Handle>> {
+    let sim = cx.sim().clone();
+    sim.announce_created(&new);
+    sim.remove_objects(old)?;
+    Ok(new)
+}

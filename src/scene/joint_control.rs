@@ -208,6 +208,11 @@ impl Scene {
     pub fn set_joint_interval(&mut self, handle: Handle, cyclic: bool, [min, range]: [f64; 2]) -> SceneResult<()> {
         finite(&[min, range])?;
         self.modify_joint(handle, |joint| joint.set_interval(cyclic, min, range))?;
+        self.relimit_joint(handle)
+    }
+
+    /// Brings the position of a joint back into its interval, unless it has a master.
+    pub(super) fn relimit_joint(&mut self, handle: Handle) -> SceneResult<()> {
         let joint = self.object(handle)?.joint()?;
         if joint.joint_type == JointType::Spherical || joint.dependency.is_some() {
             return Ok(());

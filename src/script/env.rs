@@ -9,6 +9,7 @@ use super::lua::{FunctionRef, Stack, State};
 use super::random::Random;
 use super::script::Script;
 use super::sim::Sim;
+use super::trajectories::Trajectories;
 use super::verbosity;
 
 /// The host's side of one Lua state.
@@ -22,6 +23,7 @@ pub(crate) struct Env {
     pub depth: Cell<usize>,
     pub yields: Yields,
     pub random: RefCell<Random>,
+    pub trajectories: RefCell<Trajectories>,
     warned: RefCell<HashSet<&'static str>>,
 }
 
@@ -61,6 +63,7 @@ impl Env {
             depth: Cell::new(0),
             yields: Yields { auto: Cell::new(0), overall: Cell::new(0), delay_ms: Cell::new(2), used: Cell::new(0) },
             random: RefCell::new(Random::new(sim.options.seed)),
+            trajectories: RefCell::default(),
             warned: RefCell::default(),
         }
     }

@@ -15,6 +15,7 @@ mod dynamics_step;
 mod embedded;
 mod env;
 mod error;
+mod joint_motion;
 mod lifecycle;
 mod lua;
 mod order;
@@ -27,6 +28,7 @@ mod sim;
 mod startup;
 mod step;
 mod threads;
+mod trajectories;
 pub mod verbosity;
 mod wall_clock;
 

@@ -121,6 +121,7 @@ impl Sim {
         }
         let known = self.scene.borrow().objects().map(crate::scene::Object::uid).collect();
         self.known_at_start.replace(Some(known));
+        self.scene.borrow_mut().stop_joint_motions();
         self.scene.borrow_mut().store_initial_state();
         for script in self.scripts_in(Group::Simulation).iter() {
             self.reset(script);
@@ -198,6 +199,7 @@ impl Sim {
         if let Some(dynamics) = self.dynamics.borrow_mut().as_mut() {
             dynamics.reset();
         }
+        self.scene.borrow_mut().stop_joint_motions();
         self.scene.borrow_mut().restore_initial_state();
         for group in [Group::Customization, Group::AddOn, Group::Sandbox] {
             self.deliver_to(group, SysCall::AfterSimulation, &[]);

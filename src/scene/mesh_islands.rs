@@ -1,0 +1,72 @@
+//! Taking a mesh apart into pieces that share no vertex.
+
+use std::collections::BTreeMap;
+
+use super::mesh::Mesh;
+
+impl Mesh {
+    /// The connected pieces, in the order of their first triangles.
+    pub fn islands(&self) -> Vec<Mesh> {
+        let mut group: Vec<usize> = (0..self.vertices.len()).collect();
+        for &[a, b, c] in &self.triangles {
+            let root = find(&mut group, a as usize);
+            for corner in [b, c] {
+                let other = find(&mut group, corner as usize);
+                group[other] = root;
+            }
+        }
+        let mut pieces: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut triangles: Vec<Vec<usize>> = Vec::new();
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            let root = find(&mut group, triangle[0] as usize);
+            let piece = *pieces.entry(root).or_insert(triangles.len());
+            if piece == triangles.len() {
+                triangles.push(Vec::new());
+            }
+            triangles[piece].push(index);
+        }
+        triangles.iter().map(|piece| self.part(piece)).collect()
+    }
+
+    /// The mesh of some of the triangles, with the vertices they use.
+    fn part(&self, triangles: &[usize]) -> Mesh {
+        let mut part = Mesh::default();
+        let mut new_index: BTreeMap<u32, u32> = BTreeMap::new();
+        for &index in triangles {
+            let corners = self.triangles[index].map(|old| {
+                *new_index.entry(old).or_insert_with(|| {
+                    part.vertices.push(self.vertices[old as usize]);
+                    part.vertices.len() as u32 - 1
+                })
+            });
+            part.triangles.push(corners);
+            part.normals.extend(self.normals.get(3 * index..3 * index + 3).unwrap_or_default());
+        }
+        part
+    }
+}
+
+/// The representative of a vertex; paths are halved on the way.
+fn find(group: &mut [usize], mut vertex: usize) -> usize {
+    while group[vertex] != vertex {
+        group[vertex] = group[group[vertex]];
+        vertex = group[vertex];
+    }
+    vertex
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::Pose;
+    use crate::scene::primitive::{PrimitiveKind, tessellate};
+
+    #[test]
+    fn two_boxes_are_two_islands() {
+        let mut mesh = tessellate(PrimitiveKind::Cuboid, [1.0; 3], false).unwrap();
+        let other = mesh.clone();
+        mesh.append(&other, &Pose::translation(3.0, 0.0, 0.0));
+        let islands = mesh.islands();
+        assert_eq!(islands.len(), 2);
+        assert_eq!((islands[1].vertices.len(), islands[1].normals.len()), (8, 36));
+    }
+}

@@ -1,0 +1,199 @@
+//! Joining shapes into one and taking them apart (SPEC-shapes section 5).
+//!
+//! Groups of groups are flat: taking them apart gives the simple shapes.
+
+use std::rc::Rc;
+
+use super::mass::MassProperties;
+use super::mesh::Mesh;
+use super::primitive::PrimitiveKind;
+use super::shape::{Part, Shape};
+use super::shape_geometry::box_of;
+use super::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
+
+impl Shape {
+    /// The parts with the mass each would have as a shape of its own, in the part's frame.
+    fn parts_with_mass(&self) -> Vec<Part> {
+        let mut parts = self.parts.clone();
+        if let [part] = parts.as_mut_slice() {
+            part.mass = self.mass.reexpressed(&part.pose.inverse());
+        }
+        parts
+    }
+
+    /// Whether physics knows all parts as solids, not as terrain.
+    fn is_pure_solid(&self) -> bool {
+        let solid = |p: &Part| p.primitive.as_ref().is_some_and(|p| p.kind != PrimitiveKind::Heightfield);
+        self.parts.iter().all(solid)
+    }
+}
+
+impl Scene {
+    /// Makes one shape of several; the last one gives its pose, place in the tree, name and flags. With `merge` the result is one
+    /// mesh, with colour and mass of the last one; otherwise a compound with the mass of all. The originals are still there.
+    ///
+    /// # Errors
+    /// When fewer than two of the handles are shapes.
+    pub fn group_shapes(&mut self, handles: &[i64], merge: bool) -> SceneResult<(Handle, Vec<Handle>)> {
+        let members = self.shapes_among(handles);
+        let [.., master] = members.as_slice() else { return Err(SceneError::NotEnoughShapes) };
+        if members.len() < 2 {
+            return Err(SceneError::NotEnoughShapes);
+        }
+        let frame = self.world_pose(*master)?;
+        let mut placed = Vec::new();
+        for &member in &members {
+            placed.push((frame.inverse() * self.world_pose(member)?, self.object(member)?.shape()?));
+        }
+        let (_, last) = placed.last().ok_or(SceneError::NotEnoughShapes)?;
+        let shape = if merge { merged(&placed, last)? } else { grouped(&placed, last)? };
+        let group = self.replace_shape(*master, shape)?;
+        Ok((group, members))
+    }
+
+    /// Shapes among `handles`, each once.
+    fn shapes_among(&self, handles: &[i64]) -> Vec<Handle> {
+        let mut shapes = Vec::new();
+        for handle in handles.iter().filter_map(|&raw| Handle::from_raw(raw)) {
+            if self.object(handle).is_ok_and(|object| object.shape().is_ok()) && !shapes.contains(&handle) {
+                shapes.push(handle);
+            }
+        }
+        shapes
+    }
+
+    /// A new object with the given shape that takes the place, name, flags and children of `old`.
+    fn replace_shape(&mut self, old: Handle, shape: Shape) -> SceneResult<Handle> {
+        let new = self.add_beside(old, shape)?;
+        for child in self.object(old)?.children().to_vec() {
+            self.set_parent(child, Some(new), true)?;
+        }
+        Ok(new)
+    }
+
+    /// A new object with the given shape and the pose, parent, position among siblings, name and flags of `model`.
+    fn add_beside(&mut self, model: Handle, shape: Shape) -> SceneResult<Handle> {
+        let source = self.object(model)?.clone();
+        let position = self.siblings(model)?.iter().position(|&h| h == model).unwrap_or(0);
+        let new = self.add(source.alias(), Kind::Shape(Box::new(shape)))?;
+        self.set_parent(new, source.parent(), false)?;
+        self.set_local_pose(new, source.pose())?;
+        self.set_hierarchy_order(new, position as i64)?;
+        self.modify(new, super::Field::ObjectProperty, |object| {
+            object.object_property = source.object_property;
+            object.special_property = source.special_property;
+            object.model_property = source.model_property;
+            object.layer = source.layer;
+            object.size_factor = source.size_factor;
+            object.custom_data = source.custom_data;
+        })?;
+        Ok(new)
+    }
+
+    /// Takes a compound apart into shapes of its parts. None for a simple shape. The original is still there.
+    ///
+    /// # Errors
+    /// When the object is no shape.
+    pub fn ungroup_shape(&mut self, handle: Handle) -> SceneResult<Option<Vec<Handle>>> {
+        let shape = self.object(handle)?.shape()?.clone();
+        if !shape.is_compound() {
+            return Ok(None);
+        }
+        let frame = self.object(handle)?.pose();
+        let mut pieces = Vec::new();
+        for part in &shape.parts {
+            pieces.push(self.add_piece(handle, &shape, part, frame)?);
+        }
+        Ok(Some(pieces))
+    }
+
+    /// A new object of one part of `shape`, which the object `handle` is.
+    fn add_piece(&mut self, handle: Handle, shape: &Shape, part: &Part, frame: Pose) -> SceneResult<Handle> {
+        let mut own = part.clone();
+        own.pose = Pose::identity();
+        let box_of_part = box_of(std::slice::from_ref(&own)).ok_or(SceneError::OperationFailed)?;
+        let pure = own.primitive.is_some();
+        let mut piece = Shape::simple(own, box_of_part);
+        if !pure {
+            piece.fit_box(None);
+        }
+        piece.dynamics = shape.dynamics.clone();
+        piece.material = shape.material.clone();
+        let piece = self.add_beside(handle, piece)?;
+        self.set_local_pose(piece, frame * part.pose)?;
+        Ok(piece)
+    }
+
+    /// Takes a single mesh apart into its islands. None when it is one island. The original is still there.
+    ///
+    /// # Errors
+    /// For compounds.
+    pub fn divide_shape(&mut self, handle: Handle) -> SceneResult<Option<Vec<Handle>>> {
+        let shape = self.object(handle)?.shape()?.clone();
+        let [part] = shape.parts.as_slice() else { return Err(SceneError::DividesCompound) };
+        let islands = part.mesh.islands();
+        if islands.len() < 2 {
+            return Ok(None);
+        }
+        let mut pieces = Vec::new();
+        for mesh in islands {
+            let frame = self.object(handle)?.pose();
+            let convex = mesh.is_convex();
+            let mass = MassProperties::default();
+            let island = Part { mesh: Rc::new(mesh), primitive: None, convex, mass, ..part.clone() };
+            pieces.push(self.add_piece(handle, &shape, &island, frame)?);
+        }
+        Ok(Some(pieces))
+    }
+}
+
+/// A compound in the master's frame; `placed` are shapes with their poses in it.
+fn grouped(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
+    let pure = placed.iter().all(|(_, shape)| shape.is_pure_solid());
+    let mut parts = Vec::new();
+    for (pose, shape) in placed {
+        for mut part in shape.parts_with_mass() {
+            part.pose = pose * part.pose;
+            part.primitive = part.primitive.filter(|_| pure);
+            parts.push(part);
+        }
+    }
+    let masses: Vec<_> = placed.iter().map(|(pose, shape)| (*pose, shape.mass)).collect();
+    let mass = MassProperties::combine(&masses).ok_or(SceneError::OperationFailed)?;
+    let bounding_box = box_of(&parts).ok_or(SceneError::OperationFailed)?;
+    Ok(Shape { parts, mass, bounding_box, ..master.clone() })
+}
+
+/// One mesh in the master's frame, with the master's looks and mass.
+fn merged(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
+    let mut mesh = Mesh::default();
+    placed.iter().for_each(|(pose, shape)| mesh.append(&shape.mesh(), pose));
+    let appearance = master.parts.first().map_or_else(Shape::mesh_appearance, |part| part.appearance.clone());
+    let mut shape = Shape::from_mesh(mesh, appearance)?;
+    shape.fit_box(Some(nalgebra::UnitQuaternion::identity()));
+    (shape.mass, shape.parts[0].mass) = (master.mass, master.mass);
+    shape.dynamics = master.dynamics.clone();
+    shape.material = master.material.clone();
+    Ok(shape)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn masses_add_up() {
+        let mut scene = Scene::new();
+        let mut cube = || {
+            let shape = Shape::primitive(PrimitiveKind::Cuboid, [0.1; 3], Default::default()).unwrap();
+            scene.add("c", Kind::Shape(Box::new(shape))).unwrap()
+        };
+        let (a, b) = (cube(), cube());
+        scene.set_world_pose(b, Pose::translation(0.4, 0.0, 0.0)).unwrap();
+        let (group, members) = scene.group_shapes(&[a.raw(), 77, b.raw()], false).unwrap();
+        let shape = scene.object(group).unwrap().shape().unwrap();
+        assert_eq!((members, shape.parts.len()), (vec![a, b], 2));
+        assert!((shape.mass.mass - 1.0).abs() < 1e-12 && (shape.mass.com[0] + 0.2).abs() < 1e-12);
+        assert!(scene.group_shapes(&[a.raw()], false).is_err());
+    }
+}

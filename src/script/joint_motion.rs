@@ -1,0 +1,81 @@
+//! Kinematic motion of joints: scripts are asked for every step (`sysCall_joint`, SPEC-2 2.5).
+
+use std::rc::Rc;
+
+use super::callback::SysCall;
+use super::sim::Sim;
+use crate::scene::joint::{Joint, Motion};
+use crate::scene::joint_motion::JointStep;
+use crate::scene::script_object::ScriptType;
+use crate::scene::{Data, Handle, Key};
+
+impl Sim {
+    /// One step of every joint that is on its way to a target.
+    pub(crate) fn handle_joint_motion(self: &Rc<Self>) {
+        let joints = self.scene.borrow_mut().joints_in_motion();
+        for joint in joints {
+            self.move_joint(joint);
+        }
+    }
+
+    /// Asks the scripts above a joint, then the main script, for its next step.
+    fn move_joint(self: &Rc<Self>, handle: Handle) {
+        let Some(question) = self.motion_question(handle) else { return };
+        let mut scripts = self.joint_chain(handle);
+        scripts.extend(self.detached(ScriptType::Main));
+        if let Some(answer) = self.ask(&scripts, SysCall::Joint, &[question]) {
+            // A script may have removed the joint: then there is nothing to move.
+            let _ = self.scene.borrow_mut().step_joint(handle, read_step(&answer));
+        }
+    }
+
+    /// What scripts are told about a joint in motion; None when it is not any more.
+    fn motion_question(&self, handle: Handle) -> Option<Data> {
+        let scene = self.scene.borrow();
+        let joint = scene.object(handle).ok()?.joint().ok()?;
+        let motion = joint.motion?;
+        let Data::Map(mut entries) = describe(handle, joint) else { return None };
+        let mut add = |key: &str, value: f64| entries.push((Key::Text(key.as_bytes().to_vec()), value.into()));
+        match motion {
+            Motion::ToPosition => {
+                let error = joint.error_to(joint.target_position);
+                add("targetPos", joint.target_position);
+                add("error", error);
+                add("errorValue", error);
+            }
+            Motion::AtVelocity { initial } => {
+                add("targetVel", joint.target_velocity);
+                initial.into_iter().for_each(|velocity| add("initVel", velocity));
+            }
+        }
+        Some(Data::Map(entries))
+    }
+}
+
+fn describe(handle: Handle, joint: &Joint) -> Data {
+    Data::map([
+        ("mode", (joint.mode as i64).into()),
+        ("handle", handle.raw().into()),
+        ("revolute", joint.is_revolute().into()),
+        ("cyclic", joint.cyclic.into()),
+        ("lowLimit", joint.min.into()),
+        ("highLimit", joint.max().into()),
+        ("pos", joint.position.into()),
+        ("currentPos", joint.position.into()),
+        ("vel", joint.velocity.into()),
+        ("currentVel", joint.velocity.into()),
+        ("maxVel", joint.max_vel.into()),
+        ("maxAccel", joint.max_accel.into()),
+        ("maxJerk", joint.max_jerk.into()),
+    ])
+}
+
+fn read_step(answer: &Data) -> JointStep {
+    let number = |names: [&str; 2]| names.iter().find_map(|name| answer.field(name)).and_then(Data::as_f64);
+    JointStep {
+        position: number(["pos", "position"]),
+        velocity: number(["vel", "velocity"]).unwrap_or(0.0),
+        accel: number(["accel", "acceleration"]).unwrap_or(0.0),
+        immobile: answer.field("immobile").is_some_and(Data::truthy),
+    }
+}
