@@ -7,8 +7,7 @@ use crate::scene::colour::{ColourName, Component};
 use crate::scene::{Handle, SceneError};
 use crate::script::Number;
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![get_shape_color, set_shape_color, get_object_color, set_object_color];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![get_shape_color, set_shape_color, get_object_color, set_object_color];
 
 fn component(code: Number) -> Result<Component> {
     Component::from_code(code.0).ok_or(ApiError::Scene(SceneError::InvalidArgument))

@@ -39,12 +39,7 @@ fn get_engine_float_param(cx: &Cx, param_id: Number, object_handle: Number) -> R
 /// @param objectHandle a shape, joint or dummy; -1 for a global parameter
 /// @param floatParam the value
 #[api("sim.setEngineFloatParam")]
-fn set_engine_float_param(
-    cx: &mut Cx,
-    param_id: Number,
-    object_handle: Number,
-    float_param: f64,
-) -> Result<()> {
+fn set_engine_float_param(cx: &mut Cx, param_id: Number, object_handle: Number, float_param: f64) -> Result<()> {
     let target = target(object_handle)?;
     Ok(cx.scene_mut().set_engine_param(param_id.0, target, float_param)?)
 }
@@ -65,12 +60,7 @@ fn get_engine_int32_param(cx: &Cx, param_id: Number, object_handle: Number) -> R
 /// @param objectHandle a shape, joint or dummy; -1 for a global parameter
 /// @param int32Param the value
 #[api("sim.setEngineInt32Param")]
-fn set_engine_int32_param(
-    cx: &mut Cx,
-    param_id: Number,
-    object_handle: Number,
-    int32_param: Number,
-) -> Result<()> {
+fn set_engine_int32_param(cx: &mut Cx, param_id: Number, object_handle: Number, int32_param: Number) -> Result<()> {
     let target = target(object_handle)?;
     Ok(cx.scene_mut().set_engine_param(param_id.0, target, int32_param.0 as f64)?)
 }

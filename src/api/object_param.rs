@@ -6,12 +6,8 @@ use super::{ApiFn, Cx, Result, functions};
 use crate::scene::Handle;
 use crate::script::Number;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![
-    get_object_int32_param,
-    set_object_int32_param,
-    get_object_float_param,
-    set_object_float_param,
-];
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![get_object_int32_param, set_object_int32_param, get_object_float_param, set_object_float_param,];
 
 /// An integer parameter of an object.
 ///
@@ -30,12 +26,7 @@ fn get_object_int32_param(cx: &Cx, object_handle: Handle, parameter_id: Number) 
 /// @param parameter the value
 /// @return result 1, or 0 when the object has no such parameter
 #[api("sim.setObjectInt32Param")]
-fn set_object_int32_param(
-    cx: &mut Cx,
-    object_handle: Handle,
-    parameter_id: Number,
-    parameter: Number,
-) -> Result<i64> {
+fn set_object_int32_param(cx: &mut Cx, object_handle: Handle, parameter_id: Number, parameter: Number) -> Result<i64> {
     Ok(i64::from(cx.scene_mut().set_kind_int_param(object_handle, parameter_id.0, parameter.0)?))
 }
 

@@ -88,9 +88,7 @@ fn ruckig_step(cx: &mut Cx, handle: Number, cycle_time: f64) -> Result<(i64, Vec
     let mut trajectories = cx.env().trajectories.borrow_mut();
     let step = trajectories.get_mut(handle.0).ok_or_else(unknown)?.step(cycle_time);
     match step.code {
-        BAD_CYCLE_TIME => {
-            Err(ApiError::Other("specified cycle time is not a multiple of the base cycle time.".into()))
-        }
+        BAD_CYCLE_TIME => Err(ApiError::Other("specified cycle time is not a multiple of the base cycle time.".into())),
         code => Ok((code.into(), step.pva, step.sync)),
     }
 }

@@ -53,12 +53,7 @@ fn get_shape_inertia(cx: &Cx, shape_handle: Handle) -> Result<(Vec<f64>, [f64; 1
 /// @param inertiaMatrix kg m2, about the centre of mass, along the axes of comMatrix; the upper triangle counts
 /// @param comMatrix frame at the centre of mass, in the shape's frame
 #[api("sim.setShapeInertia")]
-fn set_shape_inertia(
-    cx: &mut Cx,
-    shape_handle: Handle,
-    inertia_matrix: [f64; 9],
-    com_matrix: [f64; 12],
-) -> Result<()> {
+fn set_shape_inertia(cx: &mut Cx, shape_handle: Handle, inertia_matrix: [f64; 9], com_matrix: [f64; 12]) -> Result<()> {
     Ok(cx.scene_mut().reshape(shape_handle, |shape| {
         shape.mass.set_absolute_inertia(&inertia_matrix, &com_matrix);
         Ok(())

@@ -116,14 +116,8 @@ impl Body {
             rigid.set_angvel(to_vector(velocity.angular), true);
         }
         let rigid = world.bodies.insert(rigid);
-        let mut body = Self {
-            rigid,
-            colliders: Vec::new(),
-            build: plan.build,
-            surface: plan.surface,
-            local,
-            sweep: None,
-        };
+        let mut body =
+            Self { rigid, colliders: Vec::new(), build: plan.build, surface: plan.surface, local, sweep: None };
         body.insert_colliders(shape, world);
         body
     }
@@ -194,10 +188,7 @@ fn rigid_body(plan: &BodyPlan, pose: &Pose) -> RigidBody {
         .build()
 }
 
-fn take_initial_velocity(
-    scene: &mut Scene,
-    shape: Handle,
-) -> crate::scene::SceneResult<crate::scene::shape::Velocity> {
+fn take_initial_velocity(scene: &mut Scene, shape: Handle) -> crate::scene::SceneResult<crate::scene::shape::Velocity> {
     let object = scene.object(shape)?;
     let velocity = object.shape()?.dynamics.initial_velocity;
     if object.dynamics_reset || velocity != Default::default() {

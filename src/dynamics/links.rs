@@ -6,9 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use rapier3d_f64::prelude::{
-    GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, RigidBodyHandle,
-};
+use rapier3d_f64::prelude::{GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, RigidBodyHandle};
 
 use super::bodies::Bodies;
 use super::convert::{from_pose, to_pose};
@@ -46,7 +44,13 @@ pub(super) struct Link {
 }
 
 /// Makes the engine's constraints those of the plan.
-pub(super) fn follow(links: &mut Links, plans: BTreeMap<Handle, LinkPlan>, bodies: &Bodies, world: &mut World, scene: &Scene) {
+pub(super) fn follow(
+    links: &mut Links,
+    plans: BTreeMap<Handle, LinkPlan>,
+    bodies: &Bodies,
+    world: &mut World,
+    scene: &Scene,
+) {
     let mut old = std::mem::take(links);
     for (handle, plan) in plans {
         let (Some(first), Some(second)) = (bodies.get(plan.first), bodies.get(plan.second)) else { continue };

@@ -84,7 +84,14 @@ fn response(body: &RigidBody) -> Response {
     Response {
         mass: 1.0 / body.mass(),
         inertia: Matrix3::new(
-            inverse.m11, inverse.m12, inverse.m13, inverse.m12, inverse.m22, inverse.m23, inverse.m13, inverse.m23,
+            inverse.m11,
+            inverse.m12,
+            inverse.m13,
+            inverse.m12,
+            inverse.m22,
+            inverse.m23,
+            inverse.m13,
+            inverse.m23,
             inverse.m33,
         ),
     }

@@ -130,7 +130,10 @@ impl Dynamics {
     /// Makes a new plan when something it depends on has changed.
     fn follow(&mut self, scene: &mut Scene) {
         let revision = scene.changes().dynamics_revision();
-        if self.revision == Some(revision) && !self.bodies.were_touched(scene) && !links::were_touched(&self.links, scene) {
+        if self.revision == Some(revision)
+            && !self.bodies.were_touched(scene)
+            && !links::were_touched(&self.links, scene)
+        {
             return;
         }
         let world = self.world.get_or_insert_with(World::new);
@@ -147,7 +150,8 @@ impl Dynamics {
     pub(crate) fn prepare(&mut self, scene: &Scene, pass: u32) -> Vec<JointRequest> {
         let (Some(world), Some(call)) = (self.world.as_mut(), self.call) else { return Vec::new() };
         self.bodies.sweep(f64::from(pass) / f64::from(call.passes), world);
-        let motions: BTreeMap<Handle, Motion> = self.links.iter().map(|(&handle, link)| (handle, link.motion)).collect();
+        let motions: BTreeMap<Handle, Motion> =
+            self.links.iter().map(|(&handle, link)| (handle, link.motion)).collect();
         let mut requests = Vec::new();
         for (&handle, link) in &mut self.links {
             let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) else { continue };

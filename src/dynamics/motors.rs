@@ -81,9 +81,8 @@ impl Motor {
             let (velocity, acceleration) = self.profile;
             let limits = (joint.max_vel, joint.max_accel, joint.max_jerk);
             let target = now.position + error;
-            let next = ruckig::position_step(
-                now.position, velocity, acceleration, target, limits.0, limits.1, limits.2, step,
-            );
+            let next =
+                ruckig::position_step(now.position, velocity, acceleration, target, limits.0, limits.1, limits.2, step);
             return self.follow(next);
         }
         let [p, i, d] = joint.pid;
@@ -152,7 +151,8 @@ mod tests {
 
     #[test]
     fn a_spring_pushes_with_its_effort() {
-        let joint = Joint { spring: [2.0, 0.1], target_velocity: 1000.0, target_position: 0.5, ..joint(Control::Spring) };
+        let joint =
+            Joint { spring: [2.0, 0.1], target_velocity: 1000.0, target_position: 0.5, ..joint(Control::Spring) };
         let drive = Motor::default().drive(&joint, Motion { position: 0.0, velocity: 1.0 }, 0.005).expect("on");
         assert!((drive.force - 0.9).abs() < 1e-12);
         assert_eq!(drive.velocity, 1000.0);

@@ -203,7 +203,8 @@ fn closing_children<'a>(scene: &'a Scene, link: &'a Object) -> Vec<&'a Object> {
 fn welded_to<'a>(scene: &'a Scene, dummy: &Object) -> Option<&'a Object> {
     let data = dummy.dummy().ok()?;
     let partner = scene.object(data.link?).ok()?;
-    let closes = data.link_type == LinkType::LoopClosure && dummy.children().is_empty() && partner.children().is_empty();
+    let closes =
+        data.link_type == LinkType::LoopClosure && dummy.children().is_empty() && partner.children().is_empty();
     closes.then_some(partner)
 }
 

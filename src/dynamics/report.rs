@@ -102,7 +102,9 @@ impl Dynamics {
 /// Whether the shape hangs on a link that is its parent, so that its place in the scene follows from the link.
 fn is_held(links: &Links, scene: &Scene, shape: Handle) -> bool {
     let parent = scene.object(shape).ok().and_then(|object| object.parent());
-    parent.and_then(|parent| links.get(&parent)).is_some_and(|link| link.plan.second_is_child && link.plan.second == shape)
+    parent
+        .and_then(|parent| links.get(&parent))
+        .is_some_and(|link| link.plan.second_is_child && link.plan.second == shape)
 }
 
 fn state(body: &Body, world: &World) -> Option<(Pose, Velocity)> {

@@ -174,9 +174,8 @@ fn welded_dummies_hold_a_body() {
     let base = bench.ghost([0.0, 0.0, 2.0], false);
     let body = bench.ghost([0.0, 0.0, 1.5], true);
     let dummy = |link_type| Kind::Dummy(Dummy { link_type, ..Dummy::new(0.01) });
-    let ends = [base, body].map(|parent| {
-        bench.object(dummy(LinkType::LoopClosure), Pose::translation(0.0, 0.0, 1.75), parent)
-    });
+    let ends = [base, body]
+        .map(|parent| bench.object(dummy(LinkType::LoopClosure), Pose::translation(0.0, 0.0, 1.75), parent));
     for (end, partner) in [(ends[0], ends[1]), (ends[1], ends[0])] {
         let linked = bench.scene.try_modify(end, Field::Dynamics, |object| {
             object.dummy_mut()?.link = Some(partner);

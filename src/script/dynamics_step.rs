@@ -55,9 +55,7 @@ impl Sim {
         for request in requests {
             let Some(data) = self.joint_data(&request, call, pass) else { continue };
             let answer = self.ask(&self.joint_chain(request.joint), SysCall::Joint, &[data]);
-            let number = |names: [&str; 2]| {
-                names.into_iter().find_map(|name| answer.as_ref()?.field(name)?.as_f64())
-            };
+            let number = |names: [&str; 2]| names.into_iter().find_map(|name| answer.as_ref()?.field(name)?.as_f64());
             let (velocity, force) = (number(["velocity", "vel"]), number(["force", "ctrl"]));
             self.with_dynamics(|dynamics, _| dynamics.drive(request.joint, velocity, force));
         }
@@ -81,11 +79,8 @@ impl Sim {
 
     fn judge_contact(self: &Rc<Self>, first: Handle, second: Handle) -> Verdict {
         let engine = self.scene.borrow().settings().dynamics.engine[0];
-        let data = Data::map([
-            ("handle1", first.raw().into()),
-            ("handle2", second.raw().into()),
-            ("engine", engine.into()),
-        ]);
+        let data =
+            Data::map([("handle1", first.raw().into()), ("handle2", second.raw().into()), ("engine", engine.into())]);
         let answer = self.ask(&self.everyone_reversed(), SysCall::Contact, &[data]);
         answer.map_or(Verdict::Default, |answer| verdict(&answer))
     }

@@ -1,34 +1,27 @@
 //! Properties of joints.
 
-use super::access::{Accessor, object_properties};
+use super::access::{Accessor, object_properties, placed_properties};
 use super::{PoseArray, Quaternion};
-use crate::scene::pose::{pose_to_array, quaternion_to_array};
-use crate::scene::{Handle, Pose};
+use crate::scene::joint::{Control, JointMode};
+use crate::scene::pose::{pose_to_array, quaternion_from_array, quaternion_to_array};
+use crate::scene::{Handle, Pose, Scene, SceneError, SceneResult};
 
 pub(super) const JOINT: &[Accessor] = object_properties! {
     "jointLength": f64, |o| o.joint()?.size[0], Appearance |o, length| o.joint_mut()?.size[0] = length;
     "jointDiameter": f64, |o| o.joint()?.size[1], Appearance |o, diameter| o.joint_mut()?.size[1] = diameter;
-    "jointPosition": f64, |o| o.joint()?.position;
-    "quaternion": Quaternion, |o| Quaternion(quaternion_to_array(&o.joint()?.spherical));
-    "screwLead": f64, |o| o.joint()?.screw_lead, Joint |o, lead| o.joint_mut()?.screw_lead = lead;
+    "quaternion": Quaternion, |o| Quaternion(quaternion_to_array(&o.joint()?.spherical)),
+        JointPosition |o, turned| o.joint_mut()?.spherical = quaternion_from_array(&turned.0);
+    "screwLead": f64, |o| o.joint()?.screw_lead, Joint |o, lead| o.joint_mut()?.set_screw_lead(lead);
     "intrinsicError": PoseArray, |o| PoseArray(pose_to_array(&o.joint()?.error.unwrap_or_else(Pose::identity)));
     "intrinsicPose": PoseArray, |o| PoseArray(pose_to_array(&o.joint()?.intrinsic_pose()));
     "calcVelocity": f64, |o| o.joint()?.velocity;
     "jointType": i64, |o| o.joint()?.joint_type as i64;
-    "cyclic": bool, |o| o.joint()?.cyclic;
     "enforceLimits": bool, |o| o.joint()?.enforce_limits, Joint |o, on| o.joint_mut()?.enforce_limits = on;
-    "interval": Vec<f64>, |o| { let joint = o.joint()?; vec![joint.min, joint.min + joint.range] };
-    "jointMode": i64, |o| o.joint()?.mode as i64;
-    "dependencyMasterHandle": i64, |o| o.joint()?.dependency.map_or(-1, |dependency| Handle::raw(dependency.master));
 };
 
 pub(super) const CONTROL: &[Accessor] = object_properties! {
-    "targetPos": f64, |o| o.joint()?.target_position;
-    "targetVel": f64, |o| o.joint()?.target_velocity;
-    "targetForce": f64, |o| o.joint()?.target_force, Joint |o, force| o.joint_mut()?.target_force = force;
     "jointForce": f64, |o| o.joint()?.raw_force.unwrap_or_default();
     "averageJointForce": f64, |o| o.joint()?.force.unwrap_or_default();
-    "dynCtrlMode": i64, |o| o.joint()?.control as i64;
     "maxVelAccelJerk": Vec<f64>, |o| { let joint = o.joint()?; vec![joint.max_vel, joint.max_accel, joint.max_jerk] },
         Joint |o, limits| {
             let joint = o.joint_mut()?;
@@ -44,3 +37,57 @@ pub(super) const CONTROL: &[Accessor] = object_properties! {
         o.joint_mut()?.pid = [p, i, d];
     };
 };
+
+/// Properties whose change has consequences for the joint or for those that follow it.
+pub(super) const STATE: &[Accessor] = placed_properties! {
+    "jointPosition": f64, |s, h| s.object(h)?.joint()?.position, |s, h, position| s.set_joint_position(h, position)?;
+    "cyclic": bool, |s, h| s.object(h)?.joint()?.cyclic, |s, h, cyclic| {
+        let interval = interval_of(&s, h)?;
+        s.set_joint_interval(h, cyclic, interval)?;
+    };
+    // Here the limits themselves; sim.setJointInterval takes the lower one and the range.
+    "interval": Vec<f64>, |s, h| interval_of(&s, h).map(|[min, range]| vec![min, min + range])?, |s, h, limits| {
+        let &[low, high, ..] = &limits[..] else { return Err(SceneError::InvalidData.into()) };
+        let cyclic = s.object(h)?.joint()?.cyclic;
+        s.set_joint_interval(h, cyclic, [low, high - low])?;
+    };
+    "targetPos": f64, |s, h| s.object(h)?.joint()?.target_position,
+        |s, h, target| s.set_joint_target_position(h, target, &[])?;
+    "targetVel": f64, |s, h| s.object(h)?.joint()?.target_velocity,
+        |s, h, target| s.set_joint_target_velocity(h, target, &[], None)?;
+    "targetForce": f64, |s, h| s.object(h)?.joint()?.target_force,
+        |s, h, force| s.modify_joint(h, |joint| joint.set_target_force(force, true))?;
+    "jointMode": i64, |s, h| s.object(h)?.joint()?.mode as i64, |s, h, mode| {
+        let mode = JointMode::from_code(mode).ok_or(SceneError::InvalidData)?;
+        s.set_joint_mode(h, mode)?;
+    };
+    "dynCtrlMode": i64, |s, h| s.object(h)?.joint()?.control as i64, |s, h, mode| {
+        let control = Control::from_code(mode).ok_or(SceneError::InvalidData)?;
+        s.modify_joint(h, |joint| joint.set_control(control))?;
+    };
+    "dynVelMode": i64, |s, h| i64::from(s.object(h)?.joint()?.velocity_profile),
+        |s, h, mode| s.modify_joint(h, |joint| joint.velocity_profile = mode == 1)?;
+    "dynPosMode": i64, |s, h| i64::from(s.object(h)?.joint()?.position_profile),
+        |s, h, mode| s.modify_joint(h, |joint| joint.position_profile = mode == 1)?;
+    "dependencyMasterHandle": i64, |s, h| s.object(h)?.joint()?.dependency.map_or(-1, |d| d.master.raw()),
+        |s, h, master| {
+            let [offset, coefficient] = law_of(&s, h)?;
+            s.set_joint_dependency(h, Handle::from_raw(master), offset, coefficient)?;
+        };
+    "dependencyParams": Vec<f64>, |s, h| law_of(&s, h)?.to_vec(), |s, h, law| {
+        let &[offset, coefficient, ..] = &law[..] else { return Err(SceneError::InvalidData.into()) };
+        let master = s.object(h)?.joint()?.dependency.map(|dependency| dependency.master);
+        s.set_joint_dependency(h, master, offset, coefficient)?;
+    };
+};
+
+/// Lower limit and range.
+fn interval_of(scene: &Scene, handle: Handle) -> SceneResult<[f64; 2]> {
+    let joint = scene.object(handle)?.joint()?;
+    Ok([joint.min, joint.range])
+}
+
+/// Offset and coefficient of the dependency.
+fn law_of(scene: &Scene, handle: Handle) -> SceneResult<[f64; 2]> {
+    Ok(scene.object(handle)?.joint()?.dependency.map_or([0.0, 1.0], |d| [d.offset, d.coefficient]))
+}

@@ -72,7 +72,7 @@ fn build() -> HashMap<&'static str, Part> {
 type Accessors = HashMap<(&'static str, &'static str), &'static Accessor>;
 
 fn accessors() -> Accessors {
-    let files: [(&'static str, &'static [Accessor]); 18] = [
+    let files: [(&'static str, &'static [Accessor]); 19] = [
         ("app", app::APP),
         ("simulation", scene::SIMULATION),
         ("simulation", scene::SIMULATION_SETTINGS),
@@ -91,6 +91,7 @@ fn accessors() -> Accessors {
         ("mass", shape::MASS),
         ("joint", joint::JOINT),
         ("joint", joint::CONTROL),
+        ("joint", joint::STATE),
     ];
     files.into_iter().flat_map(|(part, rows)| rows.iter().map(move |row| ((part, row.name), row))).collect()
 }
