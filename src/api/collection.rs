@@ -1,5 +1,96 @@
-//! `sim.*`: named sets of objects.
+//! `sim.*`: collections of objects.
 
-use super::{ApiFn, functions};
+use api_macro::api;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![];
+use super::{ApiFn, Cx, Result, functions};
+use crate::scene::{CollectionItem, Handle, SceneError, special};
+use crate::script::Number;
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    create_collection,
+    destroy_collection,
+    empty_collection,
+    add_item_to_collection,
+    add_object_to_collection,
+    get_collection_objects,
+];
+
+/// Creates an empty collection.
+///
+/// @param options 1: its members override their collidable, measurable and detectable flags
+/// @return collectionHandle the collection
+#[api("sim.createCollection")]
+fn create_collection(cx: &mut Cx, #[default(0)] options: Number) -> Result<i64> {
+    Ok(cx.scene_mut().add_collection(options.0 & 1 != 0))
+}
+
+/// Removes a collection; its objects stay.
+///
+/// @param collectionHandle the collection
+#[api("sim.destroyCollection")]
+fn destroy_collection(cx: &mut Cx, collection_handle: Number) -> Result<()> {
+    Ok(cx.scene_mut().remove_collection(collection_handle.0)?)
+}
+
+/// Takes everything out of a collection.
+///
+/// @param collectionHandle the collection
+#[api("sim.emptyCollection")]
+fn empty_collection(cx: &mut Cx, collection_handle: Number) -> Result<()> {
+    cx.scene_mut().collection_mut(collection_handle.0)?.items.clear();
+    Ok(())
+}
+
+/// Adds to a collection, or subtracts from it.
+///
+/// @param collectionHandle the collection
+/// @param what sim.handle_single, _tree, _chain or _all
+/// @param objectHandle where a tree or chain starts; -1 for all
+/// @param options 1: subtract; 2: without the object itself
+#[api("sim.addItemToCollection")]
+fn add_item_to_collection(
+    cx: &mut Cx,
+    collection_handle: Number,
+    what: Number,
+    object_handle: Number,
+    options: Number,
+) -> Result<()> {
+    let base = match what.0 {
+        special::ALL => None,
+        special::SINGLE | special::TREE | special::CHAIN => {
+            let base = Handle::from_raw(object_handle.0).ok_or(SceneError::NoSuchObject)?;
+            Some(cx.scene().object(base)?.handle())
+        }
+        _ => return Err(SceneError::InvalidArgument.into()),
+    };
+    let (subtract, exclude_base) = (options.0 & 1 != 0, options.0 & 2 != 0);
+    let item = CollectionItem { what: what.0, base, subtract, exclude_base };
+    cx.scene_mut().collection_mut(collection_handle.0)?.items.push(item);
+    Ok(())
+}
+
+/// Adds to a collection, or subtracts from it: `sim.addItemToCollection` with other parameters.
+///
+/// @param collectionHandle the collection
+/// @param objectHandle where a tree or chain starts; -1 for all
+/// @param what sim.handle_single, _tree, _chain or _all
+/// @param options 1: subtract; 2: without the object itself
+#[api("sim.addObjectToCollection")]
+fn add_object_to_collection(
+    cx: &mut Cx,
+    collection_handle: Number,
+    object_handle: Number,
+    what: Number,
+    options: Number,
+) -> Result<()> {
+    add_item_to_collection(cx, collection_handle, what, object_handle, options)
+}
+
+/// The objects a collection holds now.
+///
+/// @param collectionHandle the collection
+/// @return objectHandles in the order of their creation
+#[api("sim.getCollectionObjects")]
+fn get_collection_objects(cx: &Cx, collection_handle: Number) -> Result<Vec<Handle>> {
+    Ok(cx.scene().collection_objects(collection_handle.0)?)
+}

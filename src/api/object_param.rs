@@ -1,52 +1,121 @@
-//! `sim.*`: numbered parameters of objects (deprecated names).
+//! `sim.*`: numbered parameters of objects (deprecated names). Which there are is said in `scene`, by type.
+//!
+//! A parameter an object does not have is no error: getters return nothing, setters do nothing.
 
 use api_macro::api;
 
 use super::{ApiFn, Cx, Result, functions};
 use crate::scene::Handle;
-use crate::script::Number;
+use crate::script::{Bytes, Number};
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![get_object_int32_param, set_object_int32_param, get_object_float_param, set_object_float_param,];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    get_object_int32_param,
+    set_object_int32_param,
+    get_object_float_param,
+    set_object_float_param,
+    get_object_float_array_param,
+    set_object_float_array_param,
+    get_object_string_param,
+    set_object_string_param,
+];
 
-/// An integer parameter of an object.
+/// Integer parameter of an object.
 ///
 /// @param objectHandle the object
-/// @param parameterID sim.objintparam_*, sim.shapeintparam_*, sim.jointintparam_*, ...
-/// @return parameter nothing when the object has no such parameter
+/// @param parameterID sim.objintparam_*, sim.shapeintparam_*, ...
+/// @return parameter nothing if the object has no such parameter
 #[api("sim.getObjectInt32Param")]
 fn get_object_int32_param(cx: &Cx, object_handle: Handle, parameter_id: Number) -> Result<Option<i64>> {
-    Ok(cx.scene().kind_int_param(object_handle, parameter_id.0)?)
+    Ok(cx.scene().int_param(object_handle, parameter_id.0)?)
 }
 
 /// Sets an integer parameter of an object.
 ///
 /// @param objectHandle the object
-/// @param parameterID sim.objintparam_*, sim.shapeintparam_*, sim.jointintparam_*, ...
+/// @param parameterID sim.objintparam_*, sim.shapeintparam_*, ...
 /// @param parameter the value
 /// @return result 1, or 0 when the object has no such parameter
 #[api("sim.setObjectInt32Param")]
-fn set_object_int32_param(cx: &mut Cx, object_handle: Handle, parameter_id: Number, parameter: Number) -> Result<i64> {
-    Ok(i64::from(cx.scene_mut().set_kind_int_param(object_handle, parameter_id.0, parameter.0)?))
+fn set_object_int32_param(
+    cx: &mut Cx,
+    object_handle: Handle,
+    parameter_id: Number,
+    parameter: Number,
+) -> Result<i64> {
+    Ok(i64::from(cx.scene_mut().set_int_param(object_handle, parameter_id.0, parameter.0)?))
 }
 
-/// A float parameter of an object.
+/// Float parameter of an object.
 ///
 /// @param objectHandle the object
-/// @param parameterID sim.objfloatparam_*, sim.shapefloatparam_*, sim.jointfloatparam_*, ...
-/// @return parameter nothing when the object has no such parameter
+/// @param parameterID sim.objfloatparam_*, sim.jointfloatparam_*, ...
+/// @return parameter nothing if the object has no such parameter
 #[api("sim.getObjectFloatParam")]
 fn get_object_float_param(cx: &Cx, object_handle: Handle, parameter_id: Number) -> Result<Option<f64>> {
-    Ok(cx.scene().kind_float_param(object_handle, parameter_id.0)?)
+    Ok(cx.scene().float_param(object_handle, parameter_id.0)?)
 }
 
 /// Sets a float parameter of an object.
 ///
 /// @param objectHandle the object
-/// @param parameterID sim.objfloatparam_*, sim.shapefloatparam_*, sim.jointfloatparam_*, ...
+/// @param parameterID sim.objfloatparam_*, sim.jointfloatparam_*, ...
 /// @param parameter the value
 /// @return result 1, or 0 when the object has no such parameter
 #[api("sim.setObjectFloatParam")]
 fn set_object_float_param(cx: &mut Cx, object_handle: Handle, parameter_id: Number, parameter: f64) -> Result<i64> {
     Ok(i64::from(cx.scene_mut().set_kind_float_param(object_handle, parameter_id.0, parameter)?))
+}
+
+/// Parameter of an object that is a list of numbers. No object has one.
+///
+/// @param objectHandle the object
+/// @param parameterID its number
+/// @return params nothing
+#[api("sim.getObjectFloatArrayParam")]
+fn get_object_float_array_param(cx: &Cx, object_handle: Handle, _parameter_id: Number) -> Result<Option<Vec<f64>>> {
+    cx.scene().object(object_handle)?;
+    Ok(None)
+}
+
+/// Sets a parameter of an object that is a list of numbers. No object has one, so this does nothing.
+///
+/// @param objectHandle the object
+/// @param parameterID its number
+/// @param params the values
+#[api("sim.setObjectFloatArrayParam")]
+fn set_object_float_array_param(
+    cx: &mut Cx,
+    object_handle: Handle,
+    _parameter_id: Number,
+    _params: Vec<f64>,
+) -> Result<()> {
+    cx.scene().object(object_handle)?;
+    Ok(())
+}
+
+/// Text parameter of an object. No object has one.
+///
+/// @param objectHandle the object
+/// @param parameterID sim.objstringparam_*
+/// @return parameter nothing
+#[api("sim.getObjectStringParam")]
+fn get_object_string_param(cx: &Cx, object_handle: Handle, _parameter_id: Number) -> Result<Option<Bytes>> {
+    cx.scene().object(object_handle)?;
+    Ok(None)
+}
+
+/// Sets a text parameter of an object. No object has one, so this does nothing.
+///
+/// @param objectHandle the object
+/// @param parameterID sim.objstringparam_*
+/// @param parameter the text
+#[api("sim.setObjectStringParam")]
+fn set_object_string_param(
+    cx: &mut Cx,
+    object_handle: Handle,
+    _parameter_id: Number,
+    _parameter: Bytes,
+) -> Result<()> {
+    cx.scene().object(object_handle)?;
+    Ok(())
 }

@@ -1,5 +1,157 @@
-//! `sim.*`: flags of objects and models, layers, selection.
+//! `sim.*`: flags of objects and models, explicit handling, sizes, referenced handles.
 
-use super::{ApiFn, functions};
+use api_macro::api;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![];
+use super::{ApiFn, Cx, Result, functions};
+use crate::scene::{Field, Handle, Kind, NOT_MODEL, Object, SceneError};
+use crate::script::{Handles, Number};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    get_object_property,
+    set_object_property,
+    get_object_special_property,
+    set_object_special_property,
+    get_model_property,
+    set_model_property,
+    get_explicit_handling,
+    set_explicit_handling,
+    get_object_size_factor,
+    get_referenced_handles,
+    set_referenced_handles,
+    get_referenced_handles_tags,
+];
+
+/// Flags of an object.
+///
+/// @param objectHandle the object
+/// @return property sim.objectproperty_* bits
+#[api("sim.getObjectProperty")]
+fn get_object_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
+    Ok(cx.scene().object(object_handle)?.object_property)
+}
+
+/// Sets the flags of an object.
+///
+/// @param objectHandle the object
+/// @param property sim.objectproperty_* bits
+#[api("sim.setObjectProperty")]
+fn set_object_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<()> {
+    Ok(cx.scene_mut().modify(object_handle, Field::ObjectProperty, |object| object.object_property = property.0)?)
+}
+
+/// What an object can be to sensors and checks: its own flags, whatever its model says.
+///
+/// @param objectHandle the object
+/// @return property sim.objectspecialproperty_* bits
+#[api("sim.getObjectSpecialProperty")]
+fn get_object_special_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
+    Ok(cx.scene().object(object_handle)?.special_property)
+}
+
+/// Sets what an object can be to sensors and checks.
+///
+/// @param objectHandle the object
+/// @param property sim.objectspecialproperty_* bits
+#[api("sim.setObjectSpecialProperty")]
+fn set_object_special_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<()> {
+    Ok(cx.scene_mut().set_special_property(object_handle, property.0)?)
+}
+
+/// Flags of a model.
+///
+/// @param objectHandle the object
+/// @return property sim.modelproperty_* bits; sim.modelproperty_not_model if it is no model base
+#[api("sim.getModelProperty")]
+fn get_model_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
+    Ok(cx.scene().object(object_handle)?.model_property)
+}
+
+/// Makes an object a model base with these flags, or with sim.modelproperty_not_model no model base.
+///
+/// @param objectHandle the object
+/// @param property sim.modelproperty_* bits
+#[api("sim.setModelProperty")]
+fn set_model_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<()> {
+    let property = if property.0 & NOT_MODEL == NOT_MODEL { NOT_MODEL } else { property.0 };
+    Ok(cx.scene_mut().modify(object_handle, Field::ModelProperty, |object| object.model_property = property)?)
+}
+
+fn explicit_flag(object: &mut Object) -> std::result::Result<&mut bool, SceneError> {
+    match &mut object.kind {
+        Kind::ProximitySensor(sensor) => Ok(&mut sensor.explicit),
+        Kind::VisionSensor(sensor) => Ok(&mut sensor.explicit),
+        Kind::Graph(graph) => Ok(&mut graph.explicit),
+        _ => Err(SceneError::InvalidArgument),
+    }
+}
+
+/// Whether a sensor or graph is left out when all are handled.
+///
+/// @param objectHandle proximity sensor, vision sensor or graph
+/// @return explicitHandlingFlags 1 if so
+#[api("sim.getExplicitHandling")]
+fn get_explicit_handling(cx: &Cx, object_handle: Handle) -> Result<i64> {
+    let explicit = match &cx.scene().object(object_handle)?.kind {
+        Kind::ProximitySensor(sensor) => sensor.explicit,
+        Kind::VisionSensor(sensor) => sensor.explicit,
+        Kind::Graph(graph) => graph.explicit,
+        _ => return Err(SceneError::InvalidArgument.into()),
+    };
+    Ok(i64::from(explicit))
+}
+
+/// Sets whether a sensor or graph is left out when all are handled.
+///
+/// @param objectHandle proximity sensor, vision sensor or graph
+/// @param explicitHandlingFlags 1 if so
+#[api("sim.setExplicitHandling")]
+fn set_explicit_handling(cx: &mut Cx, object_handle: Handle, explicit_handling_flags: Number) -> Result<()> {
+    let explicit = explicit_handling_flags.0 & 1 != 0;
+    Ok(cx.scene_mut().try_modify(object_handle, Field::Sensor, |object| {
+        *explicit_flag(object)? = explicit;
+        Ok(())
+    })?)
+}
+
+/// Product of all factors an object was scaled by.
+///
+/// @param objectHandle the object
+/// @return sizeFactor the product
+#[api("sim.getObjectSizeFactor")]
+fn get_object_size_factor(cx: &Cx, object_handle: Handle) -> Result<f64> {
+    Ok(cx.scene().object(object_handle)?.size_factor)
+}
+
+/// Handles an object refers to.
+///
+/// @param objectHandle the object
+/// @param tag name of the list
+/// @return referencedHandles -1 for objects that are gone
+#[api("sim.getReferencedHandles")]
+fn get_referenced_handles(cx: &Cx, object_handle: Handle, #[default("")] tag: String) -> Result<Vec<i64>> {
+    Ok(cx.scene().object(object_handle)?.referenced(&tag).to_vec())
+}
+
+/// Makes an object refer to others; copies then refer to the copies.
+///
+/// @param objectHandle the object
+/// @param referencedHandles empty to remove the list
+/// @param tag name of the list
+#[api("sim.setReferencedHandles")]
+fn set_referenced_handles(
+    cx: &mut Cx,
+    object_handle: Handle,
+    referenced_handles: Handles,
+    #[default("")] tag: String,
+) -> Result<()> {
+    Ok(cx.scene_mut().set_references(object_handle, &tag, &referenced_handles.0)?)
+}
+
+/// Names of the lists of handles an object refers to.
+///
+/// @param objectHandle the object
+/// @return tags in the order they were made
+#[api("sim.getReferencedHandlesTags")]
+fn get_referenced_handles_tags(cx: &Cx, object_handle: Handle) -> Result<Vec<String>> {
+    Ok(cx.scene().object(object_handle)?.references.iter().map(|(tag, _)| tag.clone()).collect())
+}

@@ -57,7 +57,8 @@ impl Scene {
 
     /// Joints in dependent mode whose master is `master`.
     fn followers(&self, master: Handle) -> impl Iterator<Item = (Handle, Dependency)> {
-        let joints = self.objects().filter_map(|object| Some((object.handle(), object.joint().ok()?)));
+        let objects = self.referrers.iter().filter_map(|&handle| self.object(handle).ok());
+        let joints = objects.filter_map(|object| Some((object.handle(), object.joint().ok()?)));
         let follows = move |(handle, joint): (Handle, &super::joint::Joint)| {
             let law = joint.dependency.filter(|law| law.master == master)?;
             (joint.mode == JointMode::Dependent).then_some((handle, law))

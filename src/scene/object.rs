@@ -12,6 +12,9 @@ use super::{CustomData, Handle, Pose, SceneError, SceneResult, Uid};
 /// The value of [`Object::model_property`] of an object that is no model base.
 pub const NOT_MODEL: i64 = 0xf000;
 
+/// `sim.objectspecialproperty_detectable`: five bits for kinds of sensors, used as one.
+pub(super) const DETECTABLE: i64 = 0x1f0;
+
 /// A scene object.
 #[derive(Debug, Clone)]
 pub struct Object {
@@ -114,7 +117,7 @@ impl Kind {
     /// Collidable, measurable, detectable and renderable for what has a surface, nothing otherwise.
     fn default_special_property(&self) -> i64 {
         match self {
-            Self::Shape(_) | Self::OcTree(_) | Self::PointCloud(_) => 0x1 | 0x2 | 0x1f0 | 0x200,
+            Self::Shape(_) | Self::OcTree(_) | Self::PointCloud(_) => 0x1 | 0x2 | DETECTABLE | 0x200,
             _ => 0,
         }
     }

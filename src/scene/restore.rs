@@ -1,31 +1,187 @@
-//! What a simulation run is undone to when it ends.
+//! What a simulation run is undone to when it ends (SPEC-objects 8, SPEC-7 7.6).
 
-use super::joint::{Control, Joint, JointMode};
-use super::{Pose, Uid};
+use std::collections::BTreeSet;
+
+use super::joint::Joint;
+use super::shape::Velocity;
+use super::{Field, Handle, Kind, Object, Pose, Scene, SceneResult, Uid};
+
+/// `sim.modelproperty_not_reset`: what is below keeps the state of the run.
+const NOT_RESET: i64 = 0x80;
+/// `sim.objectproperty_hiddenforsimulation`.
+const HIDDEN_FOR_SIMULATION: i64 = 0x1_0000;
 
 /// The state of one object at simulation start.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct InitialState {
-    pub parent: Option<Uid>,
-    pub local: Pose,
-    pub world: Pose,
-    pub model_property: i64,
-    pub layer: i64,
-    pub joint: Option<JointState>,
+    parent: Option<Uid>,
+    local: Pose,
+    world: Pose,
+    model_property: i64,
+    layer: i64,
+    kind: InitialKind,
 }
 
-/// What is restored of a joint.
-#[derive(Debug, Clone, PartialEq)]
-pub struct JointState {
-    pub mode: JointMode,
-    pub control: Control,
-    pub saved: Box<Joint>,
+/// What is remembered of the type of an object.
+#[derive(Debug, Clone)]
+enum InitialKind {
+    Joint(Box<Joint>),
+    Shape(Velocity),
+    Other,
 }
 
-impl super::Scene {
-    /// Every object remembers its state, for the end of the run.
-    pub fn store_initial_state(&mut self) {}
+impl Scene {
+    /// Every object remembers its state, for the end of the run. Models forget that they do not want to be reset: that is said anew
+    /// in each run.
+    pub fn store_initial_state(&mut self) {
+        for handle in self.all_breadth_first() {
+            let Ok(world) = self.world_pose(handle) else { continue };
+            let parent = self.uid_of_parent(handle);
+            if let Ok(object) = self.object_mut(handle) {
+                if object.is_model() {
+                    object.model_property &= !NOT_RESET;
+                }
+                object.initial = Some(Box::new(InitialState::of(object, parent, world)));
+            }
+        }
+    }
 
-    /// Every object goes back to the state it had at the start of the run.
-    pub fn restore_initial_state(&mut self) {}
+    fn uid_of_parent(&self, handle: Handle) -> Option<Uid> {
+        let parent = self.object(handle).ok()?.parent()?;
+        self.object(parent).ok().map(Object::uid)
+    }
+
+    /// Every object goes back to the state it had at the start of the run, unless its model does not want to. Objects that were not
+    /// there then stay as they are.
+    pub fn restore_initial_state(&mut self) {
+        let objects = self.all_breadth_first();
+        let kept: BTreeSet<Handle> =
+            objects.iter().copied().filter(|&h| self.calculated_model_property(h) & NOT_RESET != 0).collect();
+        let mut restored = Vec::with_capacity(objects.len());
+        for handle in objects {
+            let Ok(object) = self.object_mut(handle) else { continue };
+            object.measured = super::Measured::default();
+            if let Some(initial) = object.initial.take().filter(|_| !kept.contains(&handle)) {
+                restored.push((handle, initial));
+            }
+        }
+        self.restore_parents(&restored);
+        for (handle, initial) in restored {
+            // The handles were just read from the tree.
+            let _ = self.restore_object(handle, &initial);
+        }
+    }
+
+    /// Restores the tree. All moved objects are detached first, so that no order of attaching closes a circle.
+    fn restore_parents(&mut self, restored: &[(Handle, Box<InitialState>)]) {
+        let mut moved = Vec::new();
+        for (handle, initial) in restored {
+            let parent = initial.parent.and_then(|uid| self.by_uid(uid));
+            let lost = initial.parent.is_some() && parent.is_none();
+            if !lost && self.object(*handle).is_ok_and(|object| object.parent() != parent) {
+                moved.push((*handle, parent));
+            }
+        }
+        for &(handle, _) in &moved {
+            let _ = self.set_parent(handle, None, true);
+        }
+        for (handle, parent) in moved {
+            // Refused only if the parent is below `handle` now, by way of an object that keeps its state.
+            let _ = self.set_parent(handle, parent, true);
+        }
+    }
+
+    fn restore_object(&mut self, handle: Handle, initial: &InitialState) -> SceneResult<()> {
+        if self.uid_of_parent(handle) == initial.parent {
+            self.set_local_pose(handle, initial.local)?;
+        } else {
+            self.set_world_pose(handle, initial.world)?;
+        }
+        if self.object(handle)?.model_property != initial.model_property {
+            self.modify(handle, Field::ModelProperty, |object| object.model_property = initial.model_property)?;
+        }
+        self.modify(handle, Field::Other, |object| {
+            if object.object_property & HIDDEN_FOR_SIMULATION != 0 {
+                object.layer = initial.layer;
+            }
+            initial.restore_kind(&mut object.kind);
+        })
+    }
+}
+
+impl InitialState {
+    fn of(object: &Object, parent: Option<Uid>, world: Pose) -> Self {
+        let kind = match &object.kind {
+            Kind::Joint(joint) => InitialKind::Joint(joint.clone()),
+            Kind::Shape(shape) => InitialKind::Shape(shape.dynamics.initial_velocity),
+            _ => InitialKind::Other,
+        };
+        let (model_property, layer) = (object.model_property, object.layer);
+        Self { parent, local: object.pose(), world, model_property, layer, kind }
+    }
+
+    fn restore_kind(&self, kind: &mut Kind) {
+        match (kind, &self.kind) {
+            (Kind::Joint(joint), InitialKind::Joint(initial)) => restore_joint(joint, initial),
+            (Kind::Shape(shape), InitialKind::Shape(initial)) => {
+                shape.dynamics.initial_velocity = *initial;
+                shape.velocity = Velocity::default();
+                (shape.force, shape.torque) = ([0.0; 3], [0.0; 3]);
+            }
+            (Kind::ForceSensor(sensor), _) => {
+                sensor.samples.clear();
+                (sensor.raw, sensor.filtered, sensor.error) = (None, None, None);
+                sensor.violations = 0;
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Puts a joint back. Switching a changed mode or way of control back has its usual side effects on the targets, and comes after
+/// them as in the original.
+fn restore_joint(joint: &mut Joint, initial: &Joint) {
+    joint.position = initial.position;
+    joint.spherical = initial.spherical;
+    joint.target_position = initial.target_position;
+    joint.target_velocity = initial.target_velocity;
+    if joint.mode != initial.mode {
+        joint.set_mode(initial.mode);
+    }
+    if joint.control != initial.control {
+        joint.set_control(initial.control);
+    }
+    joint.velocity_profile = initial.velocity_profile;
+    joint.position_profile = initial.position_profile;
+    joint.motor_lock = initial.motor_lock;
+    joint.target_force = initial.target_force;
+    joint.spring = initial.spring;
+    (joint.max_vel, joint.max_accel, joint.max_jerk) = (initial.max_vel, initial.max_accel, initial.max_jerk);
+    (joint.velocity, joint.accel, joint.motion) = (0.0, 0.0, None);
+    (joint.error, joint.force, joint.raw_force) = (None, None, None);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::dummy::Dummy;
+
+    #[test]
+    fn a_tree_turned_upside_down_comes_back() {
+        let mut scene = Scene::new();
+        let dummies: Vec<Handle> =
+            (0..3).map(|_| scene.add("d", Kind::Dummy(Dummy::new(0.01))).expect("there is room")).collect();
+        let [a, b, c] = dummies[..] else { unreachable!() };
+        scene.set_parent(b, Some(a), true).unwrap();
+        scene.set_parent(c, Some(b), true).unwrap();
+        scene.set_world_pose(c, Pose::translation(1.0, 2.0, 3.0)).unwrap();
+        scene.store_initial_state();
+        scene.set_parent(c, None, true).unwrap();
+        scene.set_parent(a, Some(c), true).unwrap();
+        scene.set_world_pose(c, Pose::translation(0.0, 0.0, 9.0)).unwrap();
+        scene.restore_initial_state();
+        assert_eq!(scene.object(c).unwrap().parent(), Some(b));
+        assert_eq!(scene.object(a).unwrap().parent(), None);
+        assert_eq!(scene.world_pose(c).unwrap(), Pose::translation(1.0, 2.0, 3.0));
+    }
 }

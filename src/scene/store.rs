@@ -1,6 +1,6 @@
 //! The object store: adding, finding and changing objects.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::object::{Kind, Object};
 use super::{Change, Changes, CustomData, Data, Field, Handle, SceneError, SceneResult, Settings, Uid};
@@ -17,6 +17,8 @@ pub struct Scene {
     pub(super) roots: Vec<Handle>,
     pub(super) selection: Vec<Handle>,
     pub(super) collections: BTreeMap<i64, super::Collection>,
+    /// Objects that may keep handles of others, so that not all have to be asked when one is removed.
+    pub(super) referrers: BTreeSet<Handle>,
     /// Collections ever made.
     pub(super) collections_made: i64,
     settings: Settings,
@@ -40,16 +42,25 @@ impl Scene {
     /// # Errors
     /// When all handles are in use.
     pub fn add(&mut self, alias: &str, kind: Kind) -> SceneResult<Handle> {
+        self.insert(Object::new(Handle(0), 0, alias, kind))
+    }
+
+    /// Adds `object` as the last root, under a new handle and identifier and without family.
+    pub(super) fn insert(&mut self, mut object: Object) -> SceneResult<Handle> {
         let handle = self.free_handle()?;
-        let uid = self.new_uid();
+        (object.handle, object.uid, object.parent) = (handle, self.new_uid(), None);
+        object.children.clear();
         let index = handle.index();
         if index >= self.slots.len() {
             self.slots.resize_with(index + 1, || None);
         }
-        self.sensors += usize::from(is_sensor(&kind));
-        self.slots[index] = Some(Box::new(Object::new(handle, uid, alias, kind)));
+        self.sensors += usize::from(is_sensor(&object.kind));
+        if object.refers() {
+            self.referrers.insert(handle);
+        }
+        self.by_uid.insert(object.uid, handle);
+        self.slots[index] = Some(Box::new(object));
         self.live += 1;
-        self.by_uid.insert(uid, handle);
         self.roots.push(handle);
         self.changes.note(Change::Added(handle));
         Ok(handle)
@@ -86,7 +97,7 @@ impl Scene {
     /// Changes one aspect of an object: the one gate for everything that is not a change of the tree.
     pub fn modify<R>(&mut self, handle: Handle, field: Field, change: impl FnOnce(&mut Object) -> R) -> SceneResult<R> {
         let result = change(self.object_mut(handle)?);
-        self.changes.note(Change::Modified(handle, field));
+        self.note_modified(handle, field);
         Ok(result)
     }
 
@@ -98,8 +109,16 @@ impl Scene {
         change: impl FnOnce(&mut Object) -> SceneResult<R>,
     ) -> SceneResult<R> {
         let result = change(self.object_mut(handle)?)?;
-        self.changes.note(Change::Modified(handle, field));
+        self.note_modified(handle, field);
         Ok(result)
+    }
+
+    fn note_modified(&mut self, handle: Handle, field: Field) {
+        let moves_only = matches!(field, Field::Pose | Field::JointPosition);
+        if !moves_only && self.object(handle).is_ok_and(Object::refers) {
+            self.referrers.insert(handle);
+        }
+        self.changes.note(Change::Modified(handle, field));
     }
 
     /// Unrecorded access, for the operations of this module that note their change themselves.

@@ -203,35 +203,4 @@ impl Scene {
         orphans.sort_by_key(|object| object.uid());
         orphans.into_iter().map(super::Object::handle).collect()
     }
-
-    /// Drops what other objects know of the doomed: links, dependencies, selection, collections, referenced handles.
-    fn forget_references(&mut self, doomed: &BTreeSet<Handle>) {
-        self.engine_params.retain(|(_, object), _| Handle::from_raw(*object).is_none_or(|h| !doomed.contains(&h)));
-        self.selection.retain(|h| !doomed.contains(h));
-        for collection in self.collections.values_mut() {
-            collection.items.retain(|item| item.base.is_none_or(|base| !doomed.contains(&base)));
-        }
-        let all: Vec<Handle> = self.objects().map(super::Object::handle).collect();
-        for handle in all {
-            if let Ok(object) = self.object_mut(handle) {
-                forget(object, doomed);
-            }
-        }
-    }
-}
-
-fn forget(object: &mut super::Object, doomed: &BTreeSet<Handle>) {
-    let gone = |h: Handle| doomed.contains(&h);
-    match &mut object.kind {
-        super::Kind::Joint(joint) if joint.dependency.is_some_and(|d| gone(d.master)) => joint.dependency = None,
-        super::Kind::Dummy(dummy) if dummy.link.is_some_and(gone) => dummy.link = None,
-        super::Kind::Camera(camera) if camera.tracked.is_some_and(gone) => camera.tracked = None,
-        _ => {}
-    }
-    let lists = object.references.iter_mut().chain(object.original_references.iter_mut());
-    for handle in lists.flat_map(|(_, list)| list.iter_mut()) {
-        if Handle::from_raw(*handle).is_some_and(gone) {
-            *handle = -1;
-        }
-    }
 }

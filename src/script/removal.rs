@@ -1,12 +1,13 @@
 //! Adding and removing objects with everything scripts are told about it.
 
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::callback::SysCall;
 use super::error::ApiResult;
 use super::sim::Sim;
 use super::{script::state, verbosity};
-use crate::scene::{Data, Handle, Key, Kind, SceneError};
+use crate::scene::{CopyOptions, Data, Handle, Key, Kind, SceneError};
 
 impl Sim {
     /// Adds an object and tells everyone.
@@ -21,9 +22,31 @@ impl Sim {
 
     /// Tells everyone about new objects.
     pub(crate) fn announce_created(self: &Rc<Self>, handles: &[Handle]) {
-        let list: Vec<i64> = handles.iter().map(|h| h.raw()).collect();
+        let list = raw(handles);
         let data = Data::map([("objects", list.clone().into()), ("objectHandles", list.into())]);
         self.broadcast(SysCall::AfterCreate, &[data]);
+    }
+
+    /// Copies objects with everything their options bring along; scripts among the copies start anew. Returns originals and copies.
+    ///
+    /// # Errors
+    /// When a handle is unknown or the scene is full.
+    pub(crate) fn copy_objects(
+        self: &Rc<Self>,
+        handles: &[Handle],
+        options: CopyOptions,
+    ) -> ApiResult<BTreeMap<Handle, Handle>> {
+        let originals = self.scene.borrow().objects_to_copy(handles, options)?;
+        if originals.is_empty() {
+            return Ok(BTreeMap::new());
+        }
+        let data = Data::map([("objects", raw(&originals).into()), ("objectHandles", marked(&originals))]);
+        self.broadcast(SysCall::BeforeCopy, std::slice::from_ref(&data));
+        let copies = self.scene.borrow_mut().copy_objects(&originals, options)?;
+        self.broadcast(SysCall::AfterCopy, &[data]);
+        let created: Vec<Handle> = originals.iter().filter_map(|original| copies.get(original).copied()).collect();
+        self.announce_created(&created);
+        Ok(copies)
     }
 
     /// Removes objects: their scripts are cleaned up first, then everyone is told before and after.
@@ -76,9 +99,7 @@ impl Sim {
 
     fn removal_data(&self, handles: &[Handle]) -> Data {
         let all = handles.len() == self.scene.borrow().len();
-        let list: Vec<i64> = handles.iter().map(|h| h.raw()).collect();
-        let map = list.iter().map(|&h| (Key::Int(h), Data::Bool(true))).collect();
-        Data::map([("objects", list.into()), ("allObjects", all.into()), ("objectHandles", Data::Map(map))])
+        Data::map([("objects", raw(handles).into()), ("allObjects", all.into()), ("objectHandles", marked(handles))])
     }
 
     /// Remembers objects to be removed at the end of the loop pass.
@@ -98,4 +119,13 @@ impl Sim {
             self.log(verbosity::ERRORS, &error.to_string());
         }
     }
+}
+
+fn raw(handles: &[Handle]) -> Vec<i64> {
+    handles.iter().map(|handle| handle.raw()).collect()
+}
+
+/// A map from each handle to true.
+fn marked(handles: &[Handle]) -> Data {
+    Data::Map(handles.iter().map(|handle| (Key::Int(handle.raw()), Data::Bool(true))).collect())
 }

@@ -1,0 +1,163 @@
+//! Copies of objects (SPEC-objects 5): what is copied, where it goes, and what it refers to.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::script_object::ScriptObject;
+use super::shape::Velocity;
+use super::{CustomData, Handle, Kind, Measured, NOT_MODEL, Object, Scene, SceneResult};
+
+/// The option bits of `sim.copyPasteObjects`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CopyOptions(pub i64);
+
+impl CopyOptions {
+    const MODELS: i64 = 1;
+    const NO_SCRIPTS: i64 = 2;
+    const NO_CUSTOM_DATA: i64 = 4;
+    const NO_REFERENCES: i64 = 8;
+    const NO_MODEL_TAGS: i64 = 32;
+
+    fn has(self, bit: i64) -> bool {
+        self.0 & bit != 0
+    }
+}
+
+impl Scene {
+    /// The objects a copy of `handles` consists of, parents before children.
+    ///
+    /// # Errors
+    /// When one of them does not exist.
+    pub fn objects_to_copy(&self, handles: &[Handle], options: CopyOptions) -> SceneResult<Vec<Handle>> {
+        if let Some(&unknown) = handles.iter().find(|&&h| !self.exists(h)) {
+            self.object(unknown)?;
+        }
+        let listed: BTreeSet<Handle> = handles.iter().copied().collect();
+        let mut chosen = if options.has(CopyOptions::MODELS) { self.models_in(&listed) } else { listed };
+        let is_script = |h: &Handle| self.object(*h).and_then(Object::script).is_ok();
+        if options.has(CopyOptions::NO_SCRIPTS) {
+            chosen.retain(|h| !is_script(h));
+        } else {
+            let attached: Vec<Handle> = chosen.iter().flat_map(|&h| self.proxy_scripts(h)).collect();
+            chosen.extend(attached);
+        }
+        if chosen.len() <= 1 {
+            return Ok(chosen.into_iter().collect());
+        }
+        Ok(self.all_breadth_first().into_iter().filter(|h| chosen.contains(h)).collect())
+    }
+
+    /// Everything that belongs to the models among `listed`.
+    fn models_in(&self, listed: &BTreeSet<Handle>) -> BTreeSet<Handle> {
+        let is_model = |h: &&Handle| self.object(**h).is_ok_and(Object::is_model);
+        listed.iter().filter(is_model).flat_map(|&base| self.subtree(base)).collect()
+    }
+
+    /// Scripts of the old kind that sit on `handle`: they go with it.
+    fn proxy_scripts(&self, handle: Handle) -> Vec<Handle> {
+        let children = self.object(handle).map_or(&[][..], Object::children);
+        let goes_along = |&&child: &&Handle| {
+            self.object(child).and_then(Object::script).is_ok_and(|script: &ScriptObject| script.parent_is_proxy)
+        };
+        children.iter().filter(goes_along).copied().collect()
+    }
+
+    /// Copies objects, listed parents before children. The copies keep their place in the world; those whose ancestors are not
+    /// copied become roots. Returns original and copy.
+    ///
+    /// # Errors
+    /// When all handles are in use.
+    pub fn copy_objects(
+        &mut self,
+        originals: &[Handle],
+        options: CopyOptions,
+    ) -> SceneResult<BTreeMap<Handle, Handle>> {
+        let mut copies = BTreeMap::new();
+        for &original in originals {
+            let copy = self.copy_object(original, &copies, options)?;
+            copies.insert(original, copy);
+        }
+        for &copy in copies.values() {
+            self.modify(copy, super::Field::Other, |object| redirect(object, &copies))?;
+        }
+        Ok(copies)
+    }
+
+    fn copy_object(
+        &mut self,
+        original: Handle,
+        copies: &BTreeMap<Handle, Handle>,
+        options: CopyOptions,
+    ) -> SceneResult<Handle> {
+        let world = self.world_pose(original)?;
+        let parent = self.ancestors(original).find_map(|above| copies.get(&above).copied());
+        let direct = self.object(original)?.parent().is_some_and(|above| copies.contains_key(&above));
+        let mut object = self.object(original)?.clone();
+        start_anew(&mut object, options);
+        let local = object.pose;
+        let copy = self.insert(object)?;
+        self.set_parent(copy, parent, false)?;
+        let pose = if direct { local } else { self.parent_frame(copy)?.inverse() * world };
+        self.object_mut(copy)?.pose = pose;
+        self.copy_engine_params(original, copy);
+        Ok(copy)
+    }
+
+    fn copy_engine_params(&mut self, original: Handle, copy: Handle) {
+        let of_original = self.engine_params.iter().filter(|((_, object), _)| *object == original.raw());
+        let params: Vec<_> = of_original.map(|(&(id, _), value)| ((id, copy.raw()), value.clone())).collect();
+        self.engine_params.extend(params);
+    }
+}
+
+/// Clears what a copy does not inherit: motions, measurements, the physics' results, and what the options strip.
+fn start_anew(object: &mut Object, options: CopyOptions) {
+    object.measured = Measured::default();
+    object.initial = None;
+    object.dynamic_flag = 0;
+    object.dynamics_reset = false;
+    match &mut object.kind {
+        Kind::Joint(joint) => (joint.motion, joint.error, joint.force, joint.raw_force) = (None, None, None, None),
+        Kind::Shape(shape) => {
+            shape.velocity = Velocity::default();
+            (shape.force, shape.torque) = ([0.0; 3], [0.0; 3]);
+        }
+        Kind::ForceSensor(sensor) => (sensor.raw, sensor.filtered, sensor.error) = (None, None, None),
+        _ => {}
+    }
+    if options.has(CopyOptions::NO_CUSTOM_DATA) {
+        object.custom_data = CustomData::default();
+    }
+    if options.has(CopyOptions::NO_REFERENCES) {
+        object.references.clear();
+        object.original_references.clear();
+    }
+    if options.has(CopyOptions::NO_MODEL_TAGS) {
+        object.model_property = NOT_MODEL;
+    }
+}
+
+/// References to copied objects follow the copies, others end.
+fn redirect(object: &mut Object, copies: &BTreeMap<Handle, Handle>) {
+    let copy_of = |handle: Handle| copies.get(&handle).copied();
+    match &mut object.kind {
+        Kind::Joint(joint) => {
+            joint.dependency = joint
+                .dependency
+                .and_then(|law| Some(super::joint::Dependency { master: copy_of(law.master)?, ..law }));
+        }
+        Kind::Dummy(dummy) => dummy.link = dummy.link.and_then(copy_of),
+        Kind::Camera(camera) => camera.tracked = camera.tracked.and_then(copy_of),
+        Kind::ProximitySensor(sensor) => sensor.entity = redirected_entity(sensor.entity, copies),
+        Kind::VisionSensor(sensor) => sensor.entity = redirected_entity(sensor.entity, copies),
+        _ => {}
+    }
+    let lists = object.references.iter_mut().chain(object.original_references.iter_mut());
+    for handle in lists.flat_map(|(_, list)| list.iter_mut()) {
+        *handle = Handle::from_raw(*handle).and_then(copy_of).map_or(-1, Handle::raw);
+    }
+}
+
+/// What a copied sensor looks at: the copy, if there is one, otherwise what the original looks at.
+fn redirected_entity(entity: i64, copies: &BTreeMap<Handle, Handle>) -> i64 {
+    Handle::from_raw(entity).and_then(|handle| copies.get(&handle)).map_or(entity, |copy| copy.raw())
+}

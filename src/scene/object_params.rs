@@ -1,0 +1,119 @@
+//! Numbered parameters that all objects have (`sim.objintparam_*`, `sim.objfloatparam_*`), visibility and boxes.
+//!
+//! What a type adds stands in `kind_params`; numbers of functionality that is gone (roles, permissions, DNA) are not known.
+
+use nalgebra::{Point3, Vector3};
+
+use super::object::DETECTABLE;
+use super::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
+
+/// `sim.modelproperty_not_visible`.
+const NOT_VISIBLE: i64 = 0x100;
+/// `sim.objectproperty_dontshowasinsidemodel`.
+const NOT_SHOWN_INSIDE_MODEL: i64 = 0x100;
+
+/// Smallest and largest coordinates.
+type Extent = (Vector3<f64>, Vector3<f64>);
+
+impl Scene {
+    /// The value of an integer parameter; None when the object has no such parameter.
+    pub fn int_param(&self, handle: Handle, id: i64) -> SceneResult<Option<i64>> {
+        let object = self.object(handle)?;
+        match id {
+            10 => Ok(Some(object.layer)),
+            36 => Ok(Some(i64::from(self.is_visible(handle)?))),
+            37 => Ok(Some(object.uid())),
+            _ => self.kind_int_param(handle, id),
+        }
+    }
+
+    /// Sets an integer parameter; false when the object has no such parameter, or only one to read.
+    pub fn set_int_param(&mut self, handle: Handle, id: i64, value: i64) -> SceneResult<bool> {
+        if id != 10 {
+            return self.set_kind_int_param(handle, id, value);
+        }
+        self.modify(handle, Field::Layer, |object| object.layer = value & 0xffff)?;
+        Ok(true)
+    }
+
+    /// The value of a float parameter (SI units); None when the object has no such parameter.
+    pub fn float_param(&self, handle: Handle, id: i64) -> SceneResult<Option<f64>> {
+        let object = self.object(handle)?;
+        let measured = &object.measured;
+        Ok(match id {
+            11..=13 => Some(measured.linear[(id - 11) as usize]),
+            14 => Some(Vector3::from(measured.angular).norm()),
+            15..=20 => object.extent().map(|extent| corner(extent, id - 15)),
+            21..=26 => self.model_extent(handle)?.map(|extent| corner(extent, id - 21)),
+            34 => Some(object.size_factor),
+            _ => return self.kind_float_param(handle, id),
+        })
+    }
+
+    /// Sets what an object can be to sensors and checks; any of the five detectable bits stands for all.
+    pub fn set_special_property(&mut self, handle: Handle, property: i64) -> SceneResult<()> {
+        let detectable = if property & DETECTABLE != 0 { DETECTABLE } else { 0 };
+        self.modify(handle, Field::SpecialProperty, |object| {
+            object.special_property = property & !DETECTABLE | detectable;
+        })
+    }
+
+    /// Whether an object is shown: its layer is active and no model above hides it.
+    pub fn is_visible(&self, handle: Handle) -> SceneResult<bool> {
+        let layer = self.object(handle)?.layer;
+        let hidden = self.calculated_model_property(handle) & NOT_VISIBLE != 0;
+        Ok(layer & self.settings().visibility_layers != 0 && !hidden)
+    }
+
+    /// Box around a model in the frame of its base.
+    fn model_extent(&self, base: Handle) -> SceneResult<Option<Extent>> {
+        let into_base = self.world_pose(base)?.inverse();
+        let mut total: Option<Extent> = None;
+        for handle in self.subtree(base) {
+            let object = self.object(handle)?;
+            let left_out = handle != base && object.object_property & NOT_SHOWN_INSIDE_MODEL != 0;
+            let Some(own) = object.extent().filter(|_| !left_out) else { continue };
+            let (low, high) = transformed(own, &(into_base * self.world_pose(handle)?));
+            total = Some(total.map_or((low, high), |(l, h)| (l.inf(&low), h.sup(&high))));
+        }
+        Ok(total)
+    }
+}
+
+impl Object {
+    /// Box around the object in its own frame; None for types that have no body.
+    fn extent(&self) -> Option<Extent> {
+        match &self.kind {
+            Kind::Shape(shape) => {
+                let half = Vector3::from(shape.bounding_box.size) * 0.5;
+                Some(transformed((-half, half), &shape.bounding_box.pose))
+            }
+            Kind::Dummy(dummy) => {
+                let half = Vector3::repeat(dummy.size * 0.5);
+                Some((-half, half))
+            }
+            Kind::Joint(joint) => {
+                let [length, diameter] = joint.size;
+                let half = Vector3::new(diameter, diameter, length) * 0.5;
+                Some((-half, half))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Coordinate number `index` of min x, y, z, max x, y, z.
+fn corner((low, high): Extent, index: i64) -> f64 {
+    let (corner, axis) = if index < 3 { (low, index) } else { (high, index - 3) };
+    corner[axis as usize]
+}
+
+/// The upright box around a box that is moved by `pose`.
+fn transformed((low, high): Extent, pose: &Pose) -> Extent {
+    let corners = (0..8).map(|i| {
+        let pick = |axis: usize| if i >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        (pose * Point3::new(pick(0), pick(1), pick(2))).coords
+    });
+    let empty = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+    corners.fold(empty, |(l, h), corner| (l.inf(&corner), h.sup(&corner)))
+}

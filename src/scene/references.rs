@@ -1,0 +1,74 @@
+//! Who refers to whom: tagged lists of handles, links, dependencies; and forgetting what is gone.
+
+use std::collections::BTreeSet;
+
+use super::{Field, Handle, Kind, Object, Scene, SceneResult};
+
+impl Object {
+    /// Whether other objects' handles are kept here, apart from parent and children.
+    pub(super) fn refers(&self) -> bool {
+        let by_kind = match &self.kind {
+            Kind::Joint(joint) => joint.dependency.is_some(),
+            Kind::Dummy(dummy) => dummy.link.is_some(),
+            Kind::Camera(camera) => camera.tracked.is_some(),
+            _ => false,
+        };
+        by_kind || !self.references.is_empty() || !self.original_references.is_empty()
+    }
+
+    /// The handles referred to under `tag`; -1 for objects that are gone.
+    pub fn referenced(&self, tag: &str) -> &[i64] {
+        self.references.iter().find(|(t, _)| t == tag).map_or(&[], |(_, list)| list)
+    }
+
+    fn forget(&mut self, doomed: &BTreeSet<Handle>) {
+        let gone = |h: Handle| doomed.contains(&h);
+        match &mut self.kind {
+            Kind::Joint(joint) if joint.dependency.is_some_and(|d| gone(d.master)) => joint.dependency = None,
+            Kind::Dummy(dummy) if dummy.link.is_some_and(gone) => dummy.link = None,
+            Kind::Camera(camera) if camera.tracked.is_some_and(gone) => camera.tracked = None,
+            _ => {}
+        }
+        let lists = self.references.iter_mut().chain(self.original_references.iter_mut());
+        for handle in lists.flat_map(|(_, list)| list.iter_mut()) {
+            if Handle::from_raw(*handle).is_some_and(gone) {
+                *handle = -1;
+            }
+        }
+    }
+}
+
+impl Scene {
+    /// Sets what `handle` refers to under `tag`; an empty list removes the tag. Handles of nothing become -1.
+    pub fn set_references(&mut self, handle: Handle, tag: &str, handles: &[i64]) -> SceneResult<()> {
+        let known = |raw: i64| {
+            self.collection(raw).is_ok() || Handle::from_raw(raw).is_some_and(|h| h.raw() == raw && self.exists(h))
+        };
+        let list: Vec<i64> = handles.iter().map(|&raw| if known(raw) { raw } else { -1 }).collect();
+        self.modify(handle, Field::Other, |object| {
+            let lists = &mut object.references;
+            match lists.iter_mut().find(|(t, _)| t == tag) {
+                _ if list.is_empty() => lists.retain(|(t, _)| t != tag),
+                Some((_, old)) => *old = list,
+                None => lists.push((tag.to_owned(), list)),
+            }
+        })
+    }
+
+    /// Drops what other objects know of the doomed: links, dependencies, selection, collections, referenced handles.
+    pub(super) fn forget_references(&mut self, doomed: &BTreeSet<Handle>) {
+        self.engine_params.retain(|(_, object), _| Handle::from_raw(*object).is_none_or(|h| !doomed.contains(&h)));
+        self.selection.retain(|h| !doomed.contains(h));
+        for collection in self.collections.values_mut() {
+            collection.items.retain(|item| item.base.is_none_or(|base| !doomed.contains(&base)));
+        }
+        for handle in self.referrers.clone() {
+            match self.object_mut(handle) {
+                Ok(object) => object.forget(doomed),
+                Err(_) => {
+                    self.referrers.remove(&handle);
+                }
+            }
+        }
+    }
+}
