@@ -31,19 +31,27 @@ enum InitialKind {
 }
 
 impl Scene {
-    /// Every object remembers its state, for the end of the run. Models forget that they do not want to be reset: that is said anew
-    /// in each run.
+    /// Every object remembers its state, for the end of the run; those whose model does not want to be reset do not. Models forget
+    /// that wish: it holds for one run.
     pub fn store_initial_state(&mut self) {
-        for handle in self.all_breadth_first() {
+        let objects = self.all_breadth_first();
+        let kept = self.not_reset(&objects);
+        for handle in objects {
             let Ok(world) = self.world_pose(handle) else { continue };
             let parent = self.uid_of_parent(handle);
             if let Ok(object) = self.object_mut(handle) {
                 if object.is_model() {
                     object.model_property &= !NOT_RESET;
                 }
-                object.initial = Some(Box::new(InitialState::of(object, parent, world)));
+                let stored = !kept.contains(&handle);
+                object.initial = stored.then(|| Box::new(InitialState::of(object, parent, world)));
             }
         }
+    }
+
+    /// Those objects whose model does not want to be reset.
+    fn not_reset(&self, objects: &[Handle]) -> BTreeSet<Handle> {
+        objects.iter().copied().filter(|&h| self.calculated_model_property(h) & NOT_RESET != 0).collect()
     }
 
     fn uid_of_parent(&self, handle: Handle) -> Option<Uid> {
@@ -55,8 +63,7 @@ impl Scene {
     /// there then stay as they are.
     pub fn restore_initial_state(&mut self) {
         let objects = self.all_breadth_first();
-        let kept: BTreeSet<Handle> =
-            objects.iter().copied().filter(|&h| self.calculated_model_property(h) & NOT_RESET != 0).collect();
+        let kept = self.not_reset(&objects);
         let mut restored = Vec::with_capacity(objects.len());
         for handle in objects {
             let Ok(object) = self.object_mut(handle) else { continue };
