@@ -20,11 +20,7 @@ fn handles(raw: &Handles) -> Result<Vec<Handle>> {
 /// @param options 1: whole models; without 2: scripts; 4: custom data; 8: referenced handles; 32: being models
 /// @return copiedObjectHandles the copies, in the order of the originals; nothing if none was copied
 #[api("sim.copyPasteObjects")]
-fn copy_paste_objects(
-    cx: &mut Cx,
-    object_handles: Handles,
-    #[default(0)] options: Number,
-) -> Result<Option<Vec<i64>>> {
+fn copy_paste_objects(cx: &mut Cx, object_handles: Handles, #[default(0)] options: Number) -> Result<Option<Vec<i64>>> {
     let handles = handles(&object_handles)?;
     let copies = Rc::clone(cx.sim()).copy_objects(&handles, CopyOptions(options.0))?;
     let aligned = handles.iter().map(|original| copies.get(original).map_or(-1, |copy| copy.raw()));
@@ -37,12 +33,7 @@ fn copy_paste_objects(
 /// @param scalingFactor at least 0.0001
 /// @param scalePositionsToo also where they are in their parents' frames
 #[api("sim.scaleObjects")]
-fn scale_objects(
-    cx: &mut Cx,
-    object_handles: Handles,
-    scaling_factor: f64,
-    scale_positions_too: bool,
-) -> Result<()> {
+fn scale_objects(cx: &mut Cx, object_handles: Handles, scaling_factor: f64, scale_positions_too: bool) -> Result<()> {
     let handles = handles(&object_handles)?;
     Ok(cx.scene_mut().scale_objects(&handles, scaling_factor, scale_positions_too)?)
 }

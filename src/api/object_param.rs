@@ -36,12 +36,7 @@ fn get_object_int32_param(cx: &Cx, object_handle: Handle, parameter_id: Number) 
 /// @param parameter the value
 /// @return result 1, or 0 when the object has no such parameter
 #[api("sim.setObjectInt32Param")]
-fn set_object_int32_param(
-    cx: &mut Cx,
-    object_handle: Handle,
-    parameter_id: Number,
-    parameter: Number,
-) -> Result<i64> {
+fn set_object_int32_param(cx: &mut Cx, object_handle: Handle, parameter_id: Number, parameter: Number) -> Result<i64> {
     Ok(i64::from(cx.scene_mut().set_int_param(object_handle, parameter_id.0, parameter.0)?))
 }
 
@@ -110,12 +105,7 @@ fn get_object_string_param(cx: &Cx, object_handle: Handle, _parameter_id: Number
 /// @param parameterID sim.objstringparam_*
 /// @param parameter the text
 #[api("sim.setObjectStringParam")]
-fn set_object_string_param(
-    cx: &mut Cx,
-    object_handle: Handle,
-    _parameter_id: Number,
-    _parameter: Bytes,
-) -> Result<()> {
+fn set_object_string_param(cx: &mut Cx, object_handle: Handle, _parameter_id: Number, _parameter: Bytes) -> Result<()> {
     cx.scene().object(object_handle)?;
     Ok(())
 }

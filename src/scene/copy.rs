@@ -141,9 +141,8 @@ fn redirect(object: &mut Object, copies: &BTreeMap<Handle, Handle>) {
     let copy_of = |handle: Handle| copies.get(&handle).copied();
     match &mut object.kind {
         Kind::Joint(joint) => {
-            joint.dependency = joint
-                .dependency
-                .and_then(|law| Some(super::joint::Dependency { master: copy_of(law.master)?, ..law }));
+            joint.dependency =
+                joint.dependency.and_then(|law| Some(super::joint::Dependency { master: copy_of(law.master)?, ..law }));
         }
         Kind::Dummy(dummy) => dummy.link = dummy.link.and_then(copy_of),
         Kind::Camera(camera) => camera.tracked = camera.tracked.and_then(copy_of),

@@ -167,7 +167,9 @@ impl Part {
         let before = self.pose;
         self.pose.translation.vector = scale * before.translation.vector;
         let back = self.pose.inverse();
-        let map = |vertex: &[f64; 3]| <[f64; 3]>::from((back * Point3::from(scale * (before * Point3::from(*vertex)).coords)).coords);
+        let map = |vertex: &[f64; 3]| {
+            <[f64; 3]>::from((back * Point3::from(scale * (before * Point3::from(*vertex)).coords)).coords)
+        };
         let mesh = Mesh { vertices: self.mesh.vertices.iter().map(map).collect(), ..Mesh::clone(&self.mesh) };
         self.mesh = Rc::new(with_normals(mesh, factors));
         if let Some(primitive) = &mut self.primitive {
