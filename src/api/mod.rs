@@ -25,6 +25,7 @@ mod pose_maths;
 mod property;
 mod ruckig;
 mod scene_file;
+mod script_old;
 mod scripts;
 mod sensors;
 mod shape;
@@ -32,6 +33,7 @@ mod shape_group;
 mod shape_mass;
 mod signal;
 mod simulation;
+mod time;
 mod thread;
 
 use std::collections::HashMap;
@@ -52,6 +54,8 @@ use functions;
 pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Globals", global::FUNCTIONS),
     ("Scripts", scripts::FUNCTIONS),
+    ("Older script functions", script_old::FUNCTIONS),
+    ("Time and chance", time::FUNCTIONS),
     ("Simulation", simulation::FUNCTIONS),
     ("Threads", thread::FUNCTIONS),
     ("Names and paths", alias::FUNCTIONS),

@@ -1,5 +1,294 @@
-//! `sim.*`: numbered parameters of the simulator.
+//! `sim.*`: numbered parameters of the simulator and named parameters of the application.
+//!
+//! Parameters of the user interface are kept and read back, and have no other effect. Numbers nobody knows are refused.
 
-use super::{ApiFn, functions};
+use api_macro::api;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![];
+use super::{ApiFn, Cx, Result, functions};
+use crate::scene::{SceneError, pose};
+use crate::script::{Bytes, Number, PropertyValue, Target, Text, verbosity};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    get_int32_param,
+    set_int32_param,
+    get_bool_param,
+    set_bool_param,
+    get_float_param,
+    set_float_param,
+    get_array_param,
+    set_array_param,
+    get_string_param,
+    set_string_param,
+    get_named_string_param,
+    set_named_string_param,
+    handle_ext_calls,
+];
+
+/// `sim.intparam_*` with a meaning here.
+mod int {
+    pub const PROGRAM_VERSION: i64 = 1;
+    pub const DYNAMIC_ENGINE: i64 = 8;
+    pub const VISIBLE_LAYERS: i64 = 11;
+    pub const EDIT_MODE_TYPE: i64 = 14;
+    pub const PLATFORM: i64 = 19;
+    pub const PROGRAM_REVISION: i64 = 30;
+    pub const PROGRAM_FULL_VERSION: i64 = 39;
+    pub const VERBOSITY: i64 = 40;
+    pub const STATUSBAR_VERBOSITY: i64 = 41;
+    pub const PROCESS_ID: i64 = 52;
+    pub const LAST: i64 = 53;
+}
+
+/// The release whose behaviour scripts meet: 4.10.0 rev. 0.
+const PROGRAM_VERSION: i64 = 41_000;
+
+/// `sim.boolparam_*` with a meaning here, and those that read true.
+mod switch {
+    pub const HANDLING: std::ops::RangeInclusive<i64> = 2..=5;
+    pub const DYNAMICS_HANDLING: i64 = 6;
+    pub const SENSOR_HANDLING: std::ops::RangeInclusive<i64> = 9..=10;
+    pub const REALTIME: i64 = 25;
+    pub const HEADLESS: i64 = 34;
+    pub const EXIT_REQUEST: i64 = 41;
+    pub const CAN_SAVE: i64 = 60;
+    pub const USING_SCRIPT_OBJECTS: i64 = 61;
+    pub const LAST: i64 = 61;
+}
+
+/// `sim.floatparam_*`.
+mod float {
+    pub const RANDOM: i64 = 0;
+    pub const TIME_STEP: i64 = 1;
+    pub const DYNAMIC_STEP: i64 = 3;
+    pub const PHYSICS_STEP: i64 = 5;
+    pub const LAST: i64 = 7;
+}
+
+/// `sim.arrayparam_*`.
+mod array {
+    pub const GRAVITY: i64 = 0;
+    pub const RANDOM_EULER: i64 = 6;
+    pub const LAST: i64 = 8;
+}
+
+/// `sim.stringparam_*`.
+mod string {
+    pub const LAST: i64 = 144;
+}
+
+fn known(number: i64, last: i64) -> Result<i64> {
+    if (0..=last).contains(&number) { Ok(number) } else { Err(SceneError::InvalidArgument.into()) }
+}
+
+/// `sim.platform_*`: 0 Windows, 1 macOS, 2 Linux.
+fn platform() -> i64 {
+    match std::env::consts::OS {
+        "windows" => 0,
+        "macos" => 1,
+        _ => 2,
+    }
+}
+
+/// An integer parameter.
+///
+/// @param parameter sim.intparam_*
+/// @return parameterValue
+#[api("sim.getInt32Param")]
+fn get_int32_param(cx: &Cx, parameter: Number) -> Result<i64> {
+    Ok(match parameter.0 {
+        int::PROGRAM_VERSION => PROGRAM_VERSION,
+        int::PROGRAM_FULL_VERSION => PROGRAM_VERSION * 100,
+        int::PROGRAM_REVISION | int::EDIT_MODE_TYPE => 0,
+        int::PLATFORM => platform(),
+        int::PROCESS_ID => i64::from(std::process::id()),
+        int::DYNAMIC_ENGINE => cx.scene().settings().dynamics.engine[0],
+        int::VISIBLE_LAYERS => cx.scene().settings().visibility_layers,
+        int::VERBOSITY | int::STATUSBAR_VERBOSITY => cx.sim().verbosity.get(),
+        other => {
+            let number = known(other, int::LAST)?;
+            cx.sim().app.borrow().idle_params.integers.get(&number).copied().unwrap_or_default()
+        }
+    })
+}
+
+/// Sets an integer parameter.
+///
+/// @param parameter sim.intparam_*
+/// @param parameterValue the new value
+#[api("sim.setInt32Param")]
+fn set_int32_param(cx: &mut Cx, parameter: Number, parameter_value: Number) -> Result<()> {
+    let value = parameter_value.0;
+    match parameter.0 {
+        int::DYNAMIC_ENGINE => cx.scene_mut().modify_settings(|settings| settings.dynamics.engine[0] = value),
+        int::VISIBLE_LAYERS => cx.scene_mut().modify_settings(|settings| settings.visibility_layers = value & 0xffff),
+        int::VERBOSITY => cx.sim().verbosity.set(value),
+        other => {
+            let number = known(other, int::LAST)?;
+            cx.sim().app.borrow_mut().idle_params.integers.insert(number, value);
+        }
+    }
+    Ok(())
+}
+
+/// A switch.
+///
+/// @param parameter sim.boolparam_*
+/// @return boolState
+#[api("sim.getBoolParam")]
+fn get_bool_param(cx: &Cx, parameter: Number) -> Result<bool> {
+    Ok(match parameter.0 {
+        switch::DYNAMICS_HANDLING => cx.scene().settings().dynamics.enabled,
+        switch::REALTIME => cx.scene().settings().real_time,
+        switch::EXIT_REQUEST => cx.sim().quit.get(),
+        switch::HEADLESS | switch::USING_SCRIPT_OBJECTS | switch::CAN_SAVE => true,
+        other => {
+            let number = known(other, switch::LAST)?;
+            let initially = switch::HANDLING.contains(&number) || switch::SENSOR_HANDLING.contains(&number);
+            cx.sim().app.borrow().idle_params.bools.get(&number).copied().unwrap_or(initially)
+        }
+    })
+}
+
+/// Turns a switch on or off.
+///
+/// @param parameter sim.boolparam_*
+/// @param boolState the new state
+#[api("sim.setBoolParam")]
+fn set_bool_param(cx: &mut Cx, parameter: Number, bool_state: bool) -> Result<()> {
+    match parameter.0 {
+        switch::DYNAMICS_HANDLING => {
+            cx.scene_mut().modify_settings(|settings| settings.dynamics.enabled = bool_state);
+        }
+        switch::REALTIME => cx.sim().set_real_time(bool_state),
+        switch::EXIT_REQUEST => cx.sim().quit.set(bool_state),
+        other => {
+            let number = known(other, switch::LAST)?;
+            cx.sim().app.borrow_mut().idle_params.bools.insert(number, bool_state);
+        }
+    }
+    Ok(())
+}
+
+/// A float parameter.
+///
+/// @param parameter sim.floatparam_*
+/// @return parameterValue
+#[api("sim.getFloatParam")]
+fn get_float_param(cx: &Cx, parameter: Number) -> Result<f64> {
+    Ok(match parameter.0 {
+        float::RANDOM => cx.env().random.borrow_mut().next(),
+        float::TIME_STEP => cx.scene().settings().time_step,
+        float::DYNAMIC_STEP | float::PHYSICS_STEP => cx.scene().settings().dynamics.step,
+        other => {
+            let number = known(other, float::LAST)?;
+            cx.sim().app.borrow().idle_params.floats.get(&number).copied().unwrap_or_default()
+        }
+    })
+}
+
+/// Sets a float parameter. Time steps change only while the simulation is stopped.
+///
+/// @param parameter sim.floatparam_*
+/// @param parameterValue the new value
+#[api("sim.setFloatParam")]
+fn set_float_param(cx: &mut Cx, parameter: Number, parameter_value: f64) -> Result<()> {
+    match parameter.0 {
+        float::TIME_STEP => cx.sim().set_time_step(parameter_value),
+        float::DYNAMIC_STEP | float::PHYSICS_STEP => cx.sim().set_physics_step(parameter_value),
+        other => {
+            let number = known(other, float::LAST)?;
+            cx.sim().app.borrow_mut().idle_params.floats.insert(number, parameter_value);
+        }
+    }
+    Ok(())
+}
+
+/// A parameter of three numbers.
+///
+/// @param parameter sim.arrayparam_*
+/// @return parameterValues
+#[api("sim.getArrayParam")]
+fn get_array_param(cx: &Cx, parameter: Number) -> Result<[f64; 3]> {
+    Ok(match parameter.0 {
+        array::GRAVITY => cx.scene().settings().dynamics.gravity.map(f64::from),
+        array::RANDOM_EULER => pose::rotation_to_euler(&cx.env().random.borrow_mut().rotation()),
+        other => {
+            let number = known(other, array::LAST)?;
+            cx.sim().app.borrow().idle_params.arrays.get(&number).copied().unwrap_or_default()
+        }
+    })
+}
+
+/// Sets a parameter of three numbers.
+///
+/// @param parameter sim.arrayparam_*
+/// @param parameterValues the new values
+#[api("sim.setArrayParam")]
+fn set_array_param(cx: &mut Cx, parameter: Number, parameter_values: [f64; 3]) -> Result<()> {
+    match parameter.0 {
+        array::GRAVITY => {
+            let gravity = parameter_values.map(|value| value as f32);
+            cx.scene_mut().modify_settings(|settings| settings.dynamics.gravity = gravity);
+        }
+        other => {
+            let number = known(other, array::LAST)?;
+            cx.sim().app.borrow_mut().idle_params.arrays.insert(number, parameter_values);
+        }
+    }
+    Ok(())
+}
+
+/// The levels of the log that may be set by name.
+const VERBOSITIES: std::ops::RangeInclusive<i64> = 121..=122;
+
+/// A string parameter; empty where Swanilda has nothing to tell.
+///
+/// @param parameter sim.stringparam_*
+/// @return parameterValue
+#[api("sim.getStringParam")]
+fn get_string_param(cx: &Cx, parameter: Number) -> Result<Text> {
+    let number = known(parameter.0, string::LAST)?;
+    Ok(Text(cx.sim().app.borrow().idle_params.texts.get(&number).cloned().unwrap_or_default()))
+}
+
+/// Sets a string parameter.
+///
+/// @param parameter sim.stringparam_*
+/// @param parameterValue the new value
+#[api("sim.setStringParam")]
+fn set_string_param(cx: &mut Cx, parameter: Number, parameter_value: Bytes) -> Result<()> {
+    let number = known(parameter.0, string::LAST)?;
+    if VERBOSITIES.contains(&number) {
+        let name = String::from_utf8_lossy(&parameter_value.0).into_owned();
+        let level = verbosity::from_name(&name).ok_or(SceneError::InvalidArgument)?;
+        cx.sim().verbosity.set(level);
+    }
+    cx.sim().app.borrow_mut().idle_params.texts.insert(number, parameter_value.0);
+    Ok(())
+}
+
+/// A named parameter: from the command line, or set by a script.
+///
+/// @param paramName its name
+/// @return stringParam nothing if there is none
+#[api("sim.getNamedStringParam")]
+fn get_named_string_param(cx: &Cx, param_name: String) -> Result<Option<Text>> {
+    let value = cx.sim().read_property(&Target::App, &format!("namedParam.{param_name}"), Text::TYPE);
+    Ok(value.ok().and_then(Text::from_data))
+}
+
+/// Sets a named parameter.
+///
+/// @param paramName its name
+/// @param stringParam the new value
+#[api("sim.setNamedStringParam")]
+fn set_named_string_param(cx: &mut Cx, param_name: String, string_param: Text) -> Result<()> {
+    let value = (Text::TYPE, string_param.into_data());
+    cx.sim().write_property(&Target::App, &format!("namedParam.{param_name}"), value, cx.script())
+}
+
+/// Lets plugins of the original handle what came from outside. There are none; main scripts call it all the same.
+#[api("sim.handleExtCalls")]
+fn handle_ext_calls(cx: &mut Cx) -> Result<()> {
+    super::simulation::main_script_only(cx)
+}

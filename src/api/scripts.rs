@@ -6,10 +6,18 @@ use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::script_object::{ScriptObject, ScriptType};
-use crate::scene::{Data, Handle, Kind, special};
-use crate::script::{Bytes, Rest, Results, Script};
+use crate::scene::{Data, Handle, Kind, SceneError, special};
+use crate::script::{Bytes, Number, Rest, Results, Script};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![create_script, call_script_function, init_script];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    create_script,
+    remove_script,
+    init_script,
+    get_script,
+    call_script_function,
+    execute_script_string,
+    broadcast_msg,
+];
 
 /// Creates a script object as the last root, named `script`.
 ///
@@ -34,28 +42,21 @@ fn create_script(
     Ok(handle)
 }
 
+/// Removes a script object.
+///
+/// @param scriptHandle the script
+#[api("sim.removeScript")]
+fn remove_script(cx: &mut Cx, script_handle: Number) -> Result<()> {
+    let handle = script_of(cx, script_handle.0)?.object.ok_or(ApiError::NoSuchScript)?;
+    Rc::clone(cx.sim()).remove_objects(&[handle])
+}
+
 /// The script a number means: a handle, or the caller itself.
-fn script_of(cx: &Cx, raw: i64) -> Result<Rc<Script>> {
+pub(super) fn script_of(cx: &Cx, raw: i64) -> Result<Rc<Script>> {
     match raw {
         special::SELF => Ok(Rc::clone(cx.script())),
         _ => cx.sim().script(raw).ok_or(ApiError::NoSuchScript),
     }
-}
-
-/// Calls a function of another script (or of this one, by sim.handle_self).
-///
-/// @param functionName name of a global function; dots walk through tables
-/// @param scriptHandle the script
-/// @return ... what the function returned
-#[api("sim.callScriptFunction")]
-fn call_script_function(cx: &mut Cx, function_name: Bytes, script_handle: i64, arguments: Rest) -> Result<Results> {
-    let script = script_of(cx, script_handle)?;
-    let name = String::from_utf8_lossy(&function_name.0).into_owned();
-    let mut results = Rc::clone(cx.sim()).call_function(&script, &name, &arguments.0)?;
-    if results.is_empty() {
-        results.push(Data::Nil);
-    }
-    Ok(Results(results))
 }
 
 /// Ends a script and starts it anew at once.
@@ -65,5 +66,105 @@ fn call_script_function(cx: &mut Cx, function_name: Bytes, script_handle: i64, a
 fn init_script(cx: &mut Cx, script_handle: i64) -> Result<()> {
     let script = script_of(cx, script_handle)?;
     Rc::clone(cx.sim()).init_script(&script);
+    Ok(())
+}
+
+/// Handle of a script.
+///
+/// @param scriptType sim.scripttype_*, or sim.handle_self
+/// @param scriptName the object the script belongs to, by path or handle; the display name of an add-on
+/// @return scriptHandle -1 if the object has no such script
+#[api("sim.getScript")]
+fn get_script(cx: &Cx, script_type: i64, #[default(Data::Nil)] script_name: Data, names: Rest) -> Result<i64> {
+    if script_type == special::SELF {
+        return Ok(cx.script().id);
+    }
+    let script_type = ScriptType::from_number(script_type).ok_or(ApiError::NoSuchScript)?;
+    match script_name {
+        Data::Int(raw) if raw >= 0 => {
+            let object = Handle::from_raw(raw).filter(|&handle| cx.scene().exists(handle));
+            let object = object.ok_or(SceneError::NoSuchObject)?;
+            Ok(cx.sim().script_attached_to(object, script_type).map_or(special::WORLD, Handle::raw))
+        }
+        Data::Text(name) => cx.sim().script_by_name(script_type, &String::from_utf8_lossy(&name)),
+        _ => match names.0.first() {
+            Some(Data::Text(name)) => cx.sim().script_by_name(script_type, &String::from_utf8_lossy(name)),
+            _ => cx.sim().script_by_name(script_type, ""),
+        },
+    }
+}
+
+/// Calls a function of another script (or of this one, by sim.handle_self).
+///
+/// The first two arguments may come in either order. `function@name` calls a function of the script of type `scriptHandle` that
+/// belongs to the object of that path, or of the add-on of that name.
+///
+/// @param functionName name of a global function; dots walk through tables
+/// @param scriptHandle the script, or a type (sim.scripttype_*) together with a name
+/// @return ... what the function returned
+#[api("sim.callScriptFunction")]
+fn call_script_function(cx: &mut Cx, function_name: Callee, script_handle: Callee, arguments: Rest) -> Result<Results> {
+    let (name, raw) = match (function_name.0, script_handle.0) {
+        (Data::Int(raw), Data::Text(name)) | (Data::Text(name) | Data::Buffer(name), Data::Int(raw)) => (name, raw),
+        (Data::Text(_) | Data::Buffer(_), _) => return Err(ApiError::NotA { position: 2, expected: "integer" }),
+        _ => return Err(ApiError::NotA { position: 1, expected: "string/buffer" }),
+    };
+    let name = String::from_utf8_lossy(&name).into_owned();
+    let (function, place) = match name.split_once('@') {
+        Some((function, place)) => (function, Some(place)),
+        None => (name.as_str(), None),
+    };
+    let script = if raw == special::SELF { script_of(cx, raw)? } else { cx.sim().script_for_call(raw, place)? };
+    let mut results = Rc::clone(cx.sim()).call_function(&script, function, &arguments.0)?;
+    if results.is_empty() {
+        results.push(Data::Nil);
+    }
+    Ok(Results(results))
+}
+
+/// One of the two leading arguments of a call: a name or a handle.
+struct Callee(Data);
+
+impl super::FromScript for Callee {
+    const TYPE: &'static str = "string/int";
+
+    fn from_script(args: &super::Args<'_>) -> Result<Self> {
+        Data::from_script(args).map(Self)
+    }
+}
+
+/// Runs a string in a script: as an expression if it is one, else as a chunk.
+///
+/// @param stringToExecute the code; from the last `@` on it is the name of a language, not code
+/// @param scriptHandle the script
+/// @return ... 0, then what the code gave, or an empty table if nothing
+#[api("sim.executeScriptString")]
+fn execute_script_string(cx: &mut Cx, string_to_execute: Bytes, script_handle: i64) -> Result<Results> {
+    let script = script_of(cx, script_handle)?;
+    let code = match string_to_execute.0.iter().rposition(|&byte| byte == b'@') {
+        Some(at) => &string_to_execute.0[..at],
+        None => &string_to_execute.0[..],
+    };
+    let mut results = Rc::clone(cx.sim()).execute_string(&script, code)?;
+    if results.is_empty() {
+        results.push(Data::Array(Vec::new()));
+    }
+    results.insert(0, Data::Int(0));
+    Ok(Results(results))
+}
+
+/// Sends a message to all other scripts: their `sysCall_msg` gets it, the options if there are any, and the sender's handle.
+///
+/// @param message a table; by convention with `id` and `data`
+#[api("sim.broadcastMsg")]
+fn broadcast_msg(cx: &mut Cx, message: Data, options: Rest) -> Result<()> {
+    if !matches!(message, Data::Array(_) | Data::Map(_)) {
+        return Err(ApiError::ArgumentType);
+    }
+    let sender = cx.script().id;
+    let mut arguments = vec![message];
+    arguments.extend(options.0);
+    arguments.push(Data::Int(sender));
+    Rc::clone(cx.sim()).broadcast_message(sender, &arguments);
     Ok(())
 }

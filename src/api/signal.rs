@@ -1,5 +1,122 @@
-//! `sim.*`: signals.
+//! `sim.*`: the old signals: values of the whole scene in four kinds that do not see each other.
+//!
+//! They are signal properties of the scene under names of their own, so they have owners as those do.
 
-use super::{ApiFn, functions};
+use api_macro::api;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![];
+use super::{ApiFn, Cx, Result, functions};
+use crate::scene::{Namespace, ValueType};
+use crate::script::{Bytes, Number, PropertyValue, Target, Text};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    set_int32_signal,
+    get_int32_signal,
+    clear_int32_signal,
+    set_float_signal,
+    get_float_signal,
+    clear_float_signal,
+    set_double_signal,
+    get_double_signal,
+    clear_double_signal,
+    set_string_signal,
+    get_string_signal,
+    clear_string_signal,
+    get_signal_name,
+];
+
+/// Where each kind is kept, by the number `sim.getSignalName` has for it.
+const KINDS: [&str; 4] = ["ILEGACY.", "FLEGACY.", "SLEGACY.", "DLEGACY."];
+const INT32: &str = KINDS[0];
+const FLOAT: &str = KINDS[1];
+const STRING: &str = KINDS[2];
+const DOUBLE: &str = KINDS[3];
+
+fn set<T: PropertyValue>(cx: &Cx, kind: &str, name: &str, value: T) -> i64 {
+    let name = format!("signal.{kind}{name}");
+    // A name with illegal characters stores nothing, and nobody is told: so it is in CoppeliaSim.
+    let _ = cx.sim().write_property(&Target::Scene, &name, (T::TYPE, value.into_data()), cx.script());
+    1
+}
+
+fn get<T: PropertyValue>(cx: &Cx, kind: &str, name: &str) -> Option<T> {
+    let data = cx.sim().read_property(&Target::Scene, &format!("signal.{kind}{name}"), T::TYPE).ok()?;
+    T::from_data(data)
+}
+
+/// Removes one signal of a kind, or all of them; returns how many there were.
+fn clear(cx: &Cx, kind: &str, name: Option<&str>) -> i64 {
+    let names = match name {
+        Some(name) => vec![name.to_owned()],
+        None => names_of(cx, kind),
+    };
+    let removed = names.iter().map(|name| cx.sim().remove_property(&Target::Scene, &format!("signal.{kind}{name}")));
+    removed.filter(Result::is_ok).count() as i64
+}
+
+/// Names of the signals of a kind in alphabetical order.
+fn names_of(cx: &Cx, kind: &str) -> Vec<String> {
+    let scene = cx.scene();
+    let Ok(signals) = scene.named_values(None, Namespace::Signal) else { return Vec::new() };
+    let names = signals.tags().filter_map(|tag| ValueType::split_tag(tag).1.strip_prefix(kind));
+    let mut names: Vec<String> = names.map(str::to_owned).collect();
+    names.sort();
+    names
+}
+
+/// The functions of one kind: the type they take, the type they give, and how one becomes the other and what is stored.
+macro_rules! signals {
+    ($($kind:ident: $set:ident $set_name:tt, $get:ident $get_name:tt, $clear:ident $clear_name:tt,
+        $taken:ty, $given:ty, |$v:ident| $store:expr, |$s:pat_param| $load:expr;)*) => { $(
+        /// Sets a signal.
+        ///
+        /// @param signalName letters, digits, `_` and `.`
+        /// @param signalValue the new value
+        /// @return result 1
+        #[api($set_name)]
+        fn $set(cx: &mut Cx, signal_name: String, signal_value: $taken) -> Result<i64> {
+            let $v = signal_value;
+            Ok(set(cx, $kind, &signal_name, $store))
+        }
+
+        /// Value of a signal; nothing when there is none of that name.
+        ///
+        /// @param signalName its name
+        /// @return signalValue
+        #[api($get_name)]
+        fn $get(cx: &Cx, signal_name: String) -> Result<Option<$given>> {
+            Ok(get(cx, $kind, &signal_name).map(|$s| $load))
+        }
+
+        /// Removes a signal.
+        ///
+        /// @param signalName its name; without it, all of this kind are removed
+        /// @return count how many there were
+        #[api($clear_name)]
+        fn $clear(cx: &mut Cx, #[default(None)] signal_name: Option<String>) -> Result<i64> {
+            Ok(clear(cx, $kind, signal_name.as_deref()))
+        }
+    )* };
+}
+
+signals! {
+    INT32: set_int32_signal "sim.setInt32Signal", get_int32_signal "sim.getInt32Signal",
+        clear_int32_signal "sim.clearInt32Signal", Number, i64, |v| v.0, |s| s;
+    FLOAT: set_float_signal "sim.setFloatSignal", get_float_signal "sim.getFloatSignal",
+        clear_float_signal "sim.clearFloatSignal", f64, f64, |v| v, |s| s;
+    DOUBLE: set_double_signal "sim.setDoubleSignal", get_double_signal "sim.getDoubleSignal",
+        clear_double_signal "sim.clearDoubleSignal", f64, f64, |v| v, |s| s;
+    STRING: set_string_signal "sim.setStringSignal", get_string_signal "sim.getStringSignal",
+        clear_string_signal "sim.clearStringSignal", Bytes, Text, |v| v, |Bytes(s)| Text(s);
+}
+
+/// Names of the signals one by one; nothing past the last one.
+///
+/// @param signalIndex from 0, in alphabetical order
+/// @param signalType 0 int32, 1 float, 2 string, 3 double
+/// @return signalName
+#[api("sim.getSignalName")]
+fn get_signal_name(cx: &Cx, signal_index: Number, signal_type: Number) -> Result<Option<String>> {
+    let kind = usize::try_from(signal_type.0).ok().and_then(|at| KINDS.get(at));
+    let (Some(kind), Ok(index)) = (kind, usize::try_from(signal_index.0)) else { return Ok(None) };
+    Ok(names_of(cx, kind).into_iter().nth(index))
+}

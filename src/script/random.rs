@@ -1,5 +1,8 @@
 //! Random numbers of scripts: one generator per Lua state, seeded alike at each start.
 
+use std::f64::consts::TAU;
+
+use nalgebra::{Quaternion, UnitQuaternion};
 use rand_mt::Mt;
 
 /// The Mersenne twister behind `sim.getRandom`: 32 bits per number, so that the sequences are those scripts know.
@@ -15,9 +18,21 @@ impl Random {
         Self { generator: Mt::new(seed) }
     }
 
+    /// Begins another sequence.
+    pub(crate) fn restart(&mut self, seed: u32) {
+        *self = Self::new(seed);
+    }
+
     /// The next number in [0, 1).
     pub(crate) fn next(&mut self) -> f64 {
         f64::from(self.generator.next_u32()) / 4_294_967_296.0
+    }
+
+    /// A rotation, all being equally likely (K. Shoemake, Uniform random rotations, Graphics Gems III).
+    pub(crate) fn rotation(&mut self) -> UnitQuaternion<f64> {
+        let (share, first, second) = (self.next(), TAU * self.next(), TAU * self.next());
+        let (a, b) = ((1.0 - share).sqrt(), share.sqrt());
+        UnitQuaternion::new_normalize(Quaternion::new(b * second.cos(), a * first.sin(), a * first.cos(), b * second.sin()))
     }
 }
 

@@ -12,6 +12,18 @@ pub(crate) struct AppData {
     pub signals: CustomData,
     /// Parameters of the command line, and what scripts added.
     pub named_params: BTreeMap<String, Vec<u8>>,
+    /// Numbered switches, numbers and texts that have no effect here, as scripts set them.
+    pub idle_params: IdleParams,
+}
+
+/// Parameters of the user interface and the like, by number.
+#[derive(Default)]
+pub(crate) struct IdleParams {
+    pub bools: BTreeMap<i64, bool>,
+    pub integers: BTreeMap<i64, i64>,
+    pub floats: BTreeMap<i64, f64>,
+    pub arrays: BTreeMap<i64, [f64; 3]>,
+    pub texts: BTreeMap<i64, Vec<u8>>,
 }
 
 impl AppData {

@@ -18,6 +18,16 @@ impl Sim {
         }
     }
 
+    /// Sets the wished sub-step of the physics, seconds; at most the simulation step. Without effect while the simulation is not
+    /// stopped.
+    pub(crate) fn set_physics_step(&self, step: f64) {
+        if self.is_stopped() && !step.is_nan() {
+            self.scene.borrow_mut().modify_settings(|settings| {
+                settings.dynamics.step = step.clamp(0.00001, settings.time_step.max(0.00001));
+            });
+        }
+    }
+
     /// Turns real-time mode on or off. Without effect while the simulation is not stopped.
     pub(crate) fn set_real_time(&self, on: bool) {
         if self.is_stopped() {
@@ -58,6 +68,10 @@ pub(super) const ENVIRONMENT: &[Accessor] = settings! {
     "acknowledgment": String, |s| s.acknowledgment.clone(), |s, text| s.acknowledgment = text;
 };
 
+pub(super) const PHYSICS_STEP: &[Accessor] = subject_properties! {
+    "dynamicsStepSize": f64, |s| s.sim.scene.borrow().settings().dynamics.step, |s, step| s.sim.set_physics_step(step);
+};
+
 pub(super) const CONTAINER: &[Accessor] = subject_properties! {
     "objectHandles": Vec<i64>, |s| s.sim.scene.borrow().objects().map(|object| object.handle().raw()).collect();
     "orphanHandles": Vec<i64>, |s| raw(s.sim.scene.borrow().roots());
@@ -73,9 +87,6 @@ pub(super) const DYNAMICS: &[Accessor] = settings! {
     "showContactPoints": bool, |s| s.dynamics.show_contact_points, |s, on| s.dynamics.show_contact_points = on;
     "dynamicsEngine": Vec<i64>, |s| s.dynamics.engine.to_vec(), |s, engine| if let [kind, version, ..] = engine[..] {
         s.dynamics.engine = [kind, version];
-    };
-    "dynamicsStepSize": f64, |s| s.dynamics.step, |s, step| if !step.is_nan() {
-        s.dynamics.step = step.clamp(0.0001, 1.0);
     };
     "gravity": Vector3, |s| Vector3(Color::from_f32(s.dynamics.gravity).0),
         |s, gravity| s.dynamics.gravity = gravity.0.map(|g| g as f32);

@@ -68,6 +68,32 @@ impl Sim {
         Ok(self.scene.borrow_mut().change_named_values(holder.in_scene(), namespace, change)?)
     }
 
+    /// Reads custom data or signals as a whole.
+    ///
+    /// # Errors
+    /// When the target has none or is gone.
+    pub(crate) fn with_named_values<R>(
+        &self,
+        target: &Target,
+        namespace: Namespace,
+        read: impl FnOnce(&CustomData) -> R,
+    ) -> ApiResult<R> {
+        self.with_stored(target.holder().ok_or(ApiError::NoSuchTarget)?, namespace, read)
+    }
+
+    /// Changes custom data or signals as a whole; `change` tells whether it did anything.
+    ///
+    /// # Errors
+    /// When the target has none or is gone.
+    pub(crate) fn change_named_values(
+        &self,
+        target: &Target,
+        namespace: Namespace,
+        change: impl FnOnce(&mut CustomData) -> bool,
+    ) -> ApiResult<bool> {
+        self.change_stored(target.holder().ok_or(ApiError::NoSuchTarget)?, namespace, change)
+    }
+
     pub(super) fn read_stored(
         &self,
         target: &Target,
@@ -75,6 +101,10 @@ impl Sim {
         name: &str,
         ty: ValueType,
     ) -> ApiResult<Data> {
+        // Tags of raw custom data may have other characters; they are no properties then.
+        if !is_valid_name(name) {
+            return Err(ApiError::UnknownProperty);
+        }
         let holder = target.holder().ok_or(ApiError::UnknownProperty)?;
         self.with_stored(holder, namespace, |values| match values.typed(name) {
             None => Err(ApiError::UnknownProperty),

@@ -79,6 +79,7 @@ fn accessors() -> Accessors {
         ("environment", scene::ENVIRONMENT),
         ("container", scene::CONTAINER),
         ("dynamics", scene::DYNAMICS),
+        ("dynamics", scene::PHYSICS_STEP),
         ("object", object::OWN),
         ("object", object::PLACED),
         ("object", object::FLAGS),

@@ -1,0 +1,241 @@
+//! `sim.*`: older ways to find scripts and to read and write what is a property of theirs today.
+
+use std::rc::Rc;
+
+use api_macro::api;
+
+use super::scripts::script_of;
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::script_object::ScriptType;
+use crate::scene::{Data, Handle, SceneError, ValueType, special};
+use crate::script::{Bytes, Number, Script, Target};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    get_object_associated_with_script,
+    get_script_associated_with_object,
+    get_customization_script_associated_with_object,
+    get_script_handle,
+    get_script_name,
+    get_script_attribute,
+    set_script_attribute,
+    get_script_int32_param,
+    set_script_int32_param,
+    get_script_string_param,
+    set_script_string_param,
+    set_script_text,
+];
+
+/// What a numbered attribute or parameter of scripts is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Attribute {
+    Priority,
+    Type,
+    Handle,
+    Enabled,
+    Object,
+    RestartOnError,
+    Text,
+    Name,
+    Language,
+}
+
+impl Attribute {
+    /// `sim.scriptattribute_*`, `sim.scriptintparam_*`, `sim.scriptstringparam_*`.
+    fn from_number(number: i64) -> Result<Self> {
+        Ok(match number {
+            1 | 10100 => Self::Priority,
+            7 | 10102 => Self::Type,
+            8 | 10103 => Self::Handle,
+            4 | 10104 => Self::Enabled,
+            10105 => Self::Object,
+            10107 => Self::RestartOnError,
+            10109 => Self::Name,
+            10110 => Self::Text,
+            10112 => Self::Language,
+            _ => return Err(ApiError::Other("invalid parameter.".into())),
+        })
+    }
+
+    /// The property it is today.
+    fn property(self) -> Option<(&'static str, ValueType)> {
+        Some(match self {
+            Self::Priority => ("execPriority", ValueType::Int),
+            Self::Type => ("scriptType", ValueType::Int),
+            Self::RestartOnError => ("restartOnError", ValueType::Bool),
+            Self::Text => ("code", ValueType::String),
+            Self::Name => ("scriptName", ValueType::String),
+            Self::Language => ("language", ValueType::String),
+            Self::Enabled => ("scriptDisabled", ValueType::Bool),
+            Self::Handle | Self::Object => return None,
+        })
+    }
+}
+
+fn target_of(script: &Rc<Script>) -> Target {
+    script.object.map_or_else(|| Target::Script(Rc::clone(script)), Target::Object)
+}
+
+fn read(cx: &Cx, script: &Rc<Script>, attribute: Attribute) -> Result<Data> {
+    let Some((name, ty)) = attribute.property() else {
+        let handle = if attribute == Attribute::Handle { Some(script.id) } else { script.object.map(Handle::raw) };
+        return Ok(Data::Int(handle.unwrap_or(special::WORLD)));
+    };
+    let value = cx.sim().read_property(&target_of(script), name, ty)?;
+    Ok(if attribute == Attribute::Enabled { Data::Bool(!value.truthy()) } else { value })
+}
+
+fn write(cx: &Cx, script: &Rc<Script>, attribute: Attribute, value: Data) -> Result<()> {
+    let (name, ty) = attribute.property().ok_or(ApiError::PropertyNotWritable)?;
+    let truth = match value {
+        Data::Int(number) => number != 0,
+        ref other => other.truthy(),
+    };
+    let value = match (attribute, value) {
+        (Attribute::Enabled, _) => Data::Bool(!truth),
+        (Attribute::RestartOnError, _) => Data::Bool(truth),
+        (_, Data::Float(number)) => Data::Int(number as i64),
+        (_, value) => value,
+    };
+    cx.sim().write_property(&target_of(script), name, (ty, value), cx.script())
+}
+
+fn object(cx: &Cx, raw: i64) -> Result<Handle> {
+    let handle = Handle::from_raw(raw).filter(|&handle| cx.scene().exists(handle));
+    Ok(handle.ok_or(SceneError::NoSuchObject)?)
+}
+
+/// The object of a script object: itself.
+///
+/// @param scriptHandle the script
+/// @return objectHandle -1 for the main script, the sandbox and add-ons
+#[api("sim.getObjectAssociatedWithScript")]
+fn get_object_associated_with_script(cx: &Cx, script_handle: Number) -> Result<i64> {
+    Ok(script_of(cx, script_handle.0)?.object.map_or(special::WORLD, Handle::raw))
+}
+
+/// The simulation script of an object.
+///
+/// @param objectHandle the object
+/// @return scriptHandle -1 if there is none
+#[api("sim.getScriptAssociatedWithObject")]
+fn get_script_associated_with_object(cx: &Cx, object_handle: Number) -> Result<i64> {
+    let object = object(cx, object_handle.0)?;
+    Ok(cx.sim().script_attached_to(object, ScriptType::Simulation).map_or(special::WORLD, Handle::raw))
+}
+
+/// The customization script of an object.
+///
+/// @param objectHandle the object
+/// @return scriptHandle -1 if there is none
+#[api("sim.getCustomizationScriptAssociatedWithObject")]
+fn get_customization_script_associated_with_object(cx: &Cx, object_handle: Number) -> Result<i64> {
+    let object = object(cx, object_handle.0)?;
+    Ok(cx.sim().script_attached_to(object, ScriptType::Customization).map_or(special::WORLD, Handle::raw))
+}
+
+/// Handle of a script.
+///
+/// @param scriptType sim.scripttype_*, or sim.handle_self
+/// @param scriptName path of the object the script belongs to, or the display name of an add-on
+/// @param objectHandle the object the script belongs to
+/// @return scriptHandle
+#[api("sim.getScriptHandle")]
+fn get_script_handle(
+    cx: &Cx,
+    script_type: i64,
+    #[default("")] script_name: String,
+    #[default(special::WORLD)] object_handle: Number,
+) -> Result<i64> {
+    if script_type == special::SELF {
+        return Ok(cx.script().id);
+    }
+    let script_type = ScriptType::from_number(script_type).ok_or(ApiError::NoSuchScript)?;
+    if object_handle.0 == special::WORLD {
+        return cx.sim().script_by_name(script_type, &script_name);
+    }
+    let object = object(cx, object_handle.0)?;
+    Ok(cx.sim().script_attached_to(object, script_type).map_or(special::WORLD, Handle::raw))
+}
+
+/// Name of a script.
+///
+/// @param scriptHandle the script
+/// @return scriptName
+#[api("sim.getScriptName")]
+fn get_script_name(cx: &Cx, script_handle: Number) -> Result<Data> {
+    read(cx, &script_of(cx, script_handle.0)?, Attribute::Name)
+}
+
+/// An attribute of a script.
+///
+/// @param scriptHandle the script
+/// @param attributeID sim.scriptattribute_*
+/// @return attribute
+#[api("sim.getScriptAttribute")]
+fn get_script_attribute(cx: &Cx, script_handle: Number, attribute_id: Number) -> Result<Data> {
+    read(cx, &script_of(cx, script_handle.0)?, Attribute::from_number(attribute_id.0)?)
+}
+
+/// Sets an attribute of a script.
+///
+/// @param scriptHandle the script
+/// @param attributeID sim.scriptattribute_*
+/// @param attribute the new value
+#[api("sim.setScriptAttribute")]
+fn set_script_attribute(cx: &mut Cx, script_handle: Number, attribute_id: Number, attribute: Data) -> Result<()> {
+    write(cx, &script_of(cx, script_handle.0)?, Attribute::from_number(attribute_id.0)?, attribute)
+}
+
+/// An integer parameter of a script.
+///
+/// @param scriptHandle the script
+/// @param parameterID sim.scriptintparam_*
+/// @return parameter
+#[api("sim.getScriptInt32Param")]
+fn get_script_int32_param(cx: &Cx, script_handle: Number, parameter_id: Number) -> Result<i64> {
+    match read(cx, &script_of(cx, script_handle.0)?, Attribute::from_number(parameter_id.0)?)? {
+        Data::Int(value) => Ok(value),
+        value => Ok(i64::from(value.truthy())),
+    }
+}
+
+/// Sets an integer parameter of a script.
+///
+/// @param scriptHandle the script
+/// @param parameterID sim.scriptintparam_*
+/// @param parameter the new value
+#[api("sim.setScriptInt32Param")]
+fn set_script_int32_param(cx: &mut Cx, script_handle: Number, parameter_id: Number, parameter: Number) -> Result<()> {
+    let attribute = Attribute::from_number(parameter_id.0)?;
+    write(cx, &script_of(cx, script_handle.0)?, attribute, Data::Int(parameter.0))
+}
+
+/// A string parameter of a script.
+///
+/// @param scriptHandle the script
+/// @param parameterID sim.scriptstringparam_*
+/// @return parameter
+#[api("sim.getScriptStringParam")]
+fn get_script_string_param(cx: &Cx, script_handle: Number, parameter_id: Number) -> Result<Data> {
+    read(cx, &script_of(cx, script_handle.0)?, Attribute::from_number(parameter_id.0)?)
+}
+
+/// Sets a string parameter of a script.
+///
+/// @param scriptHandle the script
+/// @param parameterID sim.scriptstringparam_*
+/// @param parameter the new value
+#[api("sim.setScriptStringParam")]
+fn set_script_string_param(cx: &mut Cx, script_handle: Number, parameter_id: Number, parameter: Bytes) -> Result<()> {
+    let attribute = Attribute::from_number(parameter_id.0)?;
+    write(cx, &script_of(cx, script_handle.0)?, attribute, Data::Text(parameter.0))
+}
+
+/// Replaces the code of a script. A running script keeps executing the old one.
+///
+/// @param scriptHandle the script
+/// @param scriptText the new code
+#[api("sim.setScriptText")]
+fn set_script_text(cx: &mut Cx, script_handle: Number, script_text: Bytes) -> Result<()> {
+    write(cx, &script_of(cx, script_handle.0)?, Attribute::Text, Data::Text(script_text.0))
+}

@@ -1,0 +1,56 @@
+//! `sim.*`: the wall clock, random numbers, and where a script is.
+
+use api_macro::api;
+
+use super::scripts::script_of;
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::special;
+use crate::script::Number;
+
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![get_system_time, get_system_time_in_ms, get_random, get_stack_traceback];
+
+/// Time by the wall clock, from a moment before the simulator started.
+///
+/// @return systemTime seconds
+#[api("sim.getSystemTime")]
+fn get_system_time(cx: &Cx) -> Result<f64> {
+    Ok(cx.sim().wall_seconds())
+}
+
+/// Time by the wall clock in milliseconds.
+///
+/// @param previousTime what an earlier call returned: the difference is returned; negative: the time itself
+/// @return systemTimeOrTimeDiff
+#[api("sim.getSystemTimeInMs")]
+fn get_system_time_in_ms(cx: &Cx, previous_time: Number) -> Result<i64> {
+    let now = (cx.sim().wall_seconds() * 1000.0) as i64;
+    Ok(if previous_time.0 < 0 { now } else { now.saturating_sub(previous_time.0) })
+}
+
+/// A random number of this script's own sequence, which begins anew with each start of the script.
+///
+/// @param seed begins another sequence
+/// @return randomValue 0 to 1, 1 excluded
+#[api("sim.getRandom")]
+fn get_random(cx: &mut Cx, #[default(None)] seed: Option<Number>) -> Result<f64> {
+    let mut random = cx.env().random.borrow_mut();
+    if let Some(Number(seed)) = seed {
+        random.restart(seed as u32);
+    }
+    Ok(random.next())
+}
+
+/// Lua's stack traceback of a script that is running now.
+///
+/// @param scriptHandle the script
+/// @return stackTraceback
+#[api("sim.getStackTraceback")]
+fn get_stack_traceback(cx: &Cx, #[default(special::SELF)] script_handle: Number) -> Result<String> {
+    let script = script_of(cx, script_handle.0)?;
+    if script.id == cx.script().id {
+        return Ok(cx.stack().traceback());
+    }
+    let runtime = script.current_runtime().ok_or(ApiError::ScriptNotInitialized)?;
+    Ok(runtime.stack().traceback())
+}

@@ -1,0 +1,61 @@
+//! Finding scripts by type and by the object they belong to (SPEC-4 4.2).
+
+use std::rc::Rc;
+
+use super::error::{ApiError, ApiResult};
+use super::order::attached_scripts;
+use super::script::Script;
+use super::sim::Sim;
+use crate::scene::Handle;
+use crate::scene::script_object::ScriptType;
+
+impl Sim {
+    /// The script of that type attached to an object: the first of its children by priority, else the object itself.
+    pub(crate) fn script_attached_to(&self, object: Handle, script_type: ScriptType) -> Option<Handle> {
+        let scene = self.scene.borrow();
+        let is_one = |&handle: &Handle| {
+            scene.object(handle).and_then(|o| o.script()).is_ok_and(|script| script.script_type == script_type)
+        };
+        attached_scripts(&scene, object).into_iter().chain([object]).find(is_one)
+    }
+
+    /// The script of that type and name: a path for scene scripts, the display name for add-ons, nothing for main and sandbox.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub(crate) fn script_by_name(&self, script_type: ScriptType, name: &str) -> ApiResult<i64> {
+        let found = match script_type {
+            ScriptType::Main | ScriptType::Sandbox => self.detached(script_type).map(|script| script.id),
+            ScriptType::AddOn => self.add_on(name).map(|script| script.id),
+            ScriptType::Simulation | ScriptType::Customization | ScriptType::Passive => {
+                let object = self.object_by_name(name).ok_or(ApiError::NoSuchScript)?;
+                self.script_attached_to(object, script_type).map(Handle::raw)
+            }
+        };
+        found.ok_or(ApiError::NoSuchScript)
+    }
+
+    /// The script that a function name of the form `function@name` means, by type and name.
+    pub(crate) fn script_for_call(self: &Rc<Self>, raw: i64, name: Option<&str>) -> ApiResult<Rc<Script>> {
+        let id = match name {
+            Some(name) => self.script_by_name(ScriptType::from_number(raw).ok_or(ApiError::NoSuchScript)?, name)?,
+            None => raw,
+        };
+        self.script(id).ok_or(ApiError::NoSuchScript)
+    }
+
+    fn add_on(&self, name: &str) -> Option<Rc<Script>> {
+        let scripts = self.scripts.borrow();
+        let mut add_ons = scripts.values().filter(|script| script.script_type == ScriptType::AddOn);
+        add_ons.find(|script| script.detached.borrow().name.trim_end_matches("@addOnScript") == name).cloned()
+    }
+
+    /// The object at a path or with an old-style name.
+    fn object_by_name(&self, name: &str) -> Option<Handle> {
+        let scene = self.scene.borrow();
+        match name.starts_with(['/', '.', ':']) {
+            true => scene.find(name, None, None).ok(),
+            false => scene.find_old_name(name).ok(),
+        }
+    }
+}
