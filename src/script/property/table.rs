@@ -72,7 +72,7 @@ fn build() -> HashMap<&'static str, Part> {
 type Accessors = HashMap<(&'static str, &'static str), &'static Accessor>;
 
 fn accessors() -> Accessors {
-    let files: [(&'static str, &'static [Accessor]); 19] = [
+    let files: [(&'static str, &'static [Accessor]); 20] = [
         ("app", app::APP),
         ("simulation", scene::SIMULATION),
         ("simulation", scene::SIMULATION_SETTINGS),
