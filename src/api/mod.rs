@@ -14,6 +14,7 @@ mod force_sensor;
 mod global;
 mod joint;
 mod joint_motion;
+mod joint_shape_old;
 mod object_copy;
 mod object_param;
 mod object_pose;
@@ -27,6 +28,7 @@ mod ruckig;
 mod scene_file;
 mod script_old;
 mod scripts;
+mod sensor_objects;
 mod sensors;
 mod shape;
 mod shape_group;
@@ -72,9 +74,11 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Colours", colour::FUNCTIONS),
     ("Joints", joint::FUNCTIONS),
     ("Joint motion", joint_motion::FUNCTIONS),
+    ("Old functions of joints and shapes", joint_shape_old::FUNCTIONS),
     ("Dummies", dummy::FUNCTIONS),
     ("Force sensors", force_sensor::FUNCTIONS),
     ("Sensors", sensors::FUNCTIONS),
+    ("Sensor objects", sensor_objects::FUNCTIONS),
     ("Ruckig", ruckig::FUNCTIONS),
     ("Dynamics", dynamics::FUNCTIONS),
     ("Engine parameters", engine_param::FUNCTIONS),

@@ -52,3 +52,8 @@ impl Default for ForceSensor {
         }
     }
 }
+
+impl ForceSensor {
+    /// More samples are not kept.
+    pub const MAX_SAMPLES: usize = 10_000;
+}

@@ -76,6 +76,7 @@ impl Scene {
         self.siblings_mut(old)?.retain(|&h| h != handle);
         self.siblings_mut(parent)?.push(handle);
         self.object_mut(handle)?.parent = parent;
+        self.set_dynamic_when_parented(handle)?;
         for end in [old, parent].into_iter().flatten() {
             self.clear_physics_error(end)?;
         }
@@ -84,6 +85,19 @@ impl Scene {
             self.object_mut(handle)?.pose = local;
         }
         self.changes_mut().note(Change::Modified(handle, Field::Parent));
+        Ok(())
+    }
+
+    /// Some shapes stop being static when they get a parent.
+    fn set_dynamic_when_parented(&mut self, handle: Handle) -> SceneResult<()> {
+        let object = self.object_mut(handle)?;
+        let parented = object.parent.is_some();
+        if let super::Kind::Shape(shape) = &mut object.kind
+            && shape.dynamics.dynamic_when_parented
+            && parented
+        {
+            shape.dynamics.is_static = false;
+        }
         Ok(())
     }
 
