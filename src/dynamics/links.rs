@@ -1,8 +1,9 @@
 //! Joints, force sensors and welds as constraints between bodies.
 //!
-//! All of them are rapier's impulse joints: loops, moving bases and readings of every link work the same way, and with one solver
-//! step per sub-step, warm starting and extra sweeps chains keep together. rapier knows no screw: a lead does not act in the
-//! dynamics.
+//! All of them are rapier's impulse joints, not its multibodies: loops, moving bases and readings of every link then work the same
+//! way. The price is convergence: rapier's warm start of joints is undone by the first sweep over unbounded rows, so each sub-step
+//! begins from nothing and linked bodies get about a hundred sweeps, as Bullet does. A stretched arm of six equal links sags by 0.01 rad
+//! in its second joint. rapier knows no screw: a lead does not act in the dynamics.
 
 use std::collections::BTreeMap;
 

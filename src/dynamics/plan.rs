@@ -111,11 +111,6 @@ impl Plan {
         }
         plan
     }
-
-    /// Whether anything can move by itself.
-    pub(super) fn has_dynamic_bodies(&self) -> bool {
-        self.bodies.iter().any(|(_, body)| body.build.dynamic)
-    }
 }
 
 fn body(scene: &Scene, handle: Handle) -> Option<BodyPlan> {

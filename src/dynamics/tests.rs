@@ -220,3 +220,43 @@ fn a_call_within_a_call_is_refused() {
     assert!(bench.dynamics.begin(&mut bench.scene, STEP).expect("free").is_some());
     assert_eq!(bench.dynamics.begin(&mut bench.scene, STEP), Err(Busy));
 }
+
+#[test]
+fn a_long_arm_keeps_together_and_holds_its_pose() {
+    let mut bench = Bench::new();
+    let mut parent = bench.ghost([0.0, 0.0, 1.0], false);
+    let mut joints = Vec::new();
+    for i in 0..6 {
+        let x = 0.2 * f64::from(i);
+        let upright = nalgebra::UnitQuaternion::from_euler_angles(-std::f64::consts::FRAC_PI_2, 0.0, 0.0);
+        let mut joint = Joint::new(JointType::Revolute, JointMode::Dynamic);
+        (joint.control, joint.target_force) = (Control::Position, 200.0);
+        let pose = Pose::from_parts(nalgebra::Translation3::new(x, 0.0, 1.0), upright);
+        let joint = bench.object(Kind::Joint(Box::new(joint)), pose, parent);
+        parent = bench.shape([0.2, 0.05, 0.05], [x + 0.1, 0.0, 1.0], 1.0, true, false);
+        bench.hang(parent, joint);
+        joints.push(joint);
+    }
+    bench.run(20);
+    for &handle in &joints {
+        let joint = bench.joint(handle);
+        near(joint.position, 0.0, 0.02);
+        near(joint.error.expect("simulated").translation.vector.norm(), 0.0, 1e-3);
+    }
+    // What the first joint carries: six links of 1 kg, 0.1 to 1.1 m away.
+    near(bench.joint(joints[0]).force.expect("simulated"), 9.81 * 3.6, 0.5);
+}
+
+#[test]
+fn a_stack_stands_still() {
+    let mut bench = Bench::new();
+    bench.shape([10.0, 10.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
+    let boxes: Vec<Handle> =
+        (0..8).map(|i| bench.shape([0.1; 3], [0.0, 0.0, 0.05 + 0.102 * f64::from(i)], 1.0, true, true)).collect();
+    bench.run(100);
+    for (i, &handle) in boxes.iter().enumerate() {
+        let pose = bench.scene.world_pose(handle).expect("exists");
+        near(pose.translation.z, 0.05 + 0.1 * i as f64, 5e-3);
+        near(pose.translation.x.hypot(pose.translation.y), 0.0, 1e-3);
+    }
+}

@@ -90,7 +90,6 @@ fn parameters() -> IntegrationParameters {
         normalized_prediction_distance: PREDICTION,
         normalized_max_linear_velocity: f64::MAX,
         friction_model: FrictionModel::Simplified,
-        warmstart_joints: true,
         ..IntegrationParameters::default()
     }
 }
