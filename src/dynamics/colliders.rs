@@ -49,7 +49,7 @@ fn mesh_form(part: &PartForm, dynamic: bool) -> Option<SharedShape> {
     if part.convex {
         return SharedShape::convex_hull(&points).or_else(|| surface(points, &part.mesh));
     }
-    if dynamic && part.primitive.is_none() {
+    if dynamic && part.primitive.is_none() && has_volume(&part.mesh) {
         return Some(SharedShape::convex_decomposition(&points, &part.mesh.triangles));
     }
     surface(points, &part.mesh)
@@ -57,4 +57,9 @@ fn mesh_form(part: &PartForm, dynamic: bool) -> Option<SharedShape> {
 
 fn surface(points: Vec<Vector>, mesh: &Mesh) -> Option<SharedShape> {
     SharedShape::trimesh(points, mesh.triangles.clone()).ok()
+}
+
+/// Flat meshes cannot be decomposed.
+fn has_volume(mesh: &Mesh) -> bool {
+    mesh.aabb().is_some_and(|(low, high)| (0..3).all(|axis| high[axis] - low[axis] > THIN))
 }

@@ -3,7 +3,7 @@
 use nalgebra::UnitQuaternion;
 
 use super::shape::Velocity;
-use super::{Field, Handle, Kind, Pose, Scene, SceneResult};
+use super::{Field, Handle, Pose, Scene, SceneResult};
 
 /// The state of a dynamic joint after a sub-step.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,36 +52,5 @@ impl Scene {
             object.force_sensor_mut()?.error = Some(moving_side);
             Ok(())
         })
-    }
-
-    /// Forgets what the physics left behind: velocities, forces, readings, deviations.
-    pub fn forget_dynamics(&mut self) {
-        let handles: Vec<Handle> = self.objects().map(super::Object::handle).collect();
-        for handle in handles {
-            if let Ok(object) = self.object_mut(handle) {
-                object.dynamic_flag = 0;
-                object.dynamics_reset = false;
-                forget(&mut object.kind);
-            }
-        }
-    }
-}
-
-fn forget(kind: &mut Kind) {
-    match kind {
-        Kind::Shape(shape) => {
-            shape.velocity = Velocity::default();
-            (shape.force, shape.torque) = ([0.0; 3], [0.0; 3]);
-        }
-        Kind::Joint(joint) => {
-            (joint.force, joint.raw_force, joint.error) = (None, None, None);
-            joint.velocity = 0.0;
-        }
-        Kind::ForceSensor(sensor) => {
-            sensor.samples.clear();
-            (sensor.raw, sensor.filtered, sensor.error) = (None, None, None);
-            sensor.violations = 0;
-        }
-        _ => {}
     }
 }

@@ -68,6 +68,7 @@ impl Scene {
         for handle in objects {
             let Ok(object) = self.object_mut(handle) else { continue };
             object.measured = super::Measured::default();
+            (object.dynamic_flag, object.dynamics_reset) = (0, false);
             if let Some(initial) = object.initial.take().filter(|_| !kept.contains(&handle)) {
                 restored.push((handle, initial));
             }
