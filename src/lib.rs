@@ -7,6 +7,7 @@ mod dynamics;
 pub mod scene;
 pub mod script;
 mod simulator;
+pub(crate) mod wire;
 
 pub use script::{Console, LogLine, Options, Silent, SimulationState};
 pub use simulator::{Error, ScriptKind, ScriptRef, Simulator};

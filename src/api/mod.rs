@@ -35,8 +35,8 @@ mod shape_group;
 mod shape_mass;
 mod signal;
 mod simulation;
-mod time;
 mod thread;
+mod time;
 
 use std::collections::HashMap;
 use std::sync::LazyLock;

@@ -1,9 +1,13 @@
-//! `sim.*`: lists of numbers as bytes, in little-endian order.
+//! `sim.*`: values as bytes: lists of numbers in little-endian order, and tables.
+//!
+//! Both packing schemes of tables are CBOR here; data packed by CoppeliaSim with its own scheme 0 is refused.
 
 use api_macro::api;
 
 use super::{ApiFn, Cx, Result, functions};
-use crate::script::{Bytes, Number};
+use crate::scene::{Data, SceneError};
+use crate::script::{Bytes, Number, Table};
+use crate::wire::cbor;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     pack_int32_table,
@@ -20,6 +24,8 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     unpack_float_table,
     pack_double_table,
     unpack_double_table,
+    pack_table,
+    unpack_table,
 ];
 
 /// `count` items of a list beginning with number `start`; all to its end when `count` is 0.
@@ -82,6 +88,26 @@ number_lists! {
     pack_u_int8_table "sim.packUInt8Table", unpack_u_int8_table "sim.unpackUInt8Table", i64 as u8;
     pack_float_table "sim.packFloatTable", unpack_float_table "sim.unpackFloatTable", f64 as f32;
     pack_double_table "sim.packDoubleTable", unpack_double_table "sim.unpackDoubleTable", f64 as f64;
+}
+
+/// Packs a table into bytes.
+///
+/// @param aTable any values; functions become texts
+/// @param scheme 0 or 1
+/// @return data
+#[api("sim.packTable")]
+fn pack_table(_cx: &Cx, a_table: Table, #[default(0)] _scheme: Number) -> Result<Bytes> {
+    Ok(Bytes(cbor::encode(&a_table.0)))
+}
+
+/// Unpacks a table.
+///
+/// @param data what sim.packTable gave, or other CBOR
+/// @param scheme the encoding is recognised without it
+/// @return aTable
+#[api("sim.unpackTable")]
+fn unpack_table(_cx: &Cx, data: Bytes, #[default(0)] _scheme: Number) -> Result<Data> {
+    Ok(cbor::decode(&data.0).map_err(|_| SceneError::InvalidData)?)
 }
 
 #[cfg(test)]

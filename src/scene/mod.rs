@@ -55,6 +55,7 @@ pub use data::{Data, Key};
 pub use error::{SceneError, SceneResult};
 pub use handle::{Handle, Uid, flag, special};
 pub use object::{Kind, Measured, NOT_MODEL, Object};
+pub use path::clean_alias;
 pub use pose::Pose;
 pub use poses::{Frame, Placement};
 pub use settings::{DynamicsSettings, Settings};

@@ -35,6 +35,8 @@ pub(crate) struct Clock {
     pub steps: Cell<u64>,
     pub stop_requested: Cell<bool>,
     pub pause_requested: Cell<bool>,
+    /// The pause at a set time happens once per run.
+    pub paused_at_time: Cell<bool>,
     /// True while scripts are told that the simulation is about to start.
     pub starting: Cell<bool>,
     /// Wall-clock seconds at which a run in real time had simulation time zero.
@@ -49,6 +51,7 @@ impl Clock {
             steps: Cell::new(0),
             stop_requested: Cell::new(false),
             pause_requested: Cell::new(false),
+            paused_at_time: Cell::new(false),
             starting: Cell::new(false),
             real_time_origin: Cell::new(0.0),
         }
@@ -60,6 +63,7 @@ impl Clock {
         self.steps.set(0);
         self.stop_requested.set(false);
         self.pause_requested.set(false);
+        self.paused_at_time.set(false);
         self.state.set(SimulationState::FirstAfterStop);
     }
 

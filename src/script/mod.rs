@@ -24,6 +24,7 @@ mod property;
 mod random;
 mod removal;
 mod returns;
+mod scene_switch;
 mod script;
 mod sim;
 mod startup;

@@ -32,7 +32,12 @@ impl Random {
     pub(crate) fn rotation(&mut self) -> UnitQuaternion<f64> {
         let (share, first, second) = (self.next(), TAU * self.next(), TAU * self.next());
         let (a, b) = ((1.0 - share).sqrt(), share.sqrt());
-        UnitQuaternion::new_normalize(Quaternion::new(b * second.cos(), a * first.sin(), a * first.cos(), b * second.sin()))
+        UnitQuaternion::new_normalize(Quaternion::new(
+            b * second.cos(),
+            a * first.sin(),
+            a * first.cos(),
+            b * second.sin(),
+        ))
     }
 }
 

@@ -85,10 +85,9 @@ impl Sim {
     fn request_pause_at_time(&self) {
         let scene = self.scene.borrow();
         let settings = scene.settings();
-        if settings.pause_at_time && self.clock.time.get() >= settings.time_to_pause {
-            drop(scene);
+        let due = settings.pause_at_time && self.clock.time.get() >= settings.time_to_pause;
+        if due && !self.clock.paused_at_time.replace(true) {
             self.pause();
-            self.scene.borrow_mut().modify_settings(|settings| settings.pause_at_time = false);
         }
     }
 

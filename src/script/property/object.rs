@@ -4,7 +4,7 @@ use super::access::{Accessor, object_properties, placed_properties};
 use super::table::parts_of;
 use super::{Long, PoseArray, Text, Vector3};
 use crate::scene::pose::{pose_from_array, pose_to_array};
-use crate::scene::{Handle, NOT_MODEL, Object, Scene, SceneResult};
+use crate::scene::{Handle, NOT_MODEL, Object, Scene, SceneResult, clean_alias};
 
 /// Bits of the special properties.
 mod special {
@@ -26,7 +26,8 @@ pub(super) const OWN: &[Accessor] = object_properties! {
 };
 
 pub(super) const PLACED: &[Accessor] = placed_properties! {
-    "alias": Text, |scene, h| Text(scene.object(h)?.alias().into()), |scene, h, alias| scene.set_alias(h, &alias.0)?;
+    "alias": Text, |scene, h| Text(scene.object(h)?.alias().into()),
+        |scene, h, alias| if clean_alias(&alias.0).as_bytes() == alias.0 { scene.set_alias(h, &alias.0)? };
     "pose": PoseArray, |scene, h| PoseArray(pose_to_array(&scene.object(h)?.pose())),
         |scene, h, pose| scene.set_local_pose(h, pose_from_array(&pose.0))?;
     "childOrder": i64, |scene, h| order_among_siblings(&scene, h)?;

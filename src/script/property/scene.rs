@@ -7,7 +7,7 @@ use crate::script::clock::SimulationState;
 use crate::script::sim::Sim;
 
 impl Sim {
-    fn is_stopped(&self) -> bool {
+    pub(crate) fn is_stopped(&self) -> bool {
         self.clock.state.get() == SimulationState::Stopped
     }
 

@@ -1,8 +1,8 @@
 //! Properties of shapes.
 
 use super::access::{Accessor, object_properties};
-use super::{Quaternion, Vector3};
-use crate::scene::pose::quaternion_to_array;
+use super::{PoseArray, Quaternion, Vector3};
+use crate::scene::pose::{pose_to_array, quaternion_to_array};
 
 pub(super) const SHAPE: &[Accessor] = object_properties! {
     "respondableMask": i64, |o| o.shape()?.dynamics.respondable_mask,
@@ -23,6 +23,11 @@ pub(super) const SHAPE: &[Accessor] = object_properties! {
     "convex": bool, |o| o.shape()?.is_convex();
     "primitive": bool, |o| o.shape()?.is_pure();
     "compound": bool, |o| o.shape()?.is_compound();
+};
+
+pub(super) const BOX: &[Accessor] = object_properties! {
+    "bbPose": PoseArray, |o| PoseArray(pose_to_array(&o.shape()?.bounding_box.pose));
+    "bbHSize": Vector3, |o| Vector3(o.shape()?.bounding_box.size.map(|extent| extent / 2.0));
 };
 
 pub(super) const MASS: &[Accessor] = object_properties! {

@@ -72,7 +72,7 @@ fn build() -> HashMap<&'static str, Part> {
 type Accessors = HashMap<(&'static str, &'static str), &'static Accessor>;
 
 fn accessors() -> Accessors {
-    let files: [(&'static str, &'static [Accessor]); 20] = [
+    let files: &[(&'static str, &'static [Accessor])] = &[
         ("app", app::APP),
         ("simulation", scene::SIMULATION),
         ("simulation", scene::SIMULATION_SETTINGS),
@@ -89,12 +89,13 @@ fn accessors() -> Accessors {
         ("dummy", dummy::DUMMY),
         ("colour", dummy::COLOUR),
         ("shape", shape::SHAPE),
+        ("object", shape::BOX),
         ("mass", shape::MASS),
         ("joint", joint::JOINT),
         ("joint", joint::CONTROL),
         ("joint", joint::STATE),
     ];
-    files.into_iter().flat_map(|(part, rows)| rows.iter().map(move |row| ((part, row.name), row))).collect()
+    files.iter().flat_map(|&(part, rows)| rows.iter().map(move |row| ((part, row.name), row))).collect()
 }
 
 /// The parts an object of that kind has beside the common one, and the word for its class.

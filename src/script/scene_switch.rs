@@ -1,0 +1,53 @@
+//! Putting another scene in the place of the present one.
+
+use std::rc::Rc;
+
+use super::callback::SysCall;
+use super::error::{ApiError, ApiResult};
+use super::script::Script;
+use super::sim::Sim;
+use crate::scene::script_object::{ScriptObject, ScriptType};
+use crate::scene::{Kind, Settings};
+
+impl Sim {
+    /// Empties the scene on behalf of `caller`, and fills it with the script `code` if there is one.
+    ///
+    /// # Errors
+    /// When the simulation is not stopped, or the caller is a script of the scene: it would remove itself while running.
+    pub(crate) fn switch_scene(self: &Rc<Self>, caller: &Script, code: Option<Vec<u8>>) -> ApiResult<()> {
+        if !self.is_stopped() {
+            return Err(ApiError::Other("the scene cannot be replaced while the simulation is running.".into()));
+        }
+        if caller.object.is_some() {
+            return Err(ApiError::Other("a script of the scene cannot replace the scene: use an add-on.".into()));
+        }
+        self.broadcast(SysCall::BeforeInstanceSwitch, &[]);
+        self.clear_scene()?;
+        if let Some(code) = code {
+            self.add_scene_script(code)?;
+        }
+        self.broadcast(SysCall::AfterInstanceSwitch, &[]);
+        Ok(())
+    }
+
+    fn clear_scene(self: &Rc<Self>) -> ApiResult<()> {
+        let everything: Vec<_> = self.scene.borrow().objects().map(crate::scene::Object::handle).collect();
+        if !everything.is_empty() {
+            self.remove_objects(&everything)?;
+        }
+        let mut scene = self.scene.borrow_mut();
+        scene.modify_settings(|settings| *settings = Settings::default());
+        scene.custom_data.clear();
+        scene.signals.clear();
+        Ok(())
+    }
+
+    /// A Lua file as a scene is a customization script, as on the command line.
+    fn add_scene_script(self: &Rc<Self>, code: Vec<u8>) -> ApiResult<()> {
+        let script = ScriptObject::new(ScriptType::Customization, code, "lua", false);
+        let handle = self.scene.borrow_mut().add("Script", Kind::Script(Box::new(script)))?;
+        let script = self.script(handle.raw()).ok_or(ApiError::NoSuchScript)?;
+        self.init_script(&script);
+        Ok(())
+    }
+}

@@ -1,0 +1,210 @@
+//! CBOR (RFC 8949) for [`Data`].
+//!
+//! Tables are written with indefinite length, as CoppeliaSim does. A Lua string is written as text even when it is not UTF-8, and a
+//! buffer as bytes, so that both come back as they were.
+
+use ciborium_io::{Read, Write};
+use ciborium_ll::{Decoder, Encoder, Header, simple};
+
+use crate::scene::{Data, Key};
+
+/// How deep arrays and maps may be nested.
+const MAX_DEPTH: usize = 100;
+
+/// Bytes that are not CBOR, or more of it than is understood here.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("invalid CBOR data.")]
+pub struct Malformed;
+
+/// `data` as CBOR.
+pub fn encode(data: &Data) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    write(&mut Encoder::from(&mut bytes), data).expect("writing to memory cannot fail");
+    bytes
+}
+
+type Out<'a> = Encoder<&'a mut Vec<u8>>;
+type Written = Result<(), std::io::Error>;
+
+fn write(out: &mut Out<'_>, data: &Data) -> Written {
+    match data {
+        Data::Nil => out.push(Header::Simple(simple::NULL)),
+        Data::Bool(b) => write_bool(out, *b),
+        Data::Int(i) => write_int(out, *i),
+        Data::Float(f) => out.push(Header::Float(*f)),
+        Data::Text(text) => write_text(out, text),
+        Data::Buffer(bytes) => {
+            out.push(Header::Bytes(Some(bytes.len())))?;
+            out.write_all(bytes)
+        }
+        Data::Array(items) => {
+            out.push(Header::Array(None))?;
+            items.iter().try_for_each(|item| write(out, item))?;
+            out.push(Header::Break)
+        }
+        Data::Map(entries) => {
+            out.push(Header::Map(None))?;
+            for (key, value) in entries {
+                write_key(out, key)?;
+                write(out, value)?;
+            }
+            out.push(Header::Break)
+        }
+    }
+}
+
+fn write_key(out: &mut Out<'_>, key: &Key) -> Written {
+    match key {
+        Key::Bool(b) => write_bool(out, *b),
+        Key::Int(i) => write_int(out, *i),
+        Key::Float(f) => out.push(Header::Float(*f)),
+        Key::Text(text) => write_text(out, text),
+    }
+}
+
+fn write_bool(out: &mut Out<'_>, value: bool) -> Written {
+    out.push(Header::Simple(if value { simple::TRUE } else { simple::FALSE }))
+}
+
+fn write_int(out: &mut Out<'_>, value: i64) -> Written {
+    out.push(if value < 0 { Header::Negative(!value as u64) } else { Header::Positive(value as u64) })
+}
+
+fn write_text(out: &mut Out<'_>, text: &[u8]) -> Written {
+    out.push(Header::Text(Some(text.len())))?;
+    out.write_all(text)
+}
+
+/// The value `bytes` begin with; what follows it is ignored.
+///
+/// # Errors
+/// When they are not CBOR, or nested too deeply.
+pub fn decode(bytes: &[u8]) -> Result<Data, Malformed> {
+    let mut input = Input { decoder: Decoder::from(bytes), size: bytes.len() };
+    let header = input.pull()?;
+    input.value(header, 0)
+}
+
+struct Input<'a> {
+    decoder: Decoder<&'a [u8]>,
+    /// No string is longer than all input.
+    size: usize,
+}
+
+impl Input<'_> {
+    fn pull(&mut self) -> Result<Header, Malformed> {
+        self.decoder.pull().map_err(|_| Malformed)
+    }
+
+    fn value(&mut self, header: Header, depth: usize) -> Result<Data, Malformed> {
+        if depth > MAX_DEPTH {
+            return Err(Malformed);
+        }
+        Ok(match header {
+            Header::Positive(n) => i64::try_from(n).map_or(Data::Float(n as f64), Data::Int),
+            Header::Negative(n) => i64::try_from(n).map_or(Data::Float(-1.0 - n as f64), |n| Data::Int(!n)),
+            Header::Float(f) => Data::Float(f),
+            Header::Simple(simple::TRUE) => Data::Bool(true),
+            Header::Simple(simple::FALSE) => Data::Bool(false),
+            Header::Simple(_) => Data::Nil,
+            Header::Text(len) => Data::Text(self.string(len)?),
+            Header::Bytes(len) => Data::Buffer(self.string(len)?),
+            Header::Array(len) => Data::Array(self.array(len, depth)?),
+            Header::Map(len) => Data::Map(self.map(len, depth)?),
+            Header::Tag(_) => {
+                let tagged = self.pull()?;
+                self.value(tagged, depth + 1)?
+            }
+            Header::Break => return Err(Malformed),
+        })
+    }
+
+    /// The bytes of a string: in one piece, or in several up to a break.
+    fn string(&mut self, len: Option<usize>) -> Result<Vec<u8>, Malformed> {
+        if let Some(len) = len {
+            return self.piece(len);
+        }
+        let mut bytes = Vec::new();
+        loop {
+            match self.pull()? {
+                Header::Break => return Ok(bytes),
+                Header::Text(Some(len)) | Header::Bytes(Some(len)) => bytes.extend(self.piece(len)?),
+                _ => return Err(Malformed),
+            }
+        }
+    }
+
+    fn piece(&mut self, len: usize) -> Result<Vec<u8>, Malformed> {
+        if len > self.size {
+            return Err(Malformed);
+        }
+        let mut bytes = vec![0; len];
+        self.decoder.read_exact(&mut bytes).map_err(|_| Malformed)?;
+        Ok(bytes)
+    }
+
+    /// The next header of a list of known or open length; None at its end.
+    fn next(&mut self, len: Option<usize>, read: usize) -> Result<Option<Header>, Malformed> {
+        if len == Some(read) {
+            return Ok(None);
+        }
+        match self.pull()? {
+            Header::Break if len.is_none() => Ok(None),
+            header => Ok(Some(header)),
+        }
+    }
+
+    fn array(&mut self, len: Option<usize>, depth: usize) -> Result<Vec<Data>, Malformed> {
+        let mut items = Vec::new();
+        while let Some(header) = self.next(len, items.len())? {
+            items.push(self.value(header, depth + 1)?);
+        }
+        Ok(items)
+    }
+
+    fn map(&mut self, len: Option<usize>, depth: usize) -> Result<Vec<(Key, Data)>, Malformed> {
+        let mut entries = Vec::new();
+        while let Some(header) = self.next(len, entries.len())? {
+            let key = match self.value(header, depth + 1)? {
+                Data::Bool(b) => Key::Bool(b),
+                Data::Int(i) => Key::Int(i),
+                Data::Float(f) if !f.is_nan() => Key::Float(f),
+                Data::Text(text) | Data::Buffer(text) => Key::Text(text),
+                _ => return Err(Malformed),
+            };
+            let header = self.pull()?;
+            entries.push((key, self.value(header, depth + 1)?));
+        }
+        Ok(entries)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Data, Key, Malformed, decode, encode};
+
+    #[test]
+    fn tables_are_written_open_ended() {
+        assert_eq!(encode(&Data::Array(vec![1.into(), 2.into(), Data::text("a")])), b"\x9f\x01\x02\x61a\xff");
+        assert_eq!(encode(&Data::map([("k", true.into())])), b"\xbf\x61k\xf5\xff");
+    }
+
+    #[test]
+    fn values_come_back_as_they_were() {
+        let entries = vec![
+            (Key::Int(-3), Data::Float(0.1)),
+            (Key::Text(b"s".to_vec()), Data::Text(vec![0xff, 0])),
+            (Key::Bool(true), Data::Buffer(vec![0, 1])),
+            (Key::Text(b"list".to_vec()), Data::Array(vec![Data::Int(i64::MIN), Data::Array(Vec::new())])),
+        ];
+        let data = Data::Map(entries);
+        assert_eq!(decode(&encode(&data)), Ok(data));
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        assert_eq!(decode(b""), Err(Malformed));
+        assert_eq!(decode(b"\x7b\xff\xff\xff\xff\xff\xff\xff\xff"), Err(Malformed));
+        assert_eq!(decode(&[0x81; 5000]), Err(Malformed));
+    }
+}

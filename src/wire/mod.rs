@@ -1,0 +1,3 @@
+//! Values as bytes for storage and for other programs. No Lua, no sockets.
+
+pub mod cbor;
