@@ -9,8 +9,14 @@ use super::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::{Data, Namespace, SceneError, special};
 use crate::script::{Bytes, Number, Target};
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![write_custom_string_data, read_custom_string_data, read_custom_data_tags];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    write_custom_string_data,
+    read_custom_string_data,
+    read_custom_data_tags,
+    persistent_data_write,
+    persistent_data_read,
+    get_persistent_data_tags,
+];
 
 /// Data of the application that outlives the program.
 const APP_STORAGE: i64 = -15;
@@ -76,4 +82,45 @@ fn read_custom_string_data(cx: &Cx, object_handle: Number, tag_name: String) -> 
 fn read_custom_data_tags(cx: &Cx, object_handle: Number) -> Result<Vec<String>> {
     let target = owner(cx, object_handle.0)?;
     cx.sim().with_named_values(&target, Namespace::CustomData, |values| values.tags().map(str::to_owned).collect())
+}
+
+/// Keeps data with the application, whatever scene is open.
+///
+/// @param dataTag its name
+/// @param dataValue empty: removes the tag
+/// @param options 1: keep it in a file too, which is not built
+#[api("sim.persistentDataWrite")]
+fn persistent_data_write(
+    cx: &mut Cx,
+    data_tag: String,
+    data_value: Bytes,
+    #[default(0)] options: Number,
+) -> Result<()> {
+    if options.0 & 1 != 0 {
+        return Err(ApiError::NotImplemented("persistent data in a file".into()));
+    }
+    let mut app = cx.sim().app.borrow_mut();
+    if data_value.0.is_empty() {
+        app.persistent_data.remove(&data_tag);
+    } else {
+        app.persistent_data.insert(data_tag, data_value.0);
+    }
+    Ok(())
+}
+
+/// Data kept with the application.
+///
+/// @param dataTag its name
+/// @return dataValue nothing if there is none
+#[api("sim.persistentDataRead")]
+fn persistent_data_read(cx: &Cx, data_tag: String) -> Result<Option<Bytes>> {
+    Ok(cx.sim().app.borrow().persistent_data.get(&data_tag).cloned().map(Bytes))
+}
+
+/// Names of the data kept with the application.
+///
+/// @return tags in alphabetical order
+#[api("sim.getPersistentDataTags")]
+fn get_persistent_data_tags(cx: &Cx) -> Result<Vec<String>> {
+    Ok(cx.sim().app.borrow().persistent_data.keys().cloned().collect())
 }

@@ -12,6 +12,8 @@ pub(crate) struct AppData {
     pub signals: CustomData,
     /// Parameters of the command line, and what scripts added.
     pub named_params: BTreeMap<String, Vec<u8>>,
+    /// What scripts keep beyond the life of a scene.
+    pub persistent_data: BTreeMap<String, Vec<u8>>,
     /// Numbered switches, numbers and texts that have no effect here, as scripts set them.
     pub idle_params: IdleParams,
 }
@@ -49,4 +51,6 @@ impl AppData {
 
 pub(super) const APP: &[Accessor] = subject_properties! {
     "consoleVerbosity": i64, |s| s.sim.verbosity.get(), |s, level| s.sim.verbosity.set(level);
+    "processId": i64, |_s| i64::from(std::process::id());
+    "canSave": bool, |_s| true;
 };
