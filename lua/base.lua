@@ -13,6 +13,9 @@ local type, error, select, unpack_ = type, error, select, table.unpack
 local rawget, getmetatable, setmetatable = rawget, getmetatable, setmetatable
 local setYieldAllowed, usedModule = setYieldAllowed, _usedModule
 
+-- io.write and print go to the same place: without a buffer of its own, what io.write writes stays in order.
+io.stdout:setvbuf('no')
+
 local EXPLICIT_OFF = 'implicit loading of modules has been disabled because one known module (%s) was loaded explicitly.'
 local WARNING <const> = 430 -- sim.verbosity_scriptwarnings; the sim table is not loaded yet
 

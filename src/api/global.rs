@@ -4,6 +4,7 @@ use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::Data;
+use crate::script::verbosity;
 use crate::script::{
     Args, FromScript, Hook, LevelChange, Rest, Results, ScriptFunction, SysCall, auto_level, changed_level,
     set_auto_level,
@@ -16,6 +17,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     set_yield_allowed,
     get_yield_allowed,
     add_log,
+    add_statusbar_message,
     aux_func,
     quit_simulator,
     print_line,
@@ -132,6 +134,16 @@ fn add_log(cx: &Cx, verbosity_level: i64, log_message: Option<String>) -> Result
         cx.env().log(verbosity_level, &text);
     }
     Ok(())
+}
+
+/// Writes a line to the log in the name of this script, as an information.
+///
+/// @param message the line
+/// @return result 1
+#[api("sim.addStatusbarMessage")]
+fn add_statusbar_message(cx: &Cx, message: String) -> Result<i64> {
+    cx.env().log(verbosity::SCRIPT_INFOS, &message);
+    Ok(1)
 }
 
 /// Small services of the host: `headless`, `useBuffers`. Other commands return nothing.

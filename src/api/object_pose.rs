@@ -22,6 +22,8 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     set_object_matrix,
     get_object_child_pose,
     set_object_child_pose,
+    get_joint_matrix,
+    set_spherical_joint_matrix,
     get_object_velocity,
 ];
 
@@ -211,6 +213,26 @@ fn get_object_child_pose(cx: &Cx, object_handle: Handle) -> Result<[f64; 7]> {
 #[api("sim.setObjectChildPose")]
 fn set_object_child_pose(cx: &mut Cx, object_handle: Handle, pose: [f64; 7]) -> Result<i64> {
     let pose = pose::pose_from_array(&checked(pose)?);
+    Ok(if cx.scene_mut().set_spherical_rotation(object_handle, pose.rotation)? { 1 } else { -1 })
+}
+
+/// From a joint to its moving side.
+///
+/// @param objectHandle the joint
+/// @return matrix upper 3 by 4 block, row by row
+#[api("sim.getJointMatrix")]
+fn get_joint_matrix(cx: &Cx, object_handle: Handle) -> Result<[f64; 12]> {
+    Ok(pose::pose_to_matrix(&cx.scene().object(object_handle)?.joint()?.intrinsic_pose()))
+}
+
+/// Turns the moving side of a spherical joint.
+///
+/// @param objectHandle the joint
+/// @param matrix of which the rotation is taken
+/// @return result 1, or -1 if it is no spherical joint
+#[api("sim.setSphericalJointMatrix")]
+fn set_spherical_joint_matrix(cx: &mut Cx, object_handle: Handle, matrix: [f64; 12]) -> Result<i64> {
+    let pose = pose::pose_from_matrix(&checked(matrix)?);
     Ok(if cx.scene_mut().set_spherical_rotation(object_handle, pose.rotation)? { 1 } else { -1 })
 }
 

@@ -92,6 +92,10 @@ impl Sim {
     fn initialize(self: &Rc<Self>, script: &Rc<Script>) {
         script.set_state(state::INITIALIZED);
         self.run_callback(script, SysCall::Init, &[]);
+        // As in the original, a script that has begun is told the selection.
+        if script.is_running() {
+            self.run_callback(script, SysCall::SelChange, &[self.selection_data()]);
+        }
     }
 
     /// Runs hooks and function of a callback in an interpreter that is ready for it.

@@ -43,9 +43,14 @@ impl Sim {
         if *self.last_selection.borrow() == selection {
             return;
         }
-        self.last_selection.replace(selection.clone());
-        let sel: Vec<i64> = selection.iter().map(|h| h.raw()).collect();
-        self.broadcast(SysCall::SelChange, &[Data::map([("sel", sel.into())])]);
+        self.last_selection.replace(selection);
+        self.broadcast(SysCall::SelChange, &[self.selection_data()]);
+    }
+
+    /// What `sysCall_selChange` gets.
+    pub(crate) fn selection_data(&self) -> Data {
+        let sel: Vec<i64> = self.scene.borrow().selection().iter().map(|h| h.raw()).collect();
+        Data::map([("sel", sel.into())])
     }
 
     /// One simulation step as the main script defines it.
