@@ -16,14 +16,9 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![create_force_sensor];
 /// @param floatParams size in metres, force threshold in N, torque threshold in N m, 0, 0
 /// @return sensorHandle the sensor
 #[api("sim.createForceSensor")]
-fn create_force_sensor(
-    cx: &mut Cx,
-    options: Number,
-    int_params: Vec<i64>,
-    float_params: Vec<f64>,
-) -> Result<Handle> {
-    let ([filter, samples, consecutive, _, _], [size, force, torque, _, _]) =
-        (int_params.first_chunk().ok_or(ApiError::TableSize)?, float_params.first_chunk().ok_or(ApiError::TableSize)?);
+fn create_force_sensor(cx: &mut Cx, options: Number, int_params: Vec<i64>, float_params: Vec<f64>) -> Result<Handle> {
+    let [filter, samples, consecutive, _, _] = int_params.first_chunk().ok_or(ApiError::TableSize)?;
+    let [size, force, torque, _, _] = float_params.first_chunk().ok_or(ApiError::TableSize)?;
     let sensor = ForceSensor {
         size: *size,
         filter: if *filter == 1 { Filter::Median } else { Filter::Average },

@@ -168,6 +168,10 @@ impl Args {
             settings.time_step = self.dt.unwrap_or(settings.time_step);
             settings.real_time |= self.realtime;
         });
+        if !self.empty {
+            // An add-on that fills the scene leaves no room for more: nothing is missing then.
+            let _ = sim.scene_mut().add_default_objects();
+        }
         let (name, code) = &sources.scene;
         let _ = sim.add_script(self.kind.into(), name, code);
         if self.kind == Kind::Addon && self.empty {

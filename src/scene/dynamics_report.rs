@@ -43,7 +43,8 @@ impl Scene {
             joint.raw_force = Some(report.effort);
             joint.error = Some(joint.ideal_pose().inverse() * report.moving_side);
             Ok(())
-        })
+        })?;
+        self.move_followers(joint, report.position)
     }
 
     /// Takes over the deviation of a force sensor's two sides.

@@ -1,10 +1,26 @@
 //! Joints that follow other joints: q = offset + coefficient * q of the master (SPEC-joints section 5).
 
+use std::collections::BTreeMap;
+
 use super::joint::{Dependency, JointMode, JointType};
 use super::{Field, Handle, Scene, SceneResult};
 
 /// Largest offset and coefficient.
 const BOUND: f64 = 1e4;
+
+/// Who follows whom, kept until a joint changes.
+#[derive(Debug, Default)]
+pub(super) struct Followers {
+    revision: Option<u64>,
+    by_master: BTreeMap<Handle, Vec<(Handle, Dependency)>>,
+}
+
+impl Followers {
+    /// Joints in dependent mode whose master is `master`.
+    fn of(&self, master: Handle) -> &[(Handle, Dependency)] {
+        self.by_master.get(&master).map_or(&[], Vec::as_slice)
+    }
+}
 
 impl Scene {
     /// Makes `handle` follow `master` (None: nobody). Spherical joints take no part: nothing happens then. A joint that would close
@@ -44,26 +60,44 @@ impl Scene {
 
     /// Puts a joint at `position` as it is (rad, m), and the joints that follow it where they belong.
     pub fn move_joint(&mut self, handle: Handle, position: f64) -> SceneResult<()> {
+        self.refresh_followers();
         let mut pending = vec![(handle, position)];
         while let Some((handle, position)) = pending.pop() {
             self.try_modify(handle, Field::JointPosition, |object| {
                 object.joint_mut()?.position = position;
                 Ok(())
             })?;
-            pending.extend(self.followers(handle).map(|(follower, law)| (follower, law.position(position))));
+            let followers = self.followers.of(handle).iter();
+            pending.extend(followers.map(|(follower, law)| (*follower, law.position(position))));
         }
         Ok(())
     }
 
-    /// Joints in dependent mode whose master is `master`.
-    fn followers(&self, master: Handle) -> impl Iterator<Item = (Handle, Dependency)> {
-        let objects = self.referrers.iter().filter_map(|&handle| self.object(handle).ok());
-        let joints = objects.filter_map(|object| Some((object.handle(), object.joint().ok()?)));
-        let follows = move |(handle, joint): (Handle, &super::joint::Joint)| {
-            let law = joint.dependency.filter(|law| law.master == master)?;
-            (joint.mode == JointMode::Dependent).then_some((handle, law))
-        };
-        joints.filter_map(follows)
+    /// Moves the joints that follow `handle` and that the physics does not move itself.
+    pub(super) fn move_followers(&mut self, handle: Handle, position: f64) -> SceneResult<()> {
+        self.refresh_followers();
+        for (follower, law) in self.followers.of(handle).to_vec() {
+            if self.object(follower)?.dynamic_flag == 0 {
+                self.move_joint(follower, law.position(position))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Collects anew who follows whom, when a joint may have changed that.
+    fn refresh_followers(&mut self) {
+        let revision = self.changes().dynamics_revision();
+        if self.followers.revision == Some(revision) {
+            return;
+        }
+        let mut by_master: BTreeMap<Handle, Vec<(Handle, Dependency)>> = BTreeMap::new();
+        for object in self.objects() {
+            let Ok(joint) = object.joint() else { continue };
+            if let Some(law) = joint.dependency.filter(|_| joint.mode == JointMode::Dependent) {
+                by_master.entry(law.master).or_default().push((object.handle(), law));
+            }
+        }
+        self.followers = Followers { revision: Some(revision), by_master };
     }
 
     /// Moves a dependent joint to where its master wants it.

@@ -21,6 +21,7 @@ pub struct Scene {
     pub(super) referrers: BTreeSet<Handle>,
     /// Collections ever made.
     pub(super) collections_made: i64,
+    pub(super) followers: super::joint_dependency::Followers,
     settings: Settings,
     changes: Changes,
     /// Custom data of the scene itself (`sim.handle_scene`).
