@@ -250,5 +250,5 @@ fn set_joint_target_force(
     if force_or_torque.is_nan() {
         return Err(SceneError::InvalidData.into());
     }
-    Ok(cx.scene_mut().modify_joint(object_handle, |joint| joint.set_target_force(force_or_torque, signed_value))?)
+    Ok(cx.scene_mut().control_joint(object_handle, |joint| joint.set_target_force(force_or_torque, signed_value))?)
 }

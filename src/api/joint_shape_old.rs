@@ -62,7 +62,7 @@ fn set_joint_max_force(cx: &mut Cx, joint_handle: Handle, force_or_torque: f64) 
     if force_or_torque.is_nan() {
         return Err(SceneError::InvalidData.into());
     }
-    Ok(cx.scene_mut().modify_joint(joint_handle, |joint| joint.set_target_force(force_or_torque, false))?)
+    Ok(cx.scene_mut().control_joint(joint_handle, |joint| joint.set_target_force(force_or_torque, false))?)
 }
 
 /// Pose of a shape in the frame a script means: the world unless it gives a matrix.

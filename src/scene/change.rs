@@ -20,7 +20,10 @@ pub enum Field {
     Dynamics,
     Geometry,
     Appearance,
+    /// What kind of joint it is: mode, limits, master.
     Joint,
+    /// What a joint is to do: targets, gains, limits of its motor. The physics reads these in every pass.
+    JointControl,
     JointPosition,
     Sensor,
     Script,
@@ -50,7 +53,7 @@ pub struct Changes {
 impl Changes {
     pub(super) fn note(&mut self, change: Change) {
         match change {
-            Change::Modified(_, Field::Pose | Field::JointPosition) => {}
+            Change::Modified(_, Field::Pose | Field::JointPosition | Field::JointControl) => {}
             Change::Modified(_, Field::Alias | Field::CustomData | Field::Signal | Field::Appearance) => {}
             Change::Selection | Change::Settings => {}
             Change::Modified(_, Field::Script | Field::Priority) => self.tree_revision += 1,

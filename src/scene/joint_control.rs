@@ -229,7 +229,7 @@ impl Scene {
         self.object(handle)?.joint()?.single_axis()?;
         finite(&[target])?;
         finite(limits)?;
-        self.modify_joint(handle, |joint| {
+        self.control_joint(handle, |joint| {
             joint.set_limits(limits);
             joint.target_position = if joint.cyclic { wrap_angle(target) } else { target };
             joint.start(Motion::ToPosition);
@@ -250,7 +250,7 @@ impl Scene {
         self.object(handle)?.joint()?.single_axis()?;
         finite(&[target, initial.unwrap_or(0.0)])?;
         finite(limits)?;
-        self.modify_joint(handle, |joint| {
+        self.control_joint(handle, |joint| {
             let fields = [&mut joint.max_accel, &mut joint.max_jerk];
             fields.into_iter().zip(limits).for_each(|(field, limit)| *field = *limit);
             joint.set_target_velocity(target);
@@ -258,7 +258,12 @@ impl Scene {
         })
     }
 
-    /// Changes parameters of a joint.
+    /// Changes what a joint is to do: targets, forces, gains.
+    pub fn control_joint<R>(&mut self, handle: Handle, change: impl FnOnce(&mut Joint) -> R) -> SceneResult<R> {
+        self.try_modify(handle, Field::JointControl, |object| object.joint_mut().map(change))
+    }
+
+    /// Changes what kind of joint it is: mode, interval, master.
     pub fn modify_joint<R>(&mut self, handle: Handle, change: impl FnOnce(&mut Joint) -> R) -> SceneResult<R> {
         self.try_modify(handle, Field::Joint, |object| object.joint_mut().map(change))
     }

@@ -150,11 +150,7 @@ impl Sim {
 
     /// What the simulator tells about itself in the sandbox's name, as the original does.
     pub(crate) fn chatter(&self, text: &str) {
-        self.chatter_at(verbosity::SCRIPT_INFOS, text);
-    }
-
-    pub(crate) fn chatter_at(&self, level: i64, text: &str) {
-        self.log_line("sandboxScript", level, text, true);
+        self.log_line("sandboxScript", verbosity::SCRIPT_INFOS, text, true);
     }
 
     fn log_line(&self, origin: &str, level: i64, text: &str, chatter: bool) {

@@ -151,7 +151,7 @@ impl Sim {
     fn warn_of_unusual_settings(&self) {
         if self.scene.borrow().settings().time_step != 0.05 {
             let text = "Detected non-default settings (time steps and/or dyn. engine global settings).";
-            self.chatter_at(verbosity::SCRIPT_WARNINGS, text);
+            self.log(verbosity::SCRIPT_WARNINGS, text);
         }
     }
 

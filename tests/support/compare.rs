@@ -2,15 +2,25 @@
 
 use std::path::Path;
 
-/// Drops what is not a script's output: loading chatter, the sandbox's infos, tracebacks, addresses, the folder of the case.
+/// Drops what is not a script's output: loading chatter, the sandbox's infos, tracebacks, addresses, the folder of the case; and
+/// in cases about the scene all warnings and infos.
 pub fn normalize(output: &str, case: &Path) -> String {
     let folder = format!("{}/", case.parent().expect("a case lies in a folder").display());
+    let about_scene = case.components().any(|part| part.as_os_str() == "scene");
     let lines = output.lines().filter(|line| {
-        let chatter = line.contains(":loadinfo]") || line.starts_with("[sandboxScript:info]");
+        let chatter = line.contains(":loadinfo]")
+            || line.starts_with("[sandboxScript:info]")
+            || (about_scene && is_log(line, &["warning", "info"]));
         !chatter && *line != "stack traceback:" && !line.starts_with('\t')
     });
     let text: Vec<String> = lines.map(|line| mask_addresses(&line.replace(&folder, ""))).collect();
     text.join("\n")
+}
+
+/// Whether `line` is a log line of one of these levels.
+fn is_log(line: &str, levels: &[&str]) -> bool {
+    let head = line.strip_prefix('[').and_then(|rest| rest.split_once(']')).map(|(head, _)| head);
+    head.and_then(|head| head.rsplit_once(':')).is_some_and(|(_, level)| levels.contains(&level))
 }
 
 /// `0x` and at least six hexadecimal digits become `0xADDR`.

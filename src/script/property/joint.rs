@@ -56,19 +56,19 @@ pub(super) const STATE: &[Accessor] = placed_properties! {
     "targetVel": f64, |s, h| s.object(h)?.joint()?.target_velocity,
         |s, h, target| s.set_joint_target_velocity(h, target, &[], None)?;
     "targetForce": f64, |s, h| s.object(h)?.joint()?.target_force,
-        |s, h, force| s.modify_joint(h, |joint| joint.set_target_force(force, true))?;
+        |s, h, force| s.control_joint(h, |joint| joint.set_target_force(force, true))?;
     "jointMode": i64, |s, h| s.object(h)?.joint()?.mode as i64, |s, h, mode| {
         let mode = JointMode::from_code(mode).ok_or(SceneError::InvalidData)?;
         s.set_joint_mode(h, mode)?;
     };
     "dynCtrlMode": i64, |s, h| s.object(h)?.joint()?.control as i64, |s, h, mode| {
         let control = Control::from_code(mode).ok_or(SceneError::InvalidData)?;
-        s.modify_joint(h, |joint| joint.set_control(control))?;
+        s.control_joint(h, |joint| joint.set_control(control))?;
     };
     "dynVelMode": i64, |s, h| i64::from(s.object(h)?.joint()?.velocity_profile),
-        |s, h, mode| s.modify_joint(h, |joint| joint.velocity_profile = mode == 1)?;
+        |s, h, mode| s.control_joint(h, |joint| joint.velocity_profile = mode == 1)?;
     "dynPosMode": i64, |s, h| i64::from(s.object(h)?.joint()?.position_profile),
-        |s, h, mode| s.modify_joint(h, |joint| joint.position_profile = mode == 1)?;
+        |s, h, mode| s.control_joint(h, |joint| joint.position_profile = mode == 1)?;
     "dependencyMasterHandle": i64, |s, h| s.object(h)?.joint()?.dependency.map_or(-1, |d| d.master.raw()),
         |s, h, master| {
             let [offset, coefficient] = law_of(&s, h)?;
