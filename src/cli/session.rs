@@ -61,18 +61,25 @@ impl<'a> Session<'a> {
     pub(super) fn run_simulation(&mut self) {
         self.sim.start();
         let mut idle = 0;
+        let mut asked = false;
         while self.is_on() {
             if self.sim.state() == SimulationState::Paused {
                 idle += 1;
             }
-            if self.limits.are_reached(self.sim) || self.interrupt.is_requested() {
+            if asked || self.limits.are_reached(self.sim) || self.interrupt.is_requested() {
+                asked = true;
                 self.sim.request_stop();
             } else if idle > self.loops {
                 self.output.note("The simulation is paused and nobody resumes it: it is stopped.", self.sim.time());
                 self.sim.request_stop();
                 idle = 0;
             }
+            let steps = self.sim.steps();
             self.pass();
+            if asked && self.sim.steps() < steps {
+                // A script has started the next run; the one that was asked for is over.
+                break;
+            }
         }
         self.pass();
         self.progress.finish();

@@ -24,16 +24,26 @@ pub fn run_bounded(command: &mut Command) -> Result<String, String> {
             None if Instant::now() > deadline => {
                 let _ = child.kill();
                 let _ = child.wait();
-                return Err(format!("did not end within {LIMIT:?}"));
+                return Err(format!("did not end within {LIMIT:?}; it said last:\n{}", last_lines(&mut output)));
             }
             None => std::thread::sleep(Duration::from_millis(2)),
         }
     };
+    let text = read(&mut output);
+    if status.code().is_none() { Err(format!("ended by a signal: {status}\n{text}")) } else { Ok(text) }
+}
+
+fn read(output: &mut File) -> String {
     let mut text = Vec::new();
     output.seek(SeekFrom::Start(0)).expect("files can be rewound");
     output.read_to_end(&mut text).expect("our own file is readable");
-    let text = String::from_utf8_lossy(&text).into_owned();
-    if status.code().is_none() { Err(format!("ended by a signal: {status}\n{text}")) } else { Ok(text) }
+    String::from_utf8_lossy(&text).into_owned()
+}
+
+fn last_lines(output: &mut File) -> String {
+    let text = read(output);
+    let lines: Vec<&str> = text.lines().rev().take(5).collect();
+    lines.into_iter().rev().collect::<Vec<_>>().join("\n")
 }
 
 fn tempfile() -> File {

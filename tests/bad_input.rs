@@ -1,0 +1,228 @@
+//! Whatever a script does, the simulator answers with an error or does it: it never crashes and never hangs.
+
+use std::fs;
+use std::process::Command;
+
+use swanilda::docs::{self, Function};
+
+mod support;
+use support::process::run_bounded;
+
+/// Runs a scene to its end; what it printed and logged.
+fn run(code: &str, args: &[&str]) -> String {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let scene = folder.path().join("scene.lua");
+    fs::write(&scene, code).expect("our own folder is writable");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+    // Functions that write files do so where nobody minds.
+    command.current_dir(folder.path()).arg("run").arg(&scene).args(args);
+    let output = run_bounded(&mut command).unwrap_or_else(|error| panic!("{error}\nof {code}"));
+    assert!(!output.contains("panicked"), "{output}");
+    output
+}
+
+fn run_briefly(code: &str) -> String {
+    run(code, &["--steps", "5", "--empty"])
+}
+
+#[test]
+fn text_that_is_no_lua() {
+    for code in ["x = = 1", "(", "\u{1b}Lua garbage", "\0\0\0", "goto nowhere", "return return", "'unfinished"] {
+        let output = run_briefly(code);
+        assert!(output.contains("[/Script:error]"), "{code:?}: {output}");
+    }
+    run_briefly(&"(".repeat(100_000));
+    run_briefly(&format!("x = {}1", "-".repeat(100_001)));
+}
+
+#[test]
+fn errors_in_every_callback() {
+    let callbacks = "info init cleanup nonSimulation beforeSimulation afterSimulation actuation sensing suspend suspended \
+        resume beforeCopy afterCopy beforeDelete afterDelete afterCreate beforeMainScript msg selChange joint dyn contact \
+        trigger vision thread userConfig moduleEntry event ext realTimeIdle beforeSave afterSave afterLoad data";
+    for callback in callbacks.split_whitespace() {
+        for error in [
+            "error('broken')",
+            "error({})",
+            "error()",
+            "error(setmetatable({}, {__tostring = error}))",
+            "local x = nil + 1",
+        ] {
+            let code = format!(
+                "sim = require 'sim'
+                local done
+                function sysCall_{callback}() {error} end
+                sysCall_init = sysCall_init or function()
+                    other = sim.createDummy(0.1)
+                    sim.copyPasteObjects({{other}}, 0)
+                    sim.removeObjects({{other}})
+                    sim.broadcastMsg({{id = 'x'}})
+                end"
+            );
+            run_briefly(&code);
+        }
+    }
+}
+
+#[test]
+fn recursion_without_end() {
+    let within = run_briefly("local function f() return 1 + f() end f()");
+    assert!(within.contains("stack overflow"), "{within}");
+    let metamethods =
+        run_briefly("t = setmetatable({}, {}) getmetatable(t).__index = function(t, k) return t[k] end print(t.x)");
+    assert!(metamethods.contains(":error]"), "{metamethods}");
+    run_briefly("local f f = function() return pcall(f) end f()");
+    run_briefly("local co co = function() coroutine.wrap(co)() end co()");
+    run_briefly("x = string.rep('(', 1e5) .. '1' .. string.rep(')', 1e5) load('return ' .. x)");
+    run_briefly("t = {} t.t = t print(t) sim = require 'sim' sim.broadcastMsg(t)");
+    run_briefly("t = {} for i = 1, 1e5 do t = {t} end print(#tostring(t)) sim = require 'sim' sim.broadcastMsg(t)");
+}
+
+#[test]
+fn recursion_across_scripts() {
+    let across = run_briefly(
+        "sim = require 'sim'
+        function ping(depth) return sim.callScriptFunction('pong', other, depth + 1) end
+        function sysCall_init()
+            other = sim.createScript(sim.scripttype_customization, [[
+                sim = require 'sim'
+                function pong(depth) return sim.callScriptFunction('ping', back, depth + 1) end
+                function setBack(handle) back = handle end
+            ]])
+            sim.initScript(other)
+            sim.callScriptFunction('setBack', other, sim_script_handle)
+            print(pcall(ping, 1))
+            print('alive')
+        end",
+    );
+    assert!(across.contains("false") && across.contains("alive"), "{across}");
+    run_briefly(
+        "sim = require 'sim' function f() sim.callScriptFunction('f', sim.handle_self) end function sysCall_init() f() end",
+    );
+    run_briefly(
+        "sim = require 'sim' function sysCall_afterCreate() sim.createDummy(0.1) end function sysCall_init() sim.createDummy(0.1) end",
+    );
+    run_briefly(
+        "sim = require 'sim' function sysCall_msg() sim.broadcastMsg({id = 'again'}) end function sysCall_init() sim.broadcastMsg({id = 'x'}) end",
+    );
+    run_briefly("sim = require 'sim' function sysCall_init() sim.initScript(sim.handle_self) end");
+    run_briefly("require 'sim-1' package.loaded.scene = nil require 'scene'");
+}
+
+#[test]
+fn threads_that_never_yield() {
+    let output =
+        run_briefly("function sysCall_thread() while true do end end function sysCall_sensing() print('step') end");
+    assert!(output.contains("step"), "{output}");
+    run_briefly(
+        "sim = require 'sim' function sysCall_thread() for i = 1, 10 do pcall(function() while true do sim.step() end end) end end",
+    );
+    run_briefly("function sysCall_thread() while true do coroutine.wrap(function() coroutine.yield() end)() end end");
+}
+
+#[test]
+fn scripts_that_remove_themselves() {
+    for callback in
+        ["init", "actuation", "sensing", "cleanup", "beforeSimulation", "afterSimulation", "thread", "nonSimulation"]
+    {
+        for code in [
+            "sim.removeObjects({sim_script_handle})",
+            "sim.removeObjects({sim_script_handle}, true)",
+            "sim.removeObjects(sim.getObjectsInTree(sim.handle_scene))",
+            "sim.initScript(sim.handle_self) sim.initScript(sim.handle_self)",
+            "sim.closeScene()",
+            "sim.loadScene('')",
+            "sim.stopSimulation() sim.startSimulation() sim.pauseSimulation() sim.startSimulation()",
+        ] {
+            run_briefly(&format!("sim = require 'sim' function sysCall_{callback}() {code} end"));
+        }
+    }
+}
+
+#[test]
+fn numbers_beyond_reason() {
+    let output = run_briefly(
+        "sim = require 'sim'
+        function sysCall_init()
+            box = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1})
+            sim.setObjectInt32Param(box, sim.shapeintparam_static, 0)
+            for _, x in ipairs{0/0, 1/0, -1/0, 1e308, -1e308, 5e-324} do
+                pcall(sim.setObjectPosition, box, {x, 0, 0})
+                pcall(sim.setObjectPose, box, {0, 0, x, 0, 0, 0, 0})
+                pcall(sim.setObjectPose, box, {x, x, x, x, x, x, x})
+                pcall(sim.setObjectMatrix, box, {x, x, x, x, x, x, x, x, x, x, x, x})
+                pcall(sim.createPrimitiveShape, sim.primitiveshape_spheroid, {x, x, x})
+                pcall(sim.setShapeMass, box, x)
+                pcall(sim.createJoint, sim.joint_revolute, sim.jointmode_dynamic, 0, {x, x})
+            end
+            print('alive')
+        end",
+    );
+    assert!(output.contains("alive"), "{output}");
+}
+
+/// Ends the program, or waits for a user or the wall clock: what these are for.
+const NOT_CALLED: &[&str] = &["quitSimulator", "sim.quitSimulator"];
+
+#[test]
+fn wrong_arguments_for_every_function() {
+    let functions: Vec<Function> = docs::functions().into_iter().filter(|f| !NOT_CALLED.contains(&&*f.name)).collect();
+    assert!(functions.len() > 100, "the table of functions is read");
+    for chunk in functions.chunks(functions.len().div_ceil(8)) {
+        let names: Vec<String> = chunk.iter().map(|f| format!("{{'{}', {}}}", f.name, f.parameters.len())).collect();
+        let code = CALL_WRONGLY.replace("FUNCTIONS", &names.join(", "));
+        let output = run(&code, &["--as", "sandbox", "--no-start", "--loops", "1", "--quiet"]);
+        let last = output.lines().rev().find(|line| line.starts_with("calling")).unwrap_or_default();
+        assert!(
+            output.contains("all called"),
+            "{last}\n{}",
+            output.lines().rev().take(20).collect::<Vec<_>>().join("\n")
+        );
+        assert!(!output.contains("no string"), "{output}");
+    }
+}
+
+/// Calls each function with values of every kind at every place, with a few sound values around them.
+const CALL_WRONGLY: &str = r#"
+sim = require 'sim'
+local write = print
+print = function() end
+local deep = {}
+for i = 1, 50 do deep = {deep} end
+local long = {}
+for i = 1, 1000 do long[i] = i * 0.5 end
+local dummy = sim.createDummy and sim.createDummy(0.1) or 0
+local values = {
+    false, true, 0, 1, -1, -4, 1.5, 0/0, 1/0, -1/0, 1e300, math.maxinteger, math.mininteger, 2^31, '', 'text', '\0\255', 'sysCall_init',
+    {}, {1, 2, 3}, {0/0, 1/0, -1/0}, {'a', {}, false}, {x = 1}, deep, long, {0, 0, 0, 0, 0, 0, 1}, print, coroutine.create(print), dummy,
+}
+local function check(name, ok, message)
+    if not ok and type(message) ~= 'string' then write('no string', name, type(message)) end
+end
+for _, entry in ipairs{FUNCTIONS} do
+    local name, count = entry[1], entry[2]
+    write('calling ' .. name)
+    local f = name:match('^sim%.') and sim[name:sub(5)] or _G[name]
+    check(name, pcall(f))
+    check(name, pcall(f, table.unpack({}, 1, 12)))
+    for place = 1, math.min(count, 6) do
+        for _, filler in ipairs{false, dummy, 'text', {1, 2, 3}} do
+            for _, value in ipairs(values) do
+                local arguments = {}
+                for i = 1, count do arguments[i] = filler end
+                arguments[place] = value
+                check(name, pcall(f, table.unpack(arguments, 1, count)))
+            end
+        end
+    end
+end
+write('all called')
+"#;
+
+#[test]
+fn running_out_of_memory_is_an_error() {
+    let output = run_briefly(
+        "x = 'x' local ok, why = pcall(function() while true do x = x .. x end end) print(ok, why) x = nil print('alive')",
+    );
+    assert!(output.contains("alive"), "{output}");
+}

@@ -1,0 +1,102 @@
+//! The same scene gives the same bytes: twice in one process, and twice in processes of their own (docs/ARCHITECTURE.md).
+
+use std::cell::RefCell;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::rc::Rc;
+
+use swanilda::scene::pose::pose_to_array;
+use swanilda::{Console, LogLine, Options, ScriptKind, Simulator};
+
+/// Steps after which a scene that does not end by itself is stopped.
+const LONGEST: u64 = 400;
+
+fn scenes() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let files = fs::read_dir(folder).expect("scenes/ is readable").flatten().map(|entry| entry.path());
+    let mut scenes: Vec<_> = files.filter(|path| path.extension().is_some_and(|e| e == "lua")).collect();
+    scenes.sort();
+    scenes
+}
+
+#[test]
+fn twice_in_one_process() {
+    for scene in scenes() {
+        let run = || on_a_large_stack(record, scene.clone());
+        assert_same(&run(), &run(), &scene);
+    }
+}
+
+#[test]
+fn twice_in_processes_of_their_own() {
+    for scene in scenes() {
+        let run = || {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+            command.arg("run").arg(&scene).args(["--quiet", "--json", "--steps", &LONGEST.to_string()]);
+            String::from_utf8_lossy(&command.output().expect("the command starts").stdout).into_owned()
+        };
+        assert_same(&run(), &run(), &scene);
+    }
+}
+
+fn assert_same(first: &str, second: &str, scene: &Path) {
+    let difference = first.lines().zip(second.lines()).find(|(a, b)| a != b);
+    assert!(first == second, "{} differs between two runs, first at {difference:?}", scene.display());
+    assert!(!first.is_empty(), "{} says nothing", scene.display());
+}
+
+fn on_a_large_stack(run: fn(PathBuf) -> String, scene: PathBuf) -> String {
+    let thread = std::thread::Builder::new().stack_size(Simulator::STACK_SIZE).spawn(move || run(scene));
+    thread.expect("a thread can be made").join().expect("a simulator does not panic")
+}
+
+/// Everything a scene says, and where every object is before its last step.
+fn record(scene: PathBuf) -> String {
+    let transcript = Transcript::default();
+    let options = Options {
+        package_dirs: vec![scene.parent().expect("scenes lie in a folder").to_owned()],
+        ..Options::default()
+    };
+    let mut sim = Simulator::with_console(options, Box::new(transcript.clone()));
+    let code = fs::read(&scene).expect("a scene is readable");
+    sim.add_script(ScriptKind::Customization, "scene", &code).expect("a scene loads");
+    let mut poses = String::new();
+    sim.start();
+    while sim.state().is_advancing() {
+        if sim.steps() >= LONGEST {
+            sim.request_stop();
+        }
+        poses = poses_of(&sim);
+        sim.pass();
+    }
+    sim.stop();
+    assert_eq!(sim.errors(), 0, "{}: {}", scene.display(), transcript.text.borrow());
+    transcript.text.take() + &poses
+}
+
+/// The exact pose of every object, bit by bit.
+fn poses_of(sim: &Simulator) -> String {
+    let scene = sim.scene();
+    let line = |object: &swanilda::scene::Object| {
+        let pose = scene.world_pose(object.handle());
+        format!("{} {:x?}\n", object.handle().raw(), pose.map(|pose| pose_to_array(&pose).map(f64::to_bits)))
+    };
+    scene.objects().map(line).collect()
+}
+
+/// Keeps all lines.
+#[derive(Clone, Default)]
+struct Transcript {
+    text: Rc<RefCell<String>>,
+}
+
+impl Console for Transcript {
+    fn print(&mut self, line: &[u8]) {
+        *self.text.borrow_mut() += &format!("{}\n", String::from_utf8_lossy(line));
+    }
+
+    fn log(&mut self, line: &LogLine<'_>) {
+        *self.text.borrow_mut() += &format!("{}\n", line.decorated());
+    }
+}
