@@ -58,10 +58,39 @@ function setYieldAllowed(allow) end
 --- Forbids yielding and interruption until sim.releaseLock.
 function sim.acquireLock() end
 
+--- Adds a force to a shape for the next dynamics call. Static shapes do not feel it.
+---@param shapeHandle integer the shape, optionally with sim.handleflag_resetforce and sim.handleflag_resettorque
+---@param position number[] where the force acts, relative to the centre of mass, in the axes of the shape, metres
+---@param force number[] in the axes of the shape, newtons
+---@return integer result
+function sim.addForce(shapeHandle, position, force) end
+
+--- Adds a force and a torque to a shape for the next dynamics call; they act at its centre of mass. Static shapes do not feel them.
+---@param shapeHandle integer the shape, optionally with sim.handleflag_resetforce and sim.handleflag_resettorque
+---@param force? number[] world axes, newtons
+---@param torque? number[] world axes, newton metres
+---@return integer result
+function sim.addForceAndTorque(shapeHandle, force, torque) end
+
+--- Adds to a collection, or subtracts from it.
+---@param collectionHandle integer the collection
+---@param what integer sim.handle_single, _tree, _chain or _all
+---@param objectHandle integer where a tree or chain starts; -1 for all
+---@param options integer 1: subtract; 2: without the object itself
+function sim.addItemToCollection(collectionHandle, what, objectHandle, options) end
+
 --- Writes a line to the log in the name of this script.
 ---@param verbosityLevel integer sim.verbosity_*
 ---@param logMessage string the line; nil clears a graphical log and does nothing here
 function sim.addLog(verbosityLevel, logMessage) end
+
+--- Adds to a collection, or subtracts from it: `sim.addItemToCollection` with other parameters.
+---@deprecated sim.addItemToCollection
+---@param collectionHandle integer the collection
+---@param objectHandle integer where a tree or chain starts; -1 for all
+---@param what integer sim.handle_single, _tree, _chain or _all
+---@param options integer 1: subtract; 2: without the object itself
+function sim.addObjectToCollection(collectionHandle, objectHandle, what, options) end
 
 --- Adds objects to the selection.
 ---@deprecated sim.setObjectSel
@@ -75,6 +104,12 @@ function sim.addObjectToSelection(what, objectHandle) end
 ---@param tag? string of the reference
 ---@param options? table wholeTree: refer to all objects below, too
 function sim.addReferencedHandle(objectHandle, referencedHandle, tag, options) end
+
+--- Turns the bounding box of a shape.
+---@param shapeHandle integer the shape
+---@param pose number[] its quaternion is the orientation in the world; zeros mean the tightest box
+---@return boolean result false for a single primitive, which keeps its box
+function sim.alignShapeBB(shapeHandle, pose) end
 
 --- From the angles of sim.getObjectOrientation to yaw, pitch and roll.
 ---@param alpha number about x, first
@@ -130,6 +165,12 @@ function sim.boolXor16(a, b) end
 ---@return integer result the bits that differ
 function sim.boolXor32(a, b) end
 
+--- Breaks a force sensor: what it holds becomes a root of the scene, where it is.
+---@deprecated sim.setObjectParent
+---@param objectHandle integer the force sensor
+---@return integer result
+function sim.breakForceSensor(objectHandle) end
+
 --- The identity.
 ---@return number[] matrix upper 3 by 4 block, row by row
 function sim.buildIdentityMatrix() end
@@ -141,7 +182,6 @@ function sim.buildIdentityMatrix() end
 function sim.buildMatrix(position, eulerAngles) end
 
 --- Matrix of a position and a quaternion.
----@deprecated sim.poseToMatrix
 ---@param position number[] metres
 ---@param quaternion number[] qx, qy, qz, qw
 ---@return number[] matrix upper 3 by 4 block, row by row
@@ -186,6 +226,12 @@ function sim.clearBufferSignal(name) end
 ---@return number[] lengths with one more value
 function sim.closePath(path, lengths) end
 
+--- Sets mass, inertia and centre of mass of a shape as if it was solid.
+---@param shapeHandle integer the shape
+---@param density number kg/m3
+---@return integer result 1, or 0 when the shape has no volume
+function sim.computeMassAndInertia(shapeHandle, density) end
+
 --- The same value in another type of property, through text where needed.
 ---@param value any in the first type
 ---@param fromType integer sim.propertytype_*
@@ -199,21 +245,42 @@ function sim.convertPropertyValue(value, fromType, toType) end
 ---@return number[] matrixOut the same
 function sim.copyMatrix(matrixIn) end
 
+--- Copies objects. Copies whose ancestors are not copied become roots; all keep their place in the world.
+---@param objectHandles integer[] the objects
+---@param options? integer 1: whole models; without 2: scripts; 4: custom data; 8: referenced handles; 32: being models
+---@return integer[] copiedObjectHandles the copies, in the order of the originals; nothing if none was copied
+function sim.copyPasteObjects(objectHandles, options) end
+
 --- Copy of a table, tables inside included.
 ---@param original any[] table
 ---@return any[] copy shares nothing with the original
 function sim.copyTable(original) end
+
+--- Creates an empty collection.
+---@param options? integer 1: its members override their collidable, measurable and detectable flags
+---@return integer collectionHandle the collection
+function sim.createCollection(options) end
 
 --- A new dummy at the world's origin, the last root.
 ---@param size number diameter, metres
 ---@return integer dummyHandle the dummy
 function sim.createDummy(size) end
 
+--- New terrain, centred on x and y: static and respondable.
+---@param options integer 1: back faces culled, 2: edges visible, 4: only a mesh for the physics, 8: not respondable
+---@param shadingAngle number edges sharper than this show, rad
+---@param xPointCount integer columns, 2 to 2048
+---@param yPointCount integer rows, 2 to 2048
+---@param xSize number width along x, metres; cells are square
+---@param heights number[] metres, row after row from +y to -y
+---@return integer shapeHandle the shape
+function sim.createHeightfieldShape(options, shadingAngle, xPointCount, yPointCount, xSize, heights) end
+
 --- A new joint at the world's origin; its axis is z.
 ---@param jointType integer sim.joint_revolute, sim.joint_prismatic or sim.joint_spherical
 ---@param jointMode integer sim.jointmode_*
 ---@param options integer not used
----@param sizes number[] length and diameter, metres, for display
+---@param sizes? number[] length and diameter, metres, for display
 ---@return integer jointHandle the joint
 function sim.createJoint(jointType, jointMode, options, sizes) end
 
@@ -234,6 +301,16 @@ function sim.createPath(ctrlPts, options, subdiv, smoothness, orientationMode, u
 ---@return integer shapeHandle the shape, -1 when there is no such primitive
 function sim.createPrimitiveShape(primitiveType, sizes, options) end
 
+--- A new primitive shape, as releases before 4.3 make it.
+---@deprecated sim.createPrimitiveShape
+---@param primitiveType integer 0: cuboid, 1: sphere, 2: cylinder, 3: cone
+---@param options integer 1: back faces culled, 2: edges visible, 4: smooth, 8: respondable, 16: static, 32: open ends
+---@param sizes number[] full extents, metres
+---@param mass number kg
+---@param precision? number[] not used
+---@return integer objectHandle the shape
+function sim.createPureShape(primitiveType, options, sizes, mass, precision) end
+
 --- Creates a script object as the last root, named `script`.
 ---@param scriptType integer sim.scripttype_*
 ---@param scriptText string|table its code
@@ -241,6 +318,25 @@ function sim.createPrimitiveShape(primitiveType, sizes, options) end
 ---@param lang? string `lua`
 ---@return integer scriptHandle
 function sim.createScript(scriptType, scriptText, options, lang) end
+
+--- A new shape from a mesh given in world coordinates; its frame is the world's.
+---@param options integer 1: back faces culled, 2: edges visible, 128: keep duplicate vertices
+---@param shadingAngle number edges sharper than this show, rad
+---@param vertices number[] three coordinates each, metres
+---@param indices integer[] three vertices per triangle, from 0
+---@param normals? number[] nine numbers per triangle
+---@param ...? any
+---@return integer shapeHandle the shape
+function sim.createShape(options, shadingAngle, vertices, indices, normals, ...) end
+
+--- Removes a collection; its objects stay.
+---@param collectionHandle integer the collection
+function sim.destroyCollection(collectionHandle) end
+
+--- Takes everything out of a collection.
+---@deprecated sim.destroyCollection
+---@param collectionHandle integer the collection
+function sim.emptyCollection(collectionHandle) end
 
 --- Runs Lua code in this script.
 ---@param code string text of a chunk
@@ -296,6 +392,11 @@ function sim.getBufferSignal(name) end
 ---@return number t for sim.getPathInterpolatedConfig
 function sim.getClosestPosOnPath(path, lengths, position) end
 
+--- The objects a collection holds now.
+---@param collectionHandle integer the collection
+---@return integer[] objectHandles in the order of their creation
+function sim.getCollectionObjects(collectionHandle) end
+
 --- Value of a property.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
 ---@param propertyName string its name
@@ -311,10 +412,61 @@ function sim.getColorProperty(target, propertyName, options) end
 ---@return number distance root of the sum of squares
 function sim.getConfigDistance(a, b, metric, types) end
 
+--- A contact of the last dynamics call. Four empty tables when there is none with that index.
+---@param dynamicPass integer index of the sub-step, from 0, or sim.handle_all
+---@param objectHandle integer a shape, or sim.handle_all; the shape then comes first in the result
+---@param index integer from 0
+---@return any collidingObjects the two shapes
+function sim.getContactInfo(dynamicPass, objectHandle, index) end
+
+--- A switch of a physics engine.
+---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
+---@return boolean boolParam the value
+function sim.getEngineBoolParam(paramId, objectHandle) end
+
+--- A switch of a physics engine.
+---@deprecated properties
+---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
+---@return boolean boolParam the value
+function sim.getEngineBoolParameter(paramId, objectHandle) end
+
+--- A float parameter of a physics engine.
+---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
+---@return number floatParam the value
+function sim.getEngineFloatParam(paramId, objectHandle) end
+
+--- A float parameter of a physics engine.
+---@deprecated properties
+---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
+---@return number floatParam the value
+function sim.getEngineFloatParameter(paramId, objectHandle) end
+
+--- An integer parameter of a physics engine.
+---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
+---@return integer int32Param the value
+function sim.getEngineInt32Param(paramId, objectHandle) end
+
+--- An integer parameter of a physics engine.
+---@deprecated properties
+---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
+---@return integer int32Param the value
+function sim.getEngineInt32Parameter(paramId, objectHandle) end
+
 --- Euler angles of a matrix.
 ---@param matrix number[] upper 3 by 4 block, row by row
 ---@return number[] eulerAngles alpha, beta, gamma, radians
 function sim.getEulerAnglesFromMatrix(matrix) end
+
+--- Whether a sensor or graph is left out when all are handled.
+---@param objectHandle integer proximity sensor, vision sensor or graph
+---@return integer explicitHandlingFlags 1 if so
+function sim.getExplicitHandling(objectHandle) end
 
 --- Value of a property.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
@@ -361,6 +513,11 @@ function sim.getIsRealTimeSimulation() end
 ---@return number offset rad or metres
 ---@return number multCoeff the factor
 function sim.getJointDependency(jointHandle) end
+
+--- Force or torque a joint's motor has exerted on the joint's parent, along its z axis: the mean of the last dynamics call.
+---@param jointHandle integer the joint; with sim.handleflag_rawvalue the value of the last sub-step
+---@return number forceOrTorque newtons or newton metres
+function sim.getJointForce(jointHandle) end
 
 --- Interval of a joint.
 ---@param objectHandle integer the joint
@@ -436,6 +593,11 @@ function sim.getMatrixInverse(matrix) end
 ---@return number[] size along the axes of the base
 function sim.getModelBB(handle) end
 
+--- Flags of a model.
+---@param objectHandle integer the object
+---@return integer property sim.modelproperty_* bits; sim.modelproperty_not_model if it is no model base
+function sim.getModelProperty(objectHandle) end
+
 --- Splits an old-style name at its `#`; without one the suffix is -1.
 ---@param name? string the name; nil for the suffix of the calling script
 ---@return integer suffixNumber -1 if there is none
@@ -488,6 +650,32 @@ function sim.getObjectChild(objectHandle, index) end
 ---@return number[] pose x, y, z, qx, qy, qz, qw
 function sim.getObjectChildPose(objectHandle) end
 
+--- A colour of an object.
+---@param objectHandle integer the object
+---@param index integer which mesh of a shape, from 0
+---@param colorComponent integer sim.colorcomponent_*
+---@return number[] rgbData red, green, blue; nothing when the object has no such colour
+function sim.getObjectColor(objectHandle, index, colorComponent) end
+
+--- Parameter of an object that is a list of numbers. No object has one.
+---@param objectHandle integer the object
+---@param ParameterId integer
+---@return number[] params nothing
+function sim.getObjectFloatArrayParam(objectHandle, ParameterId) end
+
+--- Float parameter of an object.
+---@param objectHandle integer the object
+---@param parameterId integer
+---@return number parameter nothing if the object has no such parameter
+function sim.getObjectFloatParam(objectHandle, parameterId) end
+
+--- Float parameter of an object.
+---@deprecated properties
+---@param objectHandle integer the object
+---@param parameterId integer
+---@return number parameter nothing if the object has no such parameter
+function sim.getObjectFloatParameter(objectHandle, parameterId) end
+
 --- Object with an identifier.
 ---@param uid integer the identifier
 ---@param options? table noError: -1 instead of an error
@@ -510,6 +698,18 @@ function sim.getObjectHandle_noErrorNoSuffixAdjustment(name) end
 ---@return integer order from 0
 ---@return integer totalSiblingsCount itself included
 function sim.getObjectHierarchyOrder(objectHandle) end
+
+--- Integer parameter of an object.
+---@param objectHandle integer the object
+---@param parameterId integer
+---@return integer parameter nothing if the object has no such parameter
+function sim.getObjectInt32Param(objectHandle, parameterId) end
+
+--- Integer parameter of an object.
+---@param objectHandle integer the object
+---@param parameterId integer
+---@return integer parameter nothing if the object has no such parameter
+function sim.getObjectInt32Parameter(objectHandle, parameterId) end
 
 --- Pose of an object as a matrix.
 ---@param objectHandle integer the object
@@ -546,6 +746,11 @@ function sim.getObjectPose(objectHandle, relativeToObjectHandle) end
 ---@return number[] position metres
 function sim.getObjectPosition(objectHandle, relativeToObjectHandle) end
 
+--- Flags of an object.
+---@param objectHandle integer the object
+---@return integer property sim.objectproperty_* bits
+function sim.getObjectProperty(objectHandle) end
+
 --- Rotation of an object.
 ---@param objectHandle integer the object; sim.handleflag_wxyzquat puts w first
 ---@param relativeToObjectHandle? integer the frame to express it in
@@ -560,6 +765,29 @@ function sim.getObjectSel() end
 ---@deprecated sim.getObjectSel
 ---@return integer[] objectHandles the last selected one last
 function sim.getObjectSelection() end
+
+--- Product of all factors an object was scaled by.
+---@param objectHandle integer the object
+---@return number sizeFactor the product
+function sim.getObjectSizeFactor(objectHandle) end
+
+--- What an object can be to sensors and checks: its own flags, whatever its model says.
+---@param objectHandle integer the object
+---@return integer property sim.objectspecialproperty_* bits
+function sim.getObjectSpecialProperty(objectHandle) end
+
+--- Text parameter of an object. No object has one.
+---@param objectHandle integer the object
+---@param ParameterId integer
+---@return string|table parameter nothing
+function sim.getObjectStringParam(objectHandle, ParameterId) end
+
+--- Text parameter of an object. No object has one.
+---@deprecated properties
+---@param objectHandle integer the object
+---@param ParameterId integer
+---@return string|table parameter nothing
+function sim.getObjectStringParameter(objectHandle, ParameterId) end
 
 --- Type of an object.
 ---@param objectHandle integer the object
@@ -706,6 +934,17 @@ function sim.getQuaternionProperty(target, propertyName, options) end
 ---@return integer referencedHandle error if there is none, or more than one
 function sim.getReferencedHandle(objectHandle, tag) end
 
+--- Handles an object refers to.
+---@param objectHandle integer the object
+---@param tag? string name of the list
+---@return integer[] referencedHandles -1 for objects that are gone
+function sim.getReferencedHandles(objectHandle, tag) end
+
+--- Names of the lists of handles an object refers to.
+---@param objectHandle integer the object
+---@return string[] tags in the order they were made
+function sim.getReferencedHandlesTags(objectHandle) end
+
 --- Axis and angle that turn one orientation into another.
 ---@param matrixStart number[] matrix or pose
 ---@param matrixGoal number[] matrix or pose
@@ -744,6 +983,51 @@ function sim.getSettingString(key) end
 ---@param options? table
 ---@return table appearance for sim.setShapeAppearance
 function sim.getShapeAppearance(handle, options) end
+
+--- The bounding box of a shape.
+---@param shapeHandle integer the shape
+---@return number[] size full extents, metres
+---@return number[] pose of the box in the shape's frame
+function sim.getShapeBB(shapeHandle) end
+
+--- A colour of a shape.
+---@param shapeHandle integer the shape
+---@param colorName string nil: the first mesh, a text: the first mesh whose colour is called so, '@compound': of each mesh
+---@param colorComponent integer sim.colorcomponent_*
+---@return integer result 1, or 0 when no mesh is called so
+---@return number[] rgbData red, green, blue; one number for transparency, 1 for opaque
+function sim.getShapeColor(shapeHandle, colorName, colorComponent) end
+
+--- What kind of geometry a shape is.
+---@param shapeHandle integer the shape
+---@return integer result 1: compound, 2: primitive for the physics, 4: convex
+---@return integer pureType sim.primitiveshape_*, 0 if it is none
+---@return number[] dimensions full extents of the primitive, metres, and 0
+function sim.getShapeGeomInfo(shapeHandle) end
+
+--- Inertia and centre of mass of a shape.
+---@param shapeHandle integer the shape
+---@return number[] inertiaMatrix kg m2, about the centre of mass, along the axes of the shape
+---@return number[] comMatrix position of the centre of mass in the shape's frame, not rotated
+function sim.getShapeInertia(shapeHandle) end
+
+--- Mass of a shape.
+---@param shapeHandle integer the shape
+---@return number mass kg
+function sim.getShapeMass(shapeHandle) end
+
+--- The mesh of a shape, in its frame; compounds as one.
+---@param shapeHandle integer the shape
+---@return number[] vertices three coordinates each, metres
+---@return integer[] indices three vertices per triangle, from 0
+---@return number[] normals nine numbers per triangle
+function sim.getShapeMesh(shapeHandle) end
+
+--- What one mesh of a shape looks like.
+---@param shapeHandle integer the shape
+---@param itemIndex integer which mesh, from 0
+---@return any data vertices, indices, normals, colors, shadingAngle, transparency, options; nothing past the last mesh
+function sim.getShapeViz(shapeHandle, itemIndex) end
 
 --- State of the simulation.
 ---@return integer state one of sim.simulation_*
@@ -818,9 +1102,21 @@ function sim.getVector2Property(target, propertyName, options) end
 ---@return number[] propertyState
 function sim.getVector3Property(target, propertyName, options) end
 
+--- Velocity of a shape as the last dynamics call left it, at its centre of mass.
+---@param shapeHandle integer the shape
+---@return number[] linearVelocity world axes, m/s
+---@return number[] angularVelocity world axes, rad/s
+function sim.getVelocity(shapeHandle) end
+
 --- Whether this script may yield now.
 ---@return boolean allowed
 function sim.getYieldAllowed() end
+
+--- Makes one shape of several. The originals are removed; the last one gives its pose, place, name and flags.
+---@param shapeHandles integer[] the shapes
+---@param merge? boolean whether the result is one mesh instead of a compound
+---@return integer shapeHandle the new shape
+function sim.groupShapes(shapeHandles, merge) end
 
 --- Calls a callback of all add-ons. For the main script.
 ---@param callType integer sim.syscb_*
@@ -924,6 +1220,11 @@ function sim.invertMatrix(matrix) end
 ---@param pose number[] is changed
 ---@return integer result 1
 function sim.invertPose(pose) end
+
+--- Whether the physics holds a shape, or works on a joint or force sensor. False while the simulation is stopped.
+---@param objectHandle integer the object
+---@return boolean enabled whether it takes part
+function sim.isDynamicallyEnabled(objectHandle) end
 
 --- Whether a handle is one of an object, a collection or a script.
 ---@param objectHandle integer the handle
@@ -1088,6 +1389,13 @@ function sim.readCustomDataBlockTags(handle) end
 ---@return table data empty if there is none
 function sim.readCustomTableData(handle, tag, options) end
 
+--- What a force sensor measures, in its own frame: the load its child applies to its parent.
+---@param objectHandle integer the force sensor; with sim.handleflag_rawvalue the value of the last sub-step
+---@return integer result bit 0: there is data; bit 1: the sensor holds nothing
+---@return number[] forceVector newtons
+---@return number[] torqueVector newton metres
+function sim.readForceSensor(objectHandle) end
+
 --- Accepted for scripts that describe themselves to the original's editor.
 ---@param ModuleName string
 ---@param ... any
@@ -1103,6 +1411,12 @@ function sim.registerScriptFuncHook(systemCallback, userFunction, execBefore) en
 
 --- Undoes one sim.acquireLock.
 function sim.releaseLock() end
+
+--- Moves the frame of a shape; geometry and children stay where they are.
+---@param shapeHandle integer the shape
+---@param pose number[] in the world; a quaternion of zeros means the frame of the bounding box
+---@return boolean result false for a single primitive, which keeps its frame
+function sim.relocateShapeFrame(shapeHandle, pose) end
 
 --- Removes a model: its base and everything below.
 ---@param objectHandle integer base of the model
@@ -1147,6 +1461,11 @@ function sim.removeReferencedObjects(objectHandle, tag, delayed) end
 ---@param types? integer[] as in sim.getPathInterpolatedConfig
 ---@return number[] path flat table of count points, both ends included
 function sim.resamplePath(path, lengths, count, method, types) end
+
+--- Makes the physics take an object up anew at the next dynamics call: it loses its velocity.
+---@param objectHandle integer the object, with sim.handleflag_model also everything below it, or sim.handle_all
+---@return integer result
+function sim.resetDynamicObject(objectHandle) end
 
 --- Forgets what proximity sensors detected.
 ---@param sensorHandle integer a sensor, sim.handle_all or sim.handle_all_except_explicit
@@ -1199,6 +1518,44 @@ function sim.rmlMoveToJointPositions(joints, flags, currentVel, currentAccel, ma
 ---@return number timeLeft unused part of the last step
 function sim.rmlMoveToPosition(object, relativeTo, flags, currentVel, currentAccel, maxVel, maxAccel, maxJerk, targetPosition, targetQuaternion, targetVel) end
 
+--- Plans a motion to positions.
+---@deprecated sim.ruckigPos
+---@param dofs integer number of axes
+---@param baseCycleTime number seconds; step times are multiples of it
+---@param flags integer sim.ruckig_*, -1 for time synchronisation
+---@param currentPosVelAccel number[] positions, then velocities, then accelerations
+---@param maxVelAccelJerk number[] limits, then minima where the flags say so
+---@param selection integer[] 0 leaves an axis out
+---@param targetPosVel number[] positions, then velocities
+---@return integer handle for sim.ruckigStep
+function sim.rmlPos(dofs, baseCycleTime, flags, currentPosVelAccel, maxVelAccelJerk, selection, targetPosVel) end
+
+--- Forgets a trajectory.
+---@deprecated sim.ruckigRemove
+---@param handle integer from sim.ruckigPos or sim.ruckigVel
+function sim.rmlRemove(handle) end
+
+--- Follows a trajectory.
+---@deprecated sim.ruckigStep
+---@param handle integer from sim.ruckigPos or sim.ruckigVel
+---@param cycleTime number seconds to advance by
+---@return integer result 0 running, 1 there, negative on failure
+---@return number[] newPosVelAccel positions, then velocities, then accelerations
+---@return number synchronizationTime seconds left; negative in the last step
+function sim.rmlStep(handle, cycleTime) end
+
+--- Plans a change of velocities.
+---@deprecated sim.ruckigVel
+---@param dofs integer number of axes
+---@param baseCycleTime number seconds; step times are multiples of it
+---@param flags integer sim.ruckig_*, -1 for time synchronisation
+---@param currentPosVelAccel number[] positions, then velocities, then accelerations
+---@param maxAccelJerk number[] limits, then minimum accelerations where the flags say so
+---@param selection integer[] 0 leaves an axis out
+---@param targetVel number[] velocities
+---@return integer handle for sim.ruckigStep
+function sim.rmlVel(dofs, baseCycleTime, flags, currentPosVelAccel, maxAccelJerk, selection, targetVel) end
+
 --- Turns a matrix or pose around an axis.
 ---@param matrixIn number[] matrix or pose
 ---@param axis number[] direction, any length
@@ -1206,6 +1563,54 @@ function sim.rmlMoveToPosition(object, relativeTo, flags, currentVel, currentAcc
 ---@param angle number radians, right-handed
 ---@return number[] matrixOut of the same kind
 function sim.rotateAroundAxis(matrixIn, axis, axisPos, angle) end
+
+--- Plans a motion to positions.
+---@param dofs integer number of axes
+---@param baseCycleTime number seconds; step times are multiples of it
+---@param flags integer sim.ruckig_*, -1 for time synchronisation
+---@param currentPosVelAccel number[] positions, then velocities, then accelerations
+---@param maxVelAccelJerk number[] limits, then minima where the flags say so
+---@param selection integer[] 0 leaves an axis out
+---@param targetPosVel number[] positions, then velocities
+---@return integer handle for sim.ruckigStep
+function sim.ruckigPos(dofs, baseCycleTime, flags, currentPosVelAccel, maxVelAccelJerk, selection, targetPosVel) end
+
+--- Forgets a trajectory.
+---@param handle integer from sim.ruckigPos or sim.ruckigVel
+function sim.ruckigRemove(handle) end
+
+--- Follows a trajectory.
+---@param handle integer from sim.ruckigPos or sim.ruckigVel
+---@param cycleTime number seconds to advance by
+---@return integer result 0 running, 1 there, negative on failure
+---@return number[] newPosVelAccel positions, then velocities, then accelerations
+---@return number synchronizationTime seconds left; negative in the last step
+function sim.ruckigStep(handle, cycleTime) end
+
+--- Plans a change of velocities.
+---@param dofs integer number of axes
+---@param baseCycleTime number seconds; step times are multiples of it
+---@param flags integer sim.ruckig_*, -1 for time synchronisation
+---@param currentPosVelAccel number[] positions, then velocities, then accelerations
+---@param maxAccelJerk number[] limits, then minimum accelerations where the flags say so
+---@param selection integer[] 0 leaves an axis out
+---@param targetVel number[] velocities
+---@return integer handle for sim.ruckigStep
+function sim.ruckigVel(dofs, baseCycleTime, flags, currentPosVelAccel, maxAccelJerk, selection, targetVel) end
+
+--- Scales an object along its axes; mass and inertia stay.
+---@param objectHandle integer the object
+---@param xScale number at least 0.0001
+---@param yScale number at least 0.0001; as x for round things
+---@param zScale number at least 0.0001; as x for spheres
+---@param Options? integer
+function sim.scaleObject(objectHandle, xScale, yScale, zScale, Options) end
+
+--- Scales objects with their masses.
+---@param objectHandles integer[] the objects
+---@param scalingFactor number at least 0.0001
+---@param scalePositionsToo boolean also where they are in their parents' frames
+function sim.scaleObjects(objectHandles, scalingFactor, scalePositionsToo) end
 
 --- Runs a function later, at a point in time.
 ---@param f function function or name of a global function
@@ -1251,6 +1656,50 @@ function sim.setBufferSignal(name, value) end
 ---@param propertyState number[] the new value
 ---@param options? table noError: no error when that fails
 function sim.setColorProperty(target, propertyName, propertyState, options) end
+
+--- Sets a switch of a physics engine.
+---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
+---@param boolParam boolean the value
+function sim.setEngineBoolParam(paramId, objectHandle, boolParam) end
+
+--- Sets a switch of a physics engine.
+---@deprecated properties
+---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
+---@param boolParam boolean the value
+function sim.setEngineBoolParameter(paramId, objectHandle, boolParam) end
+
+--- Sets a float parameter of a physics engine.
+---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
+---@param floatParam number the value
+function sim.setEngineFloatParam(paramId, objectHandle, floatParam) end
+
+--- Sets a float parameter of a physics engine.
+---@deprecated properties
+---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
+---@param floatParam number the value
+function sim.setEngineFloatParameter(paramId, objectHandle, floatParam) end
+
+--- Sets an integer parameter of a physics engine.
+---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
+---@param int32Param integer the value
+function sim.setEngineInt32Param(paramId, objectHandle, int32Param) end
+
+--- Sets an integer parameter of a physics engine.
+---@deprecated properties
+---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
+---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
+---@param int32Param integer the value
+function sim.setEngineInt32Parameter(paramId, objectHandle, int32Param) end
+
+--- Sets whether a sensor or graph is left out when all are handled.
+---@param objectHandle integer proximity sensor, vision sensor or graph
+---@param explicitHandlingFlags integer 1 if so
+function sim.setExplicitHandling(objectHandle, explicitHandlingFlags) end
 
 --- Sets a property; names below `customData.` and `signal.` are created.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
@@ -1331,7 +1780,7 @@ function sim.setJointTargetPosition(objectHandle, targetPosition, motionParams) 
 ---@param objectHandle integer the joint, revolute or prismatic
 ---@param targetVelocity number rad/s or m/s
 ---@param motionParams? number[] highest acceleration and jerk; may be shorter
----@param initVel number velocity to start from
+---@param initVel? number velocity to start from
 ---@return integer result 1
 function sim.setJointTargetVelocity(objectHandle, targetVelocity, motionParams, initVel) end
 
@@ -1346,6 +1795,11 @@ function sim.setLinkDummy(dummyHandle, linkDummyHandle) end
 ---@param propertyState integer the new value
 ---@param options? table noError: no error when that fails
 function sim.setLongProperty(target, propertyName, propertyState, options) end
+
+--- Makes an object a model base with these flags, or with sim.modelproperty_not_model no model base.
+---@param objectHandle integer the object
+---@param property integer sim.modelproperty_* bits
+function sim.setModelProperty(objectHandle, property) end
 
 --- Chooses the suffix old-style names are looked up with. Objects have no suffixes any more, so this does nothing.
 ---@param SuffixNumber integer
@@ -1377,10 +1831,54 @@ function sim.setObjectAlias(objectHandle, objectAlias) end
 ---@return integer result 1, or -1 if it is no spherical joint
 function sim.setObjectChildPose(objectHandle, pose) end
 
+--- Colours an object.
+---@param objectHandle integer the object
+---@param index integer which mesh of a shape, from 0
+---@param colorComponent integer sim.colorcomponent_*
+---@param rgbData number[] red, green, blue
+---@return boolean result false when the object has no such colour
+function sim.setObjectColor(objectHandle, index, colorComponent, rgbData) end
+
+--- Sets a parameter of an object that is a list of numbers. No object has one, so this does nothing.
+---@param objectHandle integer the object
+---@param ParameterId integer
+---@param Params number[]
+function sim.setObjectFloatArrayParam(objectHandle, ParameterId, Params) end
+
+--- Sets a float parameter of an object.
+---@param objectHandle integer the object
+---@param parameterId integer
+---@param parameter number the value
+---@return integer result 1, or 0 when the object has no such parameter
+function sim.setObjectFloatParam(objectHandle, parameterId, parameter) end
+
+--- Sets a float parameter of an object.
+---@deprecated properties
+---@param objectHandle integer the object
+---@param parameterId integer
+---@param parameter number the value
+---@return integer result 1, or 0 when the object has no such parameter
+function sim.setObjectFloatParameter(objectHandle, parameterId, parameter) end
+
 --- Moves an object among its siblings.
 ---@param objectHandle integer the object
 ---@param order integer from 0; negative positions count from the end
 function sim.setObjectHierarchyOrder(objectHandle, order) end
+
+--- Sets an integer parameter of an object.
+---@param objectHandle integer the object
+---@param parameterId integer
+---@param parameter integer the value
+---@return integer result 1, or 0 when the object has no such parameter
+function sim.setObjectInt32Param(objectHandle, parameterId, parameter) end
+
+--- Sets an integer parameter of an object.
+---@deprecated properties
+---@param objectHandle integer the object
+---@param parameterId integer
+---@param parameter integer the value
+---@return integer result 1, or 0 when the object has no such parameter
+function sim.setObjectInt32Parameter(objectHandle, parameterId, parameter) end
 
 --- Places an object.
 ---@param objectHandle integer the object
@@ -1420,6 +1918,11 @@ function sim.setObjectPose(objectHandle, pose, relativeToObjectHandle) end
 ---@param relativeToObjectHandle? number[] the frame it is expressed in
 function sim.setObjectPosition(objectHandle, position, relativeToObjectHandle) end
 
+--- Sets the flags of an object.
+---@param objectHandle integer the object
+---@param property integer sim.objectproperty_* bits
+function sim.setObjectProperty(objectHandle, property) end
+
 --- Turns an object; its position stays.
 ---@param objectHandle integer the object; sim.handleflag_wxyzquat: w comes first
 ---@param quaternion number[] qx, qy, qz, qw
@@ -1434,6 +1937,24 @@ function sim.setObjectSel(objectHandles) end
 ---@deprecated sim.setObjectSel
 ---@param objectHandles integer[] unknown ones are left out
 function sim.setObjectSelection(objectHandles) end
+
+--- Sets what an object can be to sensors and checks.
+---@param objectHandle integer the object
+---@param property integer sim.objectspecialproperty_* bits
+function sim.setObjectSpecialProperty(objectHandle, property) end
+
+--- Sets a text parameter of an object. No object has one, so this does nothing.
+---@param objectHandle integer the object
+---@param ParameterId integer
+---@param Parameter string|table
+function sim.setObjectStringParam(objectHandle, ParameterId, Parameter) end
+
+--- Sets a text parameter of an object. No object has one, so this does nothing.
+---@deprecated properties
+---@param objectHandle integer the object
+---@param ParameterId integer
+---@param Parameter string|table
+function sim.setObjectStringParameter(objectHandle, ParameterId, Parameter) end
 
 --- Sets a property; names below `customData.` and `signal.` are created.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
@@ -1461,6 +1982,12 @@ function sim.setProperty(target, name, value, type) end
 ---@param options? table noError: no error when that fails
 function sim.setQuaternionProperty(target, propertyName, propertyState, options) end
 
+--- Makes an object refer to others; copies then refer to the copies.
+---@param objectHandle integer the object
+---@param referencedHandles integer[] empty to remove the list
+---@param tag? string name of the list
+function sim.setReferencedHandles(objectHandle, referencedHandles, tag) end
+
 --- Makes a shape look like another one did.
 ---@param handle integer the shape
 ---@param appearance table from sim.getShapeAppearance
@@ -1472,6 +1999,31 @@ function sim.setShapeAppearance(handle, appearance, options) end
 ---@param shapeHandle integer the shape
 ---@param size number[] along the axes of its box; a side without extent keeps none
 function sim.setShapeBB(shapeHandle, size) end
+
+--- Colours a shape.
+---@param shapeHandle integer the shape
+---@param colorName string nil: every mesh, a text: meshes whose colour is called so, '@compound': each mesh its own
+---@param colorComponent integer sim.colorcomponent_*
+---@param rgbData number[] red, green, blue; one number for transparency, 1 for opaque
+---@return integer result 1
+function sim.setShapeColor(shapeHandle, colorName, colorComponent, rgbData) end
+
+--- Changes inertia and centre of mass of a shape. Set the mass first.
+---@param shapeHandle integer the shape
+---@param inertiaMatrix number[] kg m2, about the centre of mass, along the axes of comMatrix; the upper triangle counts
+---@param comMatrix number[] frame at the centre of mass, in the shape's frame
+function sim.setShapeInertia(shapeHandle, inertiaMatrix, comMatrix) end
+
+--- Changes the mass of a shape; its inertia changes in proportion.
+---@param shapeHandle integer the shape
+---@param mass number kg
+function sim.setShapeMass(shapeHandle, mass) end
+
+--- Gives a shape a preset material, or the one of another shape.
+---@param shapeHandle integer the shape
+---@param materialIdOrShapeHandle integer sim.dynmat_* or a shape
+---@return integer result -1 for a preset, 1 for another shape
+function sim.setShapeMaterial(shapeHandle, materialIdOrShapeHandle) end
 
 --- Gives an object the name of another one with something appended.
 ---@param handle integer the object
@@ -1553,6 +2105,11 @@ function sim.switchThread() end
 ---@param f function the function; the rest are its arguments
 ---@param ... any
 function sim.throttle(period, f, ...) end
+
+--- Takes a compound apart into the shapes it was made of.
+---@param shapeHandle integer the shape; -2 minus the handle divides a single mesh into its islands
+---@return integer[] simpleShapeHandles the new shapes, or the shape itself when there is nothing to take apart
+function sim.ungroupShape(shapeHandle) end
 
 --- Calls a function with every object of a tree, parents before children.
 ---@param rootHandle integer first object visited, or sim.handle_scene

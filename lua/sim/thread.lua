@@ -69,10 +69,15 @@ function M.wait(...)
     return simulationTime and elapsed - dt or 0
 end
 
+local function checkCanWait(name)
+    if not canYield() then error(name .. ': cannot wait here: not in a thread, or yielding is forbidden', 3) end
+end
+
 local function waitForOldSignal(name)
     while true do
         local value = sim.getInt32Signal(name) or sim.getFloatSignal(name) or sim.getStringSignal(name)
         if value then return value end
+        checkCanWait('sim.waitForSignal')
         M.step()
     end
 end
@@ -91,6 +96,7 @@ function M.waitForSignal(target, signalName)
     while true do
         local value = sim.getProperty(target, 'signal.' .. signalName, {noError = true})
         if value then return value end
+        checkCanWait('sim.waitForSignal')
         M.step()
     end
 end
