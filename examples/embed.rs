@@ -32,7 +32,8 @@ fn simulate() -> Result<(), Error> {
     let script = sim.add_script(ScriptKind::Customization, "embedded", SCENE.as_bytes())?;
     sim.step(1);
     let results = sim.call(&script, "push", &[Data::Float(1.5)])?;
-    let Some(ball) = results.first().and_then(Data::as_int).and_then(Handle::from_raw) else { return Ok(()) };
+    let [Data::Int(ball)] = results.as_slice() else { panic!("push returns a handle") };
+    let ball = Handle::from_raw(*ball).expect("push returns a handle");
     for _ in 0..5 {
         sim.step(2);
         if let Ok(pose) = sim.scene().world_pose(ball) {

@@ -114,8 +114,6 @@ fn threads_that_never_yield() {
     let output =
         run_briefly("function sysCall_thread() while true do end end function sysCall_sensing() print('step') end");
     assert!(output.contains("step"), "{output}");
-    run_briefly(
-    );
     run_briefly("function sysCall_thread() while true do coroutine.wrap(function() coroutine.yield() end)() end end");
 }
 

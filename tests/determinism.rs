@@ -59,6 +59,7 @@ fn record(scene: PathBuf) -> String {
         ..Options::default()
     };
     let mut sim = Simulator::with_console(options, Box::new(transcript.clone()));
+    sim.scene_mut().add_default_objects().expect("an empty scene has room");
     let code = fs::read(&scene).expect("a scene is readable");
     sim.add_script(ScriptKind::Customization, "scene", &code).expect("a scene loads");
     let mut poses = String::new();

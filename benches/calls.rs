@@ -1,0 +1,36 @@
+//! How fast scripts call the simulator: one benchmark per row of calls in docs/BENCHMARKS.md.
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use swanilda::scene::Data;
+use swanilda::{Options, ScriptKind, Simulator};
+
+/// Calls in a tight loop.
+const CALLS: u64 = 100_000;
+
+const SCRIPT: &str = "
+sim = require 'sim'
+function sysCall_init() h = sim.createDummy(0.1) p = {0, 0, 0} q = {0, 0, 1} end
+function getSimulationTime(n) local f = sim.getSimulationTime for _ = 1, n do f() end end
+function getObjectPosition(n) local f, h = sim.getObjectPosition, h for _ = 1, n do f(h, -1) end end
+function setObjectPosition(n) local f, h, p = sim.setObjectPosition, h, p for _ = 1, n do f(h, p) end end
+function setObjectPositionChanging(n)
+    local f, h, p, q = sim.setObjectPosition, h, p, q
+    for _ = 1, n / 2 do f(h, p) f(h, q) end
+end
+";
+
+fn calls(criterion: &mut Criterion) {
+    let mut sim = Simulator::new(Options::default());
+    let script = sim.add_script(ScriptKind::Customization, "bench", SCRIPT.as_bytes()).expect("the script loads");
+    let mut group = criterion.benchmark_group("calls");
+    group.throughput(Throughput::Elements(CALLS));
+    for function in ["getSimulationTime", "getObjectPosition", "setObjectPosition", "setObjectPositionChanging"] {
+        group.bench_function(function, |bencher| {
+            bencher.iter(|| sim.call(&script, function, &[Data::Int(CALLS as i64)]).expect("the function works"));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, calls);
+criterion_main!(benches);

@@ -1,0 +1,56 @@
+//! How fast a simulation advances: with many scripts, and with many bodies.
+
+use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use swanilda::{Options, ScriptKind, Simulator};
+
+/// Builds so many dummies with an empty child script each.
+const CHILDREN: &str = "
+sim = require 'sim'
+local code = 'function sysCall_init() end function sysCall_actuation() end function sysCall_sensing() end'
+for _ = 1, COUNT do
+    local script = sim.createScript(sim.scripttype_simulation, code)
+    sim.setObjectParent(script, sim.createDummy(0.1), true)
+end
+";
+
+/// 100 cuboids above the floor, 5 x 5 x 4.
+const PILE: &str = "
+sim = require 'sim'
+for i = 0, 99 do
+    local box = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1})
+    sim.setObjectPosition(box, {i % 5 * 0.11, i // 5 % 5 * 0.11, 0.1 + i // 25 * 0.12})
+    sim.setObjectInt32Param(box, sim.shapeintparam_static, 0)
+    sim.setObjectInt32Param(box, sim.shapeintparam_respondable, 1)
+    sim.setShapeMass(box, 1)
+end
+";
+
+fn running(scene: &str) -> Simulator {
+    let mut sim = Simulator::new(Options::default());
+    sim.scene_mut().add_default_objects().expect("an empty scene has room");
+    sim.add_script(ScriptKind::Sandbox, "bench", scene.as_bytes()).expect("the scene loads");
+    sim.step(2);
+    sim
+}
+
+fn child_scripts(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("child scripts");
+    group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
+    for count in [0, 1, 100, 1000] {
+        let mut sim = running(&CHILDREN.replace("COUNT", &count.to_string()));
+        group.bench_function(count.to_string(), |bencher| bencher.iter(|| sim.pass()));
+    }
+    group.finish();
+}
+
+fn pile(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("pile");
+    group.throughput(Throughput::Elements(200)).sampling_mode(SamplingMode::Flat).sample_size(10);
+    group.bench_function("100 cuboids, 200 steps", |bencher| {
+        bencher.iter_batched(|| running(PILE), |mut sim| sim.step(200), criterion::BatchSize::PerIteration);
+    });
+    group.finish();
+}
+
+criterion_group!(benches, child_scripts, pile);
+criterion_main!(benches);
