@@ -36,7 +36,8 @@ local function drop()
 end
 
 function sysCall_actuation()
-    if dropped < PARCELS and sim.getSimulationTime() >= dropped * PERIOD then
+    -- Not in the very first step: scripts are initialised one after the other, and the gate may come later than this one.
+    if dropped < PARCELS and sim.getSimulationTime() > dropped * PERIOD then
         dropped = dropped + 1
         sim.callScriptFunction('announce', sim.getObject('/Gate/script'), drop(), dropped)
     end
