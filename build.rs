@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
+#[allow(clippy::disallowed_methods, reason = "cargo tells a build script its folders through the environment")]
 fn main() {
     println!("cargo:rerun-if-changed=lua");
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it")).join("lua");

@@ -1,4 +1,5 @@
 //! The command line as its users meet it: exit codes, streams, formats.
+#![allow(clippy::disallowed_methods, reason = "every wait of a test is bounded by the clock")]
 
 use std::fs;
 use std::path::PathBuf;

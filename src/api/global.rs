@@ -44,33 +44,41 @@ fn register_script_func_hook(
     let mut hooks = cx.env().hooks.borrow_mut();
     let list = if exec_before { &mut hooks.before } else { &mut hooks.after };
     if system_callback.is_empty() {
-        list.clear();
+        std::mem::take(list).into_values().for_each(|entries| release(cx, entries));
         return Ok(0);
     }
     let call =
         SysCall::from_name(&system_callback).ok_or_else(|| ApiError::Other("invalid system callback.".into()))?;
     cx.sim().note_callbacks(call.bit());
     let entries = list.entry(call).or_default();
-    let hook = match user_function {
-        ScriptFunction::Name(name) if name.is_empty() => {
-            entries.clear();
-            return Ok(0);
-        }
-        ScriptFunction::Name(name) => Hook { name, function: None },
-        ScriptFunction::Value(kept) => Hook { name: String::new(), function: Some(kept.0) },
-    };
-    let known =
-        entries.iter().position(|entry| hook.function.is_none() && entry.name == hook.name && entry.function.is_none());
-    match known {
-        Some(at) => {
-            entries.remove(at);
-            Ok(0)
-        }
-        None => {
-            entries.push(hook);
-            Ok(1)
+    match user_function {
+        ScriptFunction::Name(name) if name.is_empty() => release(cx, std::mem::take(entries)),
+        ScriptFunction::Name(name) => return Ok(toggle(entries, name)),
+        ScriptFunction::Value(kept) => {
+            entries.push(Hook { name: String::new(), function: Some(kept.0) });
+            return Ok(1);
         }
     }
+    Ok(0)
+}
+
+/// Adds the hook of that name, or removes it when it is there already; 1 or 0.
+fn toggle(entries: &mut Vec<Hook>, name: String) -> i64 {
+    match entries.iter().position(|hook| hook.function.is_none() && hook.name == name) {
+        Some(at) => {
+            entries.remove(at);
+            0
+        }
+        None => {
+            entries.push(Hook { name, function: None });
+            1
+        }
+    }
+}
+
+/// Lets go of the functions of hooks that are gone.
+fn release(cx: &Cx, entries: Vec<Hook>) {
+    entries.into_iter().filter_map(|hook| hook.function).for_each(|function| cx.stack().release_function(function));
 }
 
 impl FromScript for LevelChange {

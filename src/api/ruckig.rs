@@ -21,6 +21,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![ruckig_pos, ruckig_vel, ruckig
 /// @param targetPosVel positions, then velocities
 /// @return handle for sim.ruckigStep
 #[api("sim.ruckigPos")]
+#[expect(clippy::too_many_arguments, reason = "the reference has them")]
 fn ruckig_pos(
     cx: &mut Cx,
     dofs: Number,
@@ -54,6 +55,7 @@ fn ruckig_pos(
 /// @param targetVel velocities
 /// @return handle for sim.ruckigStep
 #[api("sim.ruckigVel")]
+#[expect(clippy::too_many_arguments, reason = "the reference has them")]
 fn ruckig_vel(
     cx: &mut Cx,
     dofs: Number,

@@ -78,7 +78,7 @@ fn create_octree(
     #[default(4.0)] point_size: f64,
 ) -> Result<Handle> {
     let _ = options;
-    let octree = OcTree { voxel_size: voxel_size.max(0.001).min(1.0), point_size };
+    let octree = OcTree { voxel_size: cell_size(voxel_size), point_size };
     cx.sim().clone().add_object("octree", Kind::OcTree(Box::new(octree)))
 }
 
@@ -99,9 +99,17 @@ fn create_point_cloud(
 ) -> Result<Handle> {
     let _ = options;
     let max_points_in_cell = max_pt_cnt_per_voxel.0.max(1);
-    let cloud = PointCloud { max_cell_size: max_voxel_size.max(0.001).min(1.0), max_points_in_cell, point_size };
+    let cloud = PointCloud { max_cell_size: cell_size(max_voxel_size), max_points_in_cell, point_size };
     cx.sim().clone().add_object("pointCloud", Kind::PointCloud(Box::new(cloud)))
 }
+
+/// The edge of a cell, within what is sensible, metres.
+fn cell_size(asked: f64) -> f64 {
+    if asked.is_finite() { asked.clamp(0.001, 1.0) } else { 0.001 }
+}
+
+/// State, three zeros, diffuse and specular colour.
+type LightParameters = (i64, [f64; 3], [f64; 3], [f64; 3]);
 
 /// State and colours of a light.
 ///
@@ -111,7 +119,7 @@ fn create_point_cloud(
 /// @return diffusePart red, green, blue
 /// @return specular red, green, blue
 #[api("sim.getLightParameters")]
-fn get_light_parameters(cx: &Cx, light_handle: Handle) -> Result<(i64, [f64; 3], [f64; 3], [f64; 3])> {
+fn get_light_parameters(cx: &Cx, light_handle: Handle) -> Result<LightParameters> {
     let scene = cx.scene();
     let light = scene.object(light_handle)?.light()?;
     Ok((i64::from(light.enabled), [0.0; 3], light.diffuse.map(f64::from), light.specular.map(f64::from)))

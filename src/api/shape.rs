@@ -179,7 +179,7 @@ fn get_shape_mesh(cx: &Cx, shape_handle: Handle) -> Result<(Vec<f64>, Vec<i64>, 
 /// @return pose of the box in the shape's frame
 #[api("sim.getShapeBB")]
 fn get_shape_bb(cx: &Cx, shape_handle: Handle) -> Result<([f64; 3], [f64; 7])> {
-    let bounding_box = cx.scene().object(shape_handle)?.shape()?.bounding_box.clone();
+    let bounding_box = cx.scene().object(shape_handle)?.shape()?.bounding_box;
     Ok((bounding_box.size, pose_to_array(&bounding_box.pose)))
 }
 

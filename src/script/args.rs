@@ -41,10 +41,6 @@ impl<'a> Args<'a> {
         self.position
     }
 
-    pub(crate) fn stack(&self) -> Stack<'a> {
-        self.stack
-    }
-
     pub(crate) fn kind(&self) -> Type {
         if self.position > self.count { Type::None } else { self.stack.kind(self.position) }
     }
@@ -55,13 +51,13 @@ impl<'a> Args<'a> {
     }
 
     /// The next argument, which must be there.
-    pub fn next<T: FromScript>(&mut self) -> ApiResult<T> {
+    pub fn take<T: FromScript>(&mut self) -> ApiResult<T> {
         self.position += 1;
         T::from_script(self)
     }
 
     /// The next argument, or the default when it is missing or nil.
-    pub fn next_or<T: FromScript>(&mut self, default: impl FnOnce() -> T) -> ApiResult<T> {
+    pub fn take_or<T: FromScript>(&mut self, default: impl FnOnce() -> T) -> ApiResult<T> {
         self.position += 1;
         match self.kind() {
             Type::None | Type::Nil => Ok(default()),

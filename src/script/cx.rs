@@ -5,8 +5,8 @@ use std::rc::Rc;
 
 use super::env::Env;
 use super::error::{ApiError, ApiResult};
+use super::instance::Script;
 use super::lua::Stack;
-use super::script::Script;
 use super::sim::Sim;
 use crate::scene::Scene;
 

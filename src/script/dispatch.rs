@@ -3,9 +3,9 @@
 use std::rc::Rc;
 
 use super::callback::SysCall;
+use super::instance::{Script, state};
 use super::lifecycle::Reply;
 use super::order::{Group, ScriptList};
-use super::script::{Script, state};
 use super::sim::Sim;
 use crate::scene::Data;
 

@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, HashSet};
 use std::rc::{Rc, Weak};
 
 use super::callback::SysCall;
+use super::instance::Script;
 use super::lua::{FunctionRef, Stack, State};
 use super::random::Random;
-use super::script::Script;
 use super::sim::Sim;
 use super::trajectories::Trajectories;
 use super::verbosity;

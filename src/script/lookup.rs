@@ -3,8 +3,8 @@
 use std::rc::Rc;
 
 use super::error::{ApiError, ApiResult};
+use super::instance::Script;
 use super::order::attached_scripts;
-use super::script::Script;
 use super::sim::Sim;
 use crate::scene::Handle;
 use crate::scene::script_object::ScriptType;

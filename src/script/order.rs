@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::script::Script;
+use super::instance::Script;
 use super::sim::Sim;
 use crate::scene::script_object::ScriptType;
 use crate::scene::{Handle, Scene};

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use super::callback::SysCall;
 use super::error::ApiResult;
 use super::sim::Sim;
-use super::{script::state, verbosity};
+use super::{instance::state, verbosity};
 use crate::scene::{CopyOptions, Data, Handle, Key, Kind, SceneError};
 
 impl Sim {

@@ -32,7 +32,6 @@ macro_rules! values {
 }
 
 values! {
-    (), "", |_nothing, _stack| ();
     bool, "bool", |value, stack| stack.push_bool(value);
     i64, "int", |value, stack| stack.push_int(value);
     f64, "float", |value, stack| stack.push_number(value);
@@ -47,6 +46,16 @@ values! {
     Vec<i64>, "int[]", |value, stack| push_list(stack, &value, |&v| stack.push_int(v));
     Vec<Handle>, "int[]", |value, stack| push_list(stack, &value, |v| stack.push_int(v.raw()));
     Vec<String>, "string[]", |value, stack| push_list(stack, &value, |v| stack.push_bytes(v.as_bytes()));
+}
+
+/// Nothing.
+impl IntoScript for () {
+    const TYPE: &'static str = "";
+
+    #[allow(private_interfaces)]
+    fn into_script(self, _: Stack<'_>) -> ApiResult<()> {
+        Ok(())
+    }
 }
 
 fn push_list<T>(stack: Stack<'_>, list: &[T], push: impl Fn(&T)) {

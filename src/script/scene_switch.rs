@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::callback::SysCall;
 use super::error::{ApiError, ApiResult};
-use super::script::Script;
+use super::instance::Script;
 use super::sim::Sim;
 use crate::scene::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Kind, Settings};

@@ -4,8 +4,8 @@ use std::rc::Rc;
 
 use super::callback::SysCall;
 use super::clock::SimulationState;
+use super::instance::state;
 use super::order::Group;
-use super::script::state;
 use super::sim::Sim;
 use super::verbosity;
 use crate::scene::Data;

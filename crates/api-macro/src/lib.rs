@@ -90,8 +90,8 @@ impl Parameter {
     fn decoder(&self) -> Tokens {
         let Self { ident, ty, .. } = self;
         match &self.default {
-            Some(value) => quote!(let #ident: #ty = args.next_or(|| (#value).into())?;),
-            None => quote!(let #ident: #ty = args.next()?;),
+            Some(value) => quote!(let #ident: #ty = args.take_or(|| (#value).into())?;),
+            None => quote!(let #ident: #ty = args.take()?;),
         }
     }
 }

@@ -17,13 +17,6 @@ pub(crate) struct LuaError {
     pub text: String,
 }
 
-impl LuaError {
-    /// The text without the traceback.
-    pub(crate) fn message(&self) -> &str {
-        self.text.split("\nstack traceback:").next().unwrap_or(&self.text)
-    }
-}
-
 impl<'a> Stack<'a> {
     /// Compiles `code` (text or bytecode made by this binary) and pushes the chunk. Lua shows positions as `[string "name"]:line:`
     /// unless the name starts with `=` or `@`.

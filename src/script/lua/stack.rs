@@ -162,10 +162,6 @@ impl<'a> Stack<'a> {
         unsafe { ffi::lua_pushlstring(self.raw, bytes.as_ptr().cast(), bytes.len()) };
     }
 
-    pub(crate) fn push_light(self, pointer: *const c_void) {
-        unsafe { ffi::lua_pushlightuserdata(self.raw, pointer.cast_mut()) }
-    }
-
     pub(crate) fn push_value(self, index: c_int) {
         assert!(self.kind(index) != Type::None, "only what is there can be copied");
         unsafe { ffi::lua_pushvalue(self.raw, index) }
@@ -192,11 +188,5 @@ impl<'a> Stack<'a> {
     pub(crate) fn same(self, a: c_int, b: c_int) -> bool {
         // SAFETY: raw comparison.
         unsafe { ffi::lua_rawequal(self.raw, a, b) != 0 }
-    }
-
-    /// Kilobytes in use by the whole state.
-    pub(crate) fn memory_kilobytes(self) -> i64 {
-        // SAFETY: a query.
-        i64::from(unsafe { ffi::lua_gc(self.raw, ffi::LUA_GCCOUNT) })
     }
 }

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::Target;
 use crate::scene::{Data, Handle, SceneError};
 use crate::script::error::{ApiError, ApiResult};
-use crate::script::script::Script;
+use crate::script::instance::Script;
 use crate::script::sim::Sim;
 
 /// Whose property it is.

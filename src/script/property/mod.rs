@@ -18,7 +18,7 @@ mod value;
 use std::rc::Rc;
 
 use super::error::{ApiError, ApiResult};
-use super::script::Script;
+use super::instance::Script;
 use super::sim::Sim;
 use crate::scene::script_object::ScriptType;
 use crate::scene::{Data, Handle, Namespace, ValueType, special};
@@ -45,6 +45,9 @@ enum Name<'a> {
     /// A named parameter of the application.
     Param(&'a str),
 }
+
+/// A part of the table, with its class as `sim.getPropertyName` tells it.
+type Part = (&'static str, String);
 
 /// Type and flags, as `sim.getPropertyInfo` tells them.
 pub(crate) type Info = (ValueType, i64);
@@ -132,7 +135,7 @@ impl Sim {
     /// signals in any case, as in CoppeliaSim.
     pub(crate) fn property_names(&self, target: &Target, prefix: &str) -> Vec<(String, String)> {
         let (before, after) = self.parts(target);
-        let listed = |parts: &[(&'static str, String)]| -> Vec<(String, String)> {
+        let listed = |parts: &[Part]| -> Vec<(String, String)> {
             let rows = parts.iter().flat_map(|(name, class)| part(name).listed().map(move |row| (row, class)));
             let rows = rows.filter(|(row, _)| row.name.starts_with(prefix));
             rows.map(|(row, class)| (row.name.to_owned(), class.clone())).collect()
@@ -145,7 +148,7 @@ impl Sim {
     }
 
     /// The parts of the table a target has, each with its class: those before and those after the named values.
-    fn parts(&self, target: &Target) -> (Vec<(&'static str, String)>, Vec<(&'static str, String)>) {
+    fn parts(&self, target: &Target) -> (Vec<Part>, Vec<Part>) {
         let with = |names: &[&'static str], class: &str| names.iter().map(|&n| (n, class.to_owned())).collect();
         match target {
             Target::App => (with(&["app"], "app"), Vec::new()),

@@ -4,7 +4,7 @@ use super::access::{Accessor, Subject, object_properties, subject_properties};
 use crate::scene::script_object::ScriptObject;
 use crate::scene::{Field, SceneResult};
 use crate::script::error::ApiResult;
-use crate::script::script::Detached;
+use crate::script::instance::Detached;
 
 /// What `sim.getStringProperty(.., 'scriptName')` leaves out of the log name of an add-on.
 const ADD_ON_SUFFIX: &str = "@addOnScript";

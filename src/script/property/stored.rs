@@ -6,7 +6,7 @@ use super::table::flags;
 use super::{Info, Sim, Target};
 use crate::scene::{CustomData, Data, Handle, Namespace, ValueType};
 use crate::script::error::{ApiError, ApiResult};
-use crate::script::script::Script;
+use crate::script::instance::Script;
 
 /// Who holds named values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

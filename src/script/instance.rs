@@ -14,7 +14,6 @@ pub(crate) mod state {
     pub const INITIALIZED: i64 = 2;
     pub const ENDED: i64 = 3;
     pub const ERROR: i64 = 8;
-    pub const SUSPENDED: i64 = 16;
 }
 
 /// A script of the simulator.
@@ -85,11 +84,6 @@ impl Script {
 
     pub(crate) fn mark_error(&self) {
         self.state.set(self.state.get() | state::ERROR);
-    }
-
-    pub(crate) fn set_bit(&self, bit: i64, on: bool) {
-        let state = self.state.get();
-        self.state.set(if on { state | bit } else { state & !bit });
     }
 
     /// Initialised, without error, not suspended.
