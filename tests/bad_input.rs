@@ -158,8 +158,8 @@ fn numbers_beyond_reason() {
     assert!(output.contains("alive"), "{output}");
 }
 
-/// Ends the program, or waits for a user or the wall clock: what these are for.
-const NOT_CALLED: &[&str] = &["quitSimulator", "sim.quitSimulator"];
+/// These end the program, or wait for the wall clock as long as they are told.
+const NOT_CALLED: &[&str] = &["quitSimulator", "sim.quitSimulator", "sim.wait"];
 
 #[test]
 fn wrong_arguments_for_every_function() {

@@ -105,6 +105,12 @@ function sim.addObjectToSelection(what, objectHandle) end
 ---@param options? table wholeTree: refer to all objects below, too
 function sim.addReferencedHandle(objectHandle, referencedHandle, tag, options) end
 
+--- Writes a line to the log in the name of this script, as an information.
+---@deprecated sim.addLog
+---@param message string the line
+---@return integer result 1
+function sim.addStatusbarMessage(message) end
+
 --- Turns the bounding box of a shape.
 ---@param shapeHandle integer the shape
 ---@param pose number[] its quaternion is the orientation in the world; zeros mean the tightest box
@@ -171,6 +177,11 @@ function sim.boolXor32(a, b) end
 ---@return integer result
 function sim.breakForceSensor(objectHandle) end
 
+--- Sends a message to all other scripts: their `sysCall_msg` gets it, the options if there are any, and the sender's handle.
+---@param message any a table; by convention with `id` and `data`
+---@param ... any
+function sim.broadcastMsg(message, ...) end
+
 --- The identity.
 ---@return number[] matrix upper 3 by 4 block, row by row
 function sim.buildIdentityMatrix() end
@@ -196,8 +207,11 @@ function sim.buildMatrixQ(position, quaternion) end
 function sim.buildPose(position, eulerAnglesOrAxis, mode, axis2) end
 
 --- Calls a function of another script (or of this one, by sim.handle_self).
----@param functionName string|table name of a global function; dots walk through tables
----@param scriptHandle integer the script
+---
+--- The first two arguments may come in either order. `function@name` calls a function of the script of type `scriptHandle` that
+--- belongs to the object of that path, or of the add-on of that name.
+---@param functionName string/int name of a global function; dots walk through tables
+---@param scriptHandle string/int the script, or a type (sim.scripttype_*) together with a name
 ---@param ... any
 ---@return any ... what the function returned
 function sim.callScriptFunction(functionName, scriptHandle, ...) end
@@ -219,12 +233,43 @@ function sim.changeEntityColor(entityHandle, color, component) end
 ---@return integer result 1 if it existed, else 0
 function sim.clearBufferSignal(name) end
 
+--- Removes a signal.
+---@deprecated sim.removeProperty(sim.handle_scene, 'signal.signalName')
+---@param signalName? string its name; without it, all of this kind are removed
+---@return integer count how many there were
+function sim.clearDoubleSignal(signalName) end
+
+--- Removes a signal.
+---@param signalName? string its name; without it, all of this kind are removed
+---@return integer count how many there were
+function sim.clearFloatSignal(signalName) end
+
+--- Removes a signal.
+---@param signalName? string its name; without it, all of this kind are removed
+---@return integer count how many there were
+function sim.clearInt32Signal(signalName) end
+
+--- Removes a signal.
+---@deprecated sim.removeProperty(sim.handle_scene, 'signal.signalName')
+---@param signalName? string its name; without it, all of this kind are removed
+---@return integer count how many there were
+function sim.clearIntegerSignal(signalName) end
+
+--- Removes a signal.
+---@param signalName? string its name; without it, all of this kind are removed
+---@return integer count how many there were
+function sim.clearStringSignal(signalName) end
+
 --- Appends the first point of a path to its end.
 ---@param path number[] flat table of points
 ---@param lengths number[] from sim.getPathLengths
 ---@return number[] path with one more point
 ---@return number[] lengths with one more value
 function sim.closePath(path, lengths) end
+
+--- Empties the scene. For add-ons and the sandbox, while the simulation is stopped.
+---@return integer result 1
+function sim.closeScene() end
 
 --- Sets mass, inertia and centre of mass of a shape as if it was solid.
 ---@param shapeHandle integer the shape
@@ -266,6 +311,13 @@ function sim.createCollection(options) end
 ---@return integer dummyHandle the dummy
 function sim.createDummy(size) end
 
+--- A new force sensor at the world's origin: a rigid link that measures its load.
+---@param options integer 1: with a force threshold, 2: with a torque threshold
+---@param intParams integer[] filter (0: average, 1: median), number of samples, consecutive violations, 0, 0
+---@param floatParams number[] size in metres, force threshold in N, torque threshold in N m, 0, 0
+---@return integer sensorHandle the sensor
+function sim.createForceSensor(options, intParams, floatParams) end
+
 --- New terrain, centred on x and y: static and respondable.
 ---@param options integer 1: back faces culled, 2: edges visible, 4: only a mesh for the physics, 8: not respondable
 ---@param shadingAngle number edges sharper than this show, rad
@@ -284,6 +336,24 @@ function sim.createHeightfieldShape(options, shadingAngle, xPointCount, yPointCo
 ---@return integer jointHandle the joint
 function sim.createJoint(jointType, jointMode, options, sizes) end
 
+--- A new shape from a mesh given in world coordinates; its frame is the world's.
+---@deprecated sim.createShape
+---@param options integer 1: back faces culled, 2: edges visible, 128: keep duplicate vertices
+---@param shadingAngle number edges sharper than this show, rad
+---@param vertices number[] three coordinates each, metres
+---@param indices integer[] three vertices per triangle, from 0
+---@param normals? number[] nine numbers per triangle
+---@param ...? any
+---@return integer shapeHandle the shape
+function sim.createMeshShape(options, shadingAngle, vertices, indices, normals, ...) end
+
+--- A new, empty octree at the world's origin.
+---@param voxelSize? number edge of a voxel, metres
+---@param options? integer for display
+---@param pointSize? number for display, pixels
+---@return integer handle the octree
+function sim.createOctree(voxelSize, options, pointSize) end
+
 --- Creates a path object from control points.
 ---@param ctrlPts number[] poses, seven numbers each, at least two
 ---@param options? integer 2 closed, 16 orientation computed from the direction
@@ -294,12 +364,29 @@ function sim.createJoint(jointType, jointMode, options, sizes) end
 ---@return integer pathHandle a dummy, with custom data PATHCTRLPTS and PATH (seven doubles per point)
 function sim.createPath(ctrlPts, options, subdiv, smoothness, orientationMode, upVector) end
 
+--- A new, empty point cloud at the world's origin.
+---@param maxVoxelSize? number largest cell, metres
+---@param maxPtCntPerVoxel? integer most points in a cell
+---@param options? integer for display
+---@param pointSize? number for display, pixels
+---@return integer handle the point cloud
+function sim.createPointCloud(maxVoxelSize, maxPtCntPerVoxel, options, pointSize) end
+
 --- A new primitive shape, centred on the world's origin: static and not respondable.
 ---@param primitiveType integer sim.primitiveshape_*
 ---@param sizes number[] full extents, metres
 ---@param options? integer 1: back faces culled, 2: sharp edges, 4: open ends, 8: only a mesh, no primitive for the physics
 ---@return integer shapeHandle the shape, -1 when there is no such primitive
 function sim.createPrimitiveShape(primitiveType, sizes, options) end
+
+--- A new proximity sensor at the world's origin; it looks along z.
+---@param sensorType integer sim.proximitysensor_*
+---@param subType? integer not used
+---@param options? integer 1: explicit handling, 8: no front faces, 16: no back faces, 32: fast
+---@param intParams? integer[] faces, subdivisions and samples
+---@param floatParams? number[] offset, range, sizes, radii, angles, metres and rad
+---@return integer sensorHandle the sensor
+function sim.createProximitySensor(sensorType, subType, options, intParams, floatParams) end
 
 --- A new primitive shape, as releases before 4.3 make it.
 ---@deprecated sim.createPrimitiveShape
@@ -329,6 +416,13 @@ function sim.createScript(scriptType, scriptText, options, lang) end
 ---@return integer shapeHandle the shape
 function sim.createShape(options, shadingAngle, vertices, indices, normals, ...) end
 
+--- A new vision sensor at the world's origin; it looks along z.
+---@param options? integer 1: explicit handling, 2: perspective
+---@param intParams? integer[] width and height in pixels, 0, 0
+---@param floatParams? number[] near and far plane in metres, angle in rad or size in metres, display size, ...
+---@return integer sensorHandle the sensor
+function sim.createVisionSensor(options, intParams, floatParams) end
+
 --- Removes a collection; its objects stay.
 ---@param collectionHandle integer the collection
 function sim.destroyCollection(collectionHandle) end
@@ -344,6 +438,12 @@ function sim.emptyCollection(collectionHandle) end
 ---@return any value first result, or the error
 function sim.executeLuaCode(code) end
 
+--- Runs a string in a script: as an expression if it is one, else as a chunk.
+---@param stringToExecute string|table the code; from the last `@` on it is the name of a language, not code
+---@param scriptHandle integer the script
+---@return any ... 0, then what the code gave, or an empty table if nothing
+function sim.executeScriptString(stringToExecute, scriptHandle) end
+
 --- Lets the idle loop run without pauses; it always does here, so this does nothing.
 ---@param enable boolean ignored
 function sim.fastIdleLoop(enable) end
@@ -357,6 +457,17 @@ function sim.fastIdleLoop(enable) end
 ---@return number[] configs flat table, the given one among them
 function sim.getAlternateConfigs(joints, config, tip, lowLimits, ranges) end
 
+--- A parameter of three numbers.
+---@param parameter integer sim.arrayparam_*
+---@return number[] parameterValues
+function sim.getArrayParam(parameter) end
+
+--- A parameter of three numbers.
+---@deprecated properties
+---@param parameter integer sim.arrayparam_*
+---@return number[] parameterValues
+function sim.getArrayParameter(parameter) end
+
 --- Whether the running coroutine may be pre-empted.
 ---@return boolean allowed
 ---@return integer level
@@ -365,6 +476,17 @@ function sim.getAutoYield() end
 --- How long a thread runs before it is pre-empted.
 ---@return number delay milliseconds, as in CoppeliaSim 4.10
 function sim.getAutoYieldDelay() end
+
+--- A switch.
+---@param parameter integer sim.boolparam_*
+---@return boolean boolState
+function sim.getBoolParam(parameter) end
+
+--- A switch.
+---@deprecated properties
+---@param parameter integer sim.boolparam_*
+---@return boolean boolState
+function sim.getBoolParameter(parameter) end
 
 --- Value of a property.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
@@ -418,6 +540,18 @@ function sim.getConfigDistance(a, b, metric, types) end
 ---@param index integer from 0
 ---@return any collidingObjects the two shapes
 function sim.getContactInfo(dynamicPass, objectHandle, index) end
+
+--- The customization script of an object.
+---@deprecated sim.getObject
+---@param objectHandle integer the object
+---@return integer scriptHandle -1 if there is none
+function sim.getCustomizationScriptAssociatedWithObject(objectHandle) end
+
+--- Value of a signal; nothing when there is none of that name.
+---@deprecated sim.getFloatProperty(sim.handle_scene, 'signal.signalName')
+---@param signalName string its name
+---@return number signalValue
+function sim.getDoubleSignal(signalName) end
 
 --- A switch of a physics engine.
 ---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
@@ -475,12 +609,44 @@ function sim.getExplicitHandling(objectHandle) end
 ---@return number[] propertyState
 function sim.getFloatArrayProperty(target, propertyName, options) end
 
+--- A float parameter.
+---@param parameter integer sim.floatparam_*
+---@return number parameterValue
+function sim.getFloatParam(parameter) end
+
+--- A float parameter.
+---@deprecated properties
+---@param parameter integer sim.floatparam_*
+---@return number parameterValue
+function sim.getFloatParameter(parameter) end
+
 --- Value of a property.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
 ---@param propertyName string its name
 ---@param options? table noError: nothing instead of an error
 ---@return number propertyState
 function sim.getFloatProperty(target, propertyName, options) end
+
+--- Value of a signal; nothing when there is none of that name.
+---@param signalName string its name
+---@return number signalValue
+function sim.getFloatSignal(signalName) end
+
+--- An integer parameter.
+---@param parameter integer sim.intparam_*
+---@return integer parameterValue
+function sim.getInt32Param(parameter) end
+
+--- An integer parameter.
+---@deprecated properties
+---@param parameter integer sim.intparam_*
+---@return integer parameterValue
+function sim.getInt32Parameter(parameter) end
+
+--- Value of a signal; nothing when there is none of that name.
+---@param signalName string its name
+---@return integer signalValue
+function sim.getInt32Signal(signalName) end
 
 --- Value of a property.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
@@ -503,6 +669,12 @@ function sim.getIntArrayProperty(target, propertyName, options) end
 ---@return integer propertyState
 function sim.getIntProperty(target, propertyName, options) end
 
+--- Value of a signal; nothing when there is none of that name.
+---@deprecated sim.getIntProperty(sim.handle_scene, 'signal.signalName')
+---@param signalName string its name
+---@return integer signalValue
+function sim.getIntegerSignal(signalName) end
+
 --- Whether the simulation keeps to wall-clock time.
 ---@return integer result 1 or 0
 function sim.getIsRealTimeSimulation() end
@@ -524,6 +696,18 @@ function sim.getJointForce(jointHandle) end
 ---@return boolean cyclic whether it has no limits
 ---@return number[] interval lower limit and range (not the upper limit), rad or metres
 function sim.getJointInterval(objectHandle) end
+
+--- The moving side of a joint in the joint's frame.
+---@deprecated sim.getObjectChildPose
+---@param objectHandle integer the joint
+---@return number[] matrix rows of rotation and position
+function sim.getJointMatrix(objectHandle) end
+
+--- Target force of a joint.
+---@deprecated sim.getJointTargetForce
+---@param jointHandle integer the joint
+---@return number forceOrTorque N or N m
+function sim.getJointMaxForce(jointHandle) end
 
 --- Mode of a joint.
 ---@param jointHandle integer the joint
@@ -560,6 +744,14 @@ function sim.getJointType(objectHandle) end
 ---@param jointHandle integer the joint
 ---@return number velocity rad/s or m/s
 function sim.getJointVelocity(jointHandle) end
+
+--- State and colours of a light.
+---@param lightHandle integer the light
+---@return integer state 1 when it is on
+---@return number[] zero three zeros
+---@return number[] diffusePart red, green, blue
+---@return number[] specular red, green, blue
+function sim.getLightParameters(lightHandle) end
 
 --- The dummy another is linked to.
 ---@param dummyHandle integer the dummy
@@ -619,6 +811,11 @@ function sim.getNamedFloatParam(name) end
 ---@return integer value nil if there is none
 function sim.getNamedInt32Param(name) end
 
+--- A named parameter: from the command line, or set by a script.
+---@param paramName string its name
+---@return string stringParam nothing if there is none
+function sim.getNamedStringParam(paramName) end
+
 --- Handle of the object at a path.
 ---@param path string /a/b from the top, ./a below this script's object, .. for the parent, : for the model
 ---@param options? table index: take another match; proxy: object to start from; noError: -1 instead of an error
@@ -638,6 +835,12 @@ function sim.getObjectAlias(objectHandle, options) end
 ---@param options? table
 ---@return string path for sim.getObject with option proxy = baseHandle
 function sim.getObjectAliasRelative(handle, baseHandle, aliasOptions, options) end
+
+--- The object of a script object: itself.
+---@deprecated sim.getObject
+---@param scriptHandle integer the script
+---@return integer objectHandle -1 for the main script, the sandbox and add-ons
+function sim.getObjectAssociatedWithScript(scriptHandle) end
 
 --- Child of an object, or root of the scene, by its position.
 ---@param objectHandle integer the object, or sim.handle_scene
@@ -799,6 +1002,12 @@ function sim.getObjectType(objectHandle) end
 ---@return integer uid the identifier
 function sim.getObjectUid(objectHandle) end
 
+--- Identifier of an object that is never given out twice.
+---@deprecated sim.getObjectUid
+---@param objectHandle integer the object
+---@return integer uid the identifier
+function sim.getObjectUniqueIdentifier(objectHandle) end
+
 --- Measured velocity of an object, between the last two simulation steps, world axes.
 ---@param objectHandle integer the object; with sim.handleflag_axis the angular velocity is axis times angle
 ---@return number[] linearVelocity m/s
@@ -840,6 +1049,11 @@ function sim.getPathInterpolatedConfig(path, lengths, t, method, types) end
 ---@return number[] lengths as many as there are points
 ---@return number total the last of them
 function sim.getPathLengths(path, dof, distCallback) end
+
+--- Names of the data kept with the application.
+---@deprecated properties
+---@return string[] tags in alphabetical order
+function sim.getPersistentDataTags() end
 
 --- Inverse of a pose.
 ---@param pose number[] x, y, z, qx, qy, qz, qw
@@ -928,6 +1142,11 @@ function sim.getQuaternionInverse(quaternion) end
 ---@return number[] propertyState
 function sim.getQuaternionProperty(target, propertyName, options) end
 
+--- A random number of this script's own sequence, which begins anew with each start of the script.
+---@param seed? integer begins another sequence
+---@return number randomValue 0 to 1, 1 excluded
+function sim.getRandom(seed) end
+
 --- The one object referenced under a tag.
 ---@param objectHandle integer the object that refers
 ---@param tag? string of the reference
@@ -952,11 +1171,59 @@ function sim.getReferencedHandlesTags(objectHandle) end
 ---@return number angle 0 to pi, radians
 function sim.getRotationAxis(matrixStart, matrixGoal) end
 
+--- Handle of a script.
+---@param scriptType integer sim.scripttype_*, or sim.handle_self
+---@param scriptName? any the object the script belongs to, by path or handle; the display name of an add-on
+---@param ... any
+---@return integer scriptHandle -1 if the object has no such script
+function sim.getScript(scriptType, scriptName, ...) end
+
+--- The simulation script of an object.
+---@deprecated sim.getObject
+---@param objectHandle integer the object
+---@return integer scriptHandle -1 if there is none
+function sim.getScriptAssociatedWithObject(objectHandle) end
+
+--- An attribute of a script.
+---@deprecated properties
+---@param scriptHandle integer the script
+---@param attributeId integer
+---@return any attribute
+function sim.getScriptAttribute(scriptHandle, attributeId) end
+
 --- An object whose methods are the global functions of another script: proxy:name(...).
 ---@param handle integer script, object that has a script, or path to one
 ---@param scriptType? integer which script of an object that is none itself
 ---@return table proxy calls through sim.callScriptFunction
 function sim.getScriptFunctions(handle, scriptType) end
+
+--- Handle of a script.
+---@deprecated sim.getObject
+---@param scriptType integer sim.scripttype_*, or sim.handle_self
+---@param scriptName? string path of the object the script belongs to, or the display name of an add-on
+---@param objectHandle? integer the object the script belongs to
+---@return integer scriptHandle
+function sim.getScriptHandle(scriptType, scriptName, objectHandle) end
+
+--- An integer parameter of a script.
+---@deprecated properties
+---@param scriptHandle integer the script
+---@param parameterId integer
+---@return integer parameter
+function sim.getScriptInt32Param(scriptHandle, parameterId) end
+
+--- Name of a script.
+---@deprecated sim.getScriptStringParam
+---@param scriptHandle integer the script
+---@return any scriptName
+function sim.getScriptName(scriptHandle) end
+
+--- A string parameter of a script.
+---@deprecated properties
+---@param scriptHandle integer the script
+---@param parameterId integer
+---@return any parameter
+function sim.getScriptStringParam(scriptHandle, parameterId) end
 
 --- User setting as a boolean.
 ---@param key string of the setting
@@ -1016,6 +1283,15 @@ function sim.getShapeInertia(shapeHandle) end
 ---@return number mass kg
 function sim.getShapeMass(shapeHandle) end
 
+--- Mass, inertia and centre of mass of a shape.
+---@deprecated sim.getShapeMass and/or sim.getShapeInertia
+---@param shapeHandle integer the shape
+---@param transformation? number[] frame of the results, in the world; the world if missing
+---@return number mass kg
+---@return number[] inertiaMatrix kg m2, about the centre of mass
+---@return number[] centerOfMass metres
+function sim.getShapeMassAndInertia(shapeHandle, transformation) end
+
 --- The mesh of a shape, in its frame; compounds as one.
 ---@param shapeHandle integer the shape
 ---@return number[] vertices three coordinates each, metres
@@ -1028,6 +1304,12 @@ function sim.getShapeMesh(shapeHandle) end
 ---@param itemIndex integer which mesh, from 0
 ---@return any data vertices, indices, normals, colors, shadingAngle, transparency, options; nothing past the last mesh
 function sim.getShapeViz(shapeHandle, itemIndex) end
+
+--- Names of the signals one by one; nothing past the last one.
+---@param signalIndex integer from 0, in alphabetical order
+---@param signalType integer 0 int32, 1 float, 2 string, 3 double
+---@return string signalName
+function sim.getSignalName(signalIndex, signalType) end
 
 --- State of the simulation.
 ---@return integer state one of sim.simulation_*
@@ -1045,12 +1327,49 @@ function sim.getSimulationTime() end
 ---@return number timeStep seconds
 function sim.getSimulationTimeStep() end
 
+--- Lua's stack traceback of a script that is running now.
+---@param scriptHandle? integer the script
+---@return string stackTraceback
+function sim.getStackTraceback(scriptHandle) end
+
+--- A named parameter: from the command line, or set by a script.
+---@deprecated sim.getStringProperty(sim.handle_app, 'namedParam.nam')
+---@param paramName string its name
+---@return string stringParam nothing if there is none
+function sim.getStringNamedParam(paramName) end
+
+--- A string parameter; empty where Swanilda has nothing to tell.
+---@param parameter integer sim.stringparam_*
+---@return string parameterValue
+function sim.getStringParam(parameter) end
+
+--- A string parameter; empty where Swanilda has nothing to tell.
+---@deprecated properties
+---@param parameter integer sim.stringparam_*
+---@return string parameterValue
+function sim.getStringParameter(parameter) end
+
 --- Value of a property.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
 ---@param propertyName string its name
 ---@param options? table noError: nothing instead of an error
 ---@return string propertyState
 function sim.getStringProperty(target, propertyName, options) end
+
+--- Value of a signal; nothing when there is none of that name.
+---@param signalName string its name
+---@return string signalValue
+function sim.getStringSignal(signalName) end
+
+--- Time by the wall clock, from a moment before the simulator started.
+---@return number systemTime seconds
+function sim.getSystemTime() end
+
+--- Time by the wall clock in milliseconds.
+---@deprecated sim.getSystemTime
+---@param previousTime integer what an earlier call returned: the difference is returned; negative: the time itself
+---@return integer systemTimeOrTimeDiff
+function sim.getSystemTimeInMs(previousTime) end
 
 --- Value of a property.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
@@ -1147,6 +1466,9 @@ function sim.handleDynamics(deltaTime) end
 ---@param ... any
 ---@return integer count how many scripts ran it
 function sim.handleEmbeddedScripts(callType, ...) end
+
+--- Lets plugins of the original handle what came from outside. There are none; main scripts call it all the same.
+function sim.handleExtCalls() end
 
 --- Moves kinematic joints towards their targets by one step. For the main script.
 function sim.handleJointMotion() end
@@ -1252,6 +1574,10 @@ function sim.isPluginLoaded(name) end
 ---@return integer handle 0
 function sim.loadPlugin(name) end
 
+--- Replaces the scene. For add-ons and the sandbox, while the simulation is stopped.
+---@param filename string a `.lua` file: its text becomes a customization script; empty for an empty scene
+function sim.loadScene(filename) end
+
 --- Pose of a matrix.
 ---@param matrix number[] upper 3 by 4 block, row by row
 ---@return number[] pose x, y, z, qx, qy, qz, qw
@@ -1344,8 +1670,76 @@ function sim.multiplyPoses(poseIn1, poseIn2) end
 ---@return number[] outVectors three numbers for each vector
 function sim.multiplyVector(matrix, inVectors) end
 
+--- Packs numbers into bytes; those that do not fit are cut as in C.
+---@param numbers number[] the list
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@return string|table data nothing for an empty list
+function sim.packDoubleTable(numbers, startIndex, count) end
+
+--- Packs numbers into bytes; those that do not fit are cut as in C.
+---@param numbers number[] the list
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@return string|table data nothing for an empty list
+function sim.packFloatTable(numbers, startIndex, count) end
+
+--- Packs numbers into bytes; those that do not fit are cut as in C.
+---@param numbers integer[] the list
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@return string|table data nothing for an empty list
+function sim.packInt32Table(numbers, startIndex, count) end
+
+--- Packs numbers into bytes; those that do not fit are cut as in C.
+---@param numbers integer[] the list
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@return string|table data nothing for an empty list
+function sim.packInt64Table(numbers, startIndex, count) end
+
+--- Packs a table into bytes.
+---@param aTable table any values; functions become texts
+---@param Scheme? integer
+---@return string|table data
+function sim.packTable(aTable, Scheme) end
+
+--- Packs numbers into bytes; those that do not fit are cut as in C.
+---@param numbers integer[] the list
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@return string|table data nothing for an empty list
+function sim.packUInt16Table(numbers, startIndex, count) end
+
+--- Packs numbers into bytes; those that do not fit are cut as in C.
+---@param numbers integer[] the list
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@return string|table data nothing for an empty list
+function sim.packUInt32Table(numbers, startIndex, count) end
+
+--- Packs numbers into bytes; those that do not fit are cut as in C.
+---@param numbers integer[] the list
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@return string|table data nothing for an empty list
+function sim.packUInt8Table(numbers, startIndex, count) end
+
 --- Asks for a pause. Nothing happens when the simulation is not running or is about to stop.
 function sim.pauseSimulation() end
+
+--- Data kept with the application.
+---@deprecated properties
+---@param dataTag string its name
+---@return string|table dataValue nothing if there is none
+function sim.persistentDataRead(dataTag) end
+
+--- Keeps data with the application, whatever scene is open.
+---@deprecated properties
+---@param dataTag string its name
+---@param dataValue string|table empty: removes the tag
+---@param options? integer 1: keep it in a file too, which is not built
+function sim.persistentDataWrite(dataTag, dataValue, options) end
 
 --- Matrix of a pose.
 ---@param pose number[] x, y, z, qx, qy, qz, qw
@@ -1381,6 +1775,17 @@ function sim.readCustomDataBlockEx(handle, tag, options) end
 ---@param handle integer object, sim.handle_scene or sim.handle_app
 ---@return string[] tags nil if there are none
 function sim.readCustomDataBlockTags(handle) end
+
+--- Tags of custom data in the order of their creation. Those of typed properties have a mark in front.
+---@param objectHandle integer object, sim.handle_scene or sim.handle_app
+---@return string[] tags
+function sim.readCustomDataTags(objectHandle) end
+
+--- Custom data as a string.
+---@param objectHandle integer object, sim.handle_scene or sim.handle_app
+---@param tagName string its name
+---@return any data nil if there is none
+function sim.readCustomStringData(objectHandle, tagName) end
 
 --- Reads a table from custom data.
 ---@param handle integer object, sim.handle_scene or sim.handle_app
@@ -1418,6 +1823,11 @@ function sim.releaseLock() end
 ---@return boolean result false for a single primitive, which keeps its frame
 function sim.relocateShapeFrame(shapeHandle, pose) end
 
+--- Removes a collection; its objects stay.
+---@deprecated sim.destroyCollection
+---@param collectionHandle integer the collection
+function sim.removeCollection(collectionHandle) end
+
 --- Removes a model: its base and everything below.
 ---@param objectHandle integer base of the model
 ---@param delayedRemoval? boolean remove it when the scripts have run
@@ -1452,6 +1862,18 @@ function sim.removeProperty(target, propertyName, options) end
 ---@param tag? string of the references
 ---@param delayed? boolean as in sim.removeObjects
 function sim.removeReferencedObjects(objectHandle, tag, delayed) end
+
+--- Removes a script object.
+---@deprecated sim.removeObject
+---@param scriptHandle integer the script
+function sim.removeScript(scriptHandle) end
+
+--- Turns the bounding box of a shape to the axes of another object.
+---@deprecated sim.alignShapeBB and/or sim.relocateShapeFrame
+---@param shapeHandle integer the shape
+---@param relativeToHandle integer the object, -1 for the world
+---@return integer result 1, or 0 for a single primitive, which keeps its box
+function sim.reorientShapeBoundingBox(shapeHandle, relativeToHandle) end
 
 --- Points at equal distances along a path.
 ---@param path number[] flat table of points
@@ -1620,6 +2042,17 @@ function sim.scaleObjects(objectHandles, scalingFactor, scalePositionsToo) end
 ---@return integer id for sim.cancelScheduledExecution
 function sim.scheduleExecution(f, args, timePoint, simulationTime) end
 
+--- Sets a parameter of three numbers.
+---@param parameter integer sim.arrayparam_*
+---@param parameterValues number[] the new values
+function sim.setArrayParam(parameter, parameterValues) end
+
+--- Sets a parameter of three numbers.
+---@deprecated properties
+---@param parameter integer sim.arrayparam_*
+---@param parameterValues number[] the new values
+function sim.setArrayParameter(parameter, parameterValues) end
+
 --- Allows or forbids that the running coroutine is pre-empted.
 ---@param allow any false raises the level, true lowers it, a number sets it; pre-emption happens at level 0
 ---@return integer level the previous level
@@ -1629,6 +2062,17 @@ function sim.setAutoYield(allow) end
 --- the machine; a second stands for a fixed number of them.
 ---@param delay number seconds, kept as whole milliseconds
 function sim.setAutoYieldDelay(delay) end
+
+--- Turns a switch on or off.
+---@param parameter integer sim.boolparam_*
+---@param boolState boolean the new state
+function sim.setBoolParam(parameter, boolState) end
+
+--- Turns a switch on or off.
+---@deprecated properties
+---@param parameter integer sim.boolparam_*
+---@param boolState boolean the new state
+function sim.setBoolParameter(parameter, boolState) end
 
 --- Sets a property; names below `customData.` and `signal.` are created.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
@@ -1656,6 +2100,13 @@ function sim.setBufferSignal(name, value) end
 ---@param propertyState number[] the new value
 ---@param options? table noError: no error when that fails
 function sim.setColorProperty(target, propertyName, propertyState, options) end
+
+--- Sets a signal.
+---@deprecated sim.setFloatProperty(sim.handle_scene, 'signal.signalName')
+---@param signalName string letters, digits, `_` and `.`
+---@param signalValue number the new value
+---@return integer result 1
+function sim.setDoubleSignal(signalName, signalValue) end
 
 --- Sets a switch of a physics engine.
 ---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
@@ -1708,12 +2159,46 @@ function sim.setExplicitHandling(objectHandle, explicitHandlingFlags) end
 ---@param options? table noError: no error when that fails
 function sim.setFloatArrayProperty(target, propertyName, propertyState, options) end
 
+--- Sets a float parameter. Time steps change only while the simulation is stopped.
+---@param parameter integer sim.floatparam_*
+---@param parameterValue number the new value
+function sim.setFloatParam(parameter, parameterValue) end
+
+--- Sets a float parameter. Time steps change only while the simulation is stopped.
+---@deprecated properties
+---@param parameter integer sim.floatparam_*
+---@param parameterValue number the new value
+function sim.setFloatParameter(parameter, parameterValue) end
+
 --- Sets a property; names below `customData.` and `signal.` are created.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
 ---@param propertyName string its name
 ---@param propertyState number the new value
 ---@param options? table noError: no error when that fails
 function sim.setFloatProperty(target, propertyName, propertyState, options) end
+
+--- Sets a signal.
+---@param signalName string letters, digits, `_` and `.`
+---@param signalValue number the new value
+---@return integer result 1
+function sim.setFloatSignal(signalName, signalValue) end
+
+--- Sets an integer parameter.
+---@param parameter integer sim.intparam_*
+---@param parameterValue integer the new value
+function sim.setInt32Param(parameter, parameterValue) end
+
+--- Sets an integer parameter.
+---@deprecated properties
+---@param parameter integer sim.intparam_*
+---@param parameterValue integer the new value
+function sim.setInt32Parameter(parameter, parameterValue) end
+
+--- Sets a signal.
+---@param signalName string letters, digits, `_` and `.`
+---@param signalValue integer the new value
+---@return integer result 1
+function sim.setInt32Signal(signalName, signalValue) end
 
 --- Sets a property; names below `customData.` and `signal.` are created.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
@@ -1736,6 +2221,13 @@ function sim.setIntArrayProperty(target, propertyName, propertyState, options) e
 ---@param options? table noError: no error when that fails
 function sim.setIntProperty(target, propertyName, propertyState, options) end
 
+--- Sets a signal.
+---@deprecated sim.setIntProperty(sim.handle_scene, 'signal.signalName')
+---@param signalName string letters, digits, `_` and `.`
+---@param signalValue integer the new value
+---@return integer result 1
+function sim.setIntegerSignal(signalName, signalValue) end
+
 --- Makes a joint in dependent mode follow another.
 ---@param jointHandle integer the joint
 ---@param masterJointHandle integer the joint to follow, -1 for none
@@ -1744,11 +2236,23 @@ function sim.setIntProperty(target, propertyName, propertyState, options) end
 ---@return integer result 0
 function sim.setJointDependency(jointHandle, masterJointHandle, offset, multCoeff) end
 
+--- Sets the target force of a joint; its sign follows the target velocity.
+---@deprecated sim.setJointTargetForce
+---@param jointHandle integer the joint
+---@param forceOrTorque number N or N m
+function sim.setJointForce(jointHandle, forceOrTorque) end
+
 --- Changes the interval of a joint; the position follows.
 ---@param objectHandle integer the joint
 ---@param cyclic boolean whether it has no limits
 ---@param interval number[] lower limit and range (not the upper limit), rad or metres
 function sim.setJointInterval(objectHandle, cyclic, interval) end
+
+--- Sets the target force of a joint; its sign follows the target velocity.
+---@deprecated sim.setJointTargetForce
+---@param jointHandle integer the joint
+---@param forceOrTorque number N or N m
+function sim.setJointMaxForce(jointHandle, forceOrTorque) end
 
 --- Changes the mode of a joint. Leaving the dependent mode ends the dependency.
 ---@param jointHandle integer the joint
@@ -1783,6 +2287,14 @@ function sim.setJointTargetPosition(objectHandle, targetPosition, motionParams) 
 ---@param initVel? number velocity to start from
 ---@return integer result 1
 function sim.setJointTargetVelocity(objectHandle, targetVelocity, motionParams, initVel) end
+
+--- Changes state and colours of a light.
+---@param lightHandle integer the light
+---@param state integer 1 for on
+---@param reserved? number[] not used
+---@param diffusePart? number[] red, green, blue
+---@param specularPart? number[] red, green, blue
+function sim.setLightParameters(lightHandle, state, reserved, diffusePart, specularPart) end
 
 --- Links two dummies; earlier partners of both are released.
 ---@param dummyHandle integer the dummy
@@ -1819,6 +2331,11 @@ function sim.setNamedFloatParam(name, value) end
 ---@param name string of the parameter
 ---@param value integer stored as text
 function sim.setNamedInt32Param(name, value) end
+
+--- Sets a named parameter.
+---@param paramName string its name
+---@param stringParam string the new value
+function sim.setNamedStringParam(paramName, stringParam) end
 
 --- Renames an object. Everything but letters, digits and underscores becomes an underscore.
 ---@param objectHandle integer the object
@@ -1988,6 +2505,33 @@ function sim.setQuaternionProperty(target, propertyName, propertyState, options)
 ---@param tag? string name of the list
 function sim.setReferencedHandles(objectHandle, referencedHandles, tag) end
 
+--- Sets an attribute of a script.
+---@deprecated properties
+---@param scriptHandle integer the script
+---@param attributeId integer
+---@param attribute any the new value
+function sim.setScriptAttribute(scriptHandle, attributeId, attribute) end
+
+--- Sets an integer parameter of a script.
+---@deprecated properties
+---@param scriptHandle integer the script
+---@param parameterId integer
+---@param parameter integer the new value
+function sim.setScriptInt32Param(scriptHandle, parameterId, parameter) end
+
+--- Sets a string parameter of a script.
+---@deprecated properties
+---@param scriptHandle integer the script
+---@param parameterId integer
+---@param parameter string|table the new value
+function sim.setScriptStringParam(scriptHandle, parameterId, parameter) end
+
+--- Replaces the code of a script. A running script keeps executing the old one.
+---@deprecated sim.createScript
+---@param scriptHandle integer the script
+---@param scriptText string|table the new code
+function sim.setScriptText(scriptHandle, scriptText) end
+
 --- Makes a shape look like another one did.
 ---@param handle integer the shape
 ---@param appearance table from sim.getShapeAppearance
@@ -2019,6 +2563,15 @@ function sim.setShapeInertia(shapeHandle, inertiaMatrix, comMatrix) end
 ---@param mass number kg
 function sim.setShapeMass(shapeHandle, mass) end
 
+--- Changes mass, inertia and centre of mass of a shape.
+---@deprecated sim.getShapeMass and/or sim.setShapeIntertia
+---@param shapeHandle integer the shape
+---@param mass number kg
+---@param inertiaMatrix number[] kg m2, about the centre of mass
+---@param centerOfMass number[] metres
+---@param transformation? number[] frame of the values, in the world; the world if missing
+function sim.setShapeMassAndInertia(shapeHandle, mass, inertiaMatrix, centerOfMass, transformation) end
+
 --- Gives a shape a preset material, or the one of another shape.
 ---@param shapeHandle integer the shape
 ---@param materialIdOrShapeHandle integer sim.dynmat_* or a shape
@@ -2031,10 +2584,33 @@ function sim.setShapeMaterial(shapeHandle, materialIdOrShapeHandle) end
 ---@param suffix string appended unless there already
 function sim.setSimilarName(handle, original, suffix) end
 
+--- Turns a spherical joint.
+---@deprecated sim.setObjectChildPose
+---@param objectHandle integer the joint
+---@param matrix number[] rows of rotation and position; the rotation counts
+function sim.setSphericalJointMatrix(objectHandle, matrix) end
+
 --- Sets whether a thread is interrupted only where it asks for it (sim.step).
 ---@param enable boolean true: one level more, false: one level less; an integer sets the level
 ---@return integer prevLevel the level before, to be given back to this function later
 function sim.setStepping(enable) end
+
+--- Sets a named parameter.
+---@deprecated sim.setStringProperty(sim.handle_app, 'namedParam.name', value)
+---@param paramName string its name
+---@param stringParam string the new value
+function sim.setStringNamedParam(paramName, stringParam) end
+
+--- Sets a string parameter.
+---@param parameter integer sim.stringparam_*
+---@param parameterValue string|table the new value
+function sim.setStringParam(parameter, parameterValue) end
+
+--- Sets a string parameter.
+---@deprecated properties
+---@param parameter integer sim.stringparam_*
+---@param parameterValue string|table the new value
+function sim.setStringParameter(parameter, parameterValue) end
 
 --- Sets a property; names below `customData.` and `signal.` are created.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
@@ -2042,6 +2618,12 @@ function sim.setStepping(enable) end
 ---@param propertyState string the new value
 ---@param options? table noError: no error when that fails
 function sim.setStringProperty(target, propertyName, propertyState, options) end
+
+--- Sets a signal.
+---@param signalName string letters, digits, `_` and `.`
+---@param signalValue string|table the new value
+---@return integer result 1
+function sim.setStringSignal(signalName, signalValue) end
 
 --- Sets a property that holds a table.
 ---@param target integer object, sim.handle_scene, sim.handle_app, ...
@@ -2111,6 +2693,68 @@ function sim.throttle(period, f, ...) end
 ---@return integer[] simpleShapeHandles the new shapes, or the shape itself when there is nothing to take apart
 function sim.ungroupShape(shapeHandle) end
 
+--- Unpacks numbers from bytes.
+---@param data string|table the bytes
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@param additionalByteOffset? integer bytes to skip first
+---@return number[] numbers
+function sim.unpackDoubleTable(data, startIndex, count, additionalByteOffset) end
+
+--- Unpacks numbers from bytes.
+---@param data string|table the bytes
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@param additionalByteOffset? integer bytes to skip first
+---@return number[] numbers
+function sim.unpackFloatTable(data, startIndex, count, additionalByteOffset) end
+
+--- Unpacks numbers from bytes.
+---@param data string|table the bytes
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@param additionalByteOffset? integer bytes to skip first
+---@return integer[] numbers
+function sim.unpackInt32Table(data, startIndex, count, additionalByteOffset) end
+
+--- Unpacks numbers from bytes.
+---@param data string|table the bytes
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@param additionalByteOffset? integer bytes to skip first
+---@return integer[] numbers
+function sim.unpackInt64Table(data, startIndex, count, additionalByteOffset) end
+
+--- Unpacks a table.
+---@param data string|table what sim.packTable gave, or other CBOR
+---@param Scheme? integer
+---@return any aTable
+function sim.unpackTable(data, Scheme) end
+
+--- Unpacks numbers from bytes.
+---@param data string|table the bytes
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@param additionalByteOffset? integer bytes to skip first
+---@return integer[] numbers
+function sim.unpackUInt16Table(data, startIndex, count, additionalByteOffset) end
+
+--- Unpacks numbers from bytes.
+---@param data string|table the bytes
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@param additionalByteOffset? integer bytes to skip first
+---@return integer[] numbers
+function sim.unpackUInt32Table(data, startIndex, count, additionalByteOffset) end
+
+--- Unpacks numbers from bytes.
+---@param data string|table the bytes
+---@param startIndex? integer number of the first item, from 0
+---@param count? integer how many; 0: all
+---@param additionalByteOffset? integer bytes to skip first
+---@return integer[] numbers
+function sim.unpackUInt8Table(data, startIndex, count, additionalByteOffset) end
+
 --- Calls a function with every object of a tree, parents before children.
 ---@param rootHandle integer first object visited, or sim.handle_scene
 ---@param visitor function function(handle); false: leave out what is below
@@ -2150,6 +2794,12 @@ function sim.writeCustomDataBlock(handle, tag, data) end
 ---@param data string empty: removes the tag
 ---@param options? table dataType: the kind
 function sim.writeCustomDataBlockEx(handle, tag, data, options) end
+
+--- Writes custom data.
+---@param objectHandle integer object, sim.handle_scene or sim.handle_app
+---@param tagName string its name; tags that begin or end with `@tmp` are not saved; an empty one removes all tags
+---@param data? string|table empty or nil: removes the tag
+function sim.writeCustomStringData(objectHandle, tagName, data) end
 
 --- Writes a table as custom data.
 ---@param handle integer object, sim.handle_scene or sim.handle_app
