@@ -127,7 +127,7 @@ impl Material {
 
     /// The preset with that number (`sim.dynmat_*`), if there is one; values of SPEC-dynamics section 5.
     pub fn preset(id: i64) -> Option<Self> {
-        Some(Self::of_frictions(match id - Self::FIRST_PRESET {
+        Some(Self::of_frictions(match id.checked_sub(Self::FIRST_PRESET)? {
             0 => [0.71, 0.71, 0.71, 0.5, 0.5],
             1 => [1.0, 1.0, 1.0, 2.0, 2.0],
             2 => [0.41, 0.2, 0.41, 0.17, 0.17],
