@@ -747,10 +747,7 @@ function sim.getJointVelocity(jointHandle) end
 
 --- State and colours of a light.
 ---@param lightHandle integer the light
----@return integer state 1 when it is on
----@return number[] zero three zeros
----@return number[] diffusePart red, green, blue
----@return number[] specular red, green, blue
+---@return any state 1 when it is on
 function sim.getLightParameters(lightHandle) end
 
 --- The dummy another is linked to.
