@@ -6,11 +6,14 @@
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
     BroadPhaseBvh, CCDSolver, ColliderSet, FrictionModel, ImpulseJointSet, IntegrationParameters, IslandManager,
-    MultibodyJointSet, NarrowPhase, PhysicsHooks, PhysicsPipeline, RigidBodySet, SoftBodySet,
+    MultibodyJointSet, NarrowPhase, PhysicsHooks, PhysicsPipeline, RigidBodySet, SoftBodySet, SpringCoefficients,
 };
 
 /// Sweeps of the solver over all constraints of a sub-step.
 const ITERATIONS: usize = 4;
+/// How stiffly contacts push bodies apart: stiffer than rapier's default, so that a tower of eight boxes sinks by well under a
+/// hundredth of its height.
+const CONTACT_SOFTNESS: SpringCoefficients<f64> = SpringCoefficients { natural_frequency: 60.0, damping_ratio: 5.0 };
 /// Penetration left alone, metres.
 const SLOP: f64 = 2e-4;
 /// Distance at which contacts are prepared, metres.
@@ -89,6 +92,8 @@ fn parameters() -> IntegrationParameters {
         normalized_allowed_linear_error: SLOP,
         normalized_prediction_distance: PREDICTION,
         normalized_max_linear_velocity: f64::MAX,
+        contact_softness: CONTACT_SOFTNESS,
+        static_contact_softness: CONTACT_SOFTNESS,
         friction_model: FrictionModel::Simplified,
         ..IntegrationParameters::default()
     }

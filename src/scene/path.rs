@@ -370,7 +370,7 @@ mod tests {
         assert_eq!(scene.find("/*{1}", None, None), Ok(outer));
         assert_eq!(scene.find("/C{0}", None, Some(1)), Err(SceneError::NoSuchPath));
         assert_eq!(scene.find("../../C", Some(b), None), Ok(outer));
-        assert_eq!(scene.short_path(inner).unwrap(), "/B/C");
+        assert_eq!(scene.short_path(inner).unwrap(), "/A/C");
     }
 
     #[test]
