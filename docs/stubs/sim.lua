@@ -267,7 +267,7 @@ function sim.clearStringSignal(signalName) end
 ---@return number[] lengths with one more value
 function sim.closePath(path, lengths) end
 
---- Empties the scene. For add-ons and the sandbox, while the simulation is stopped.
+--- Closes the scene: the default scene takes its place. For add-ons and the sandbox, while the simulation is stopped.
 ---@return integer result 1
 function sim.closeScene() end
 
@@ -1215,6 +1215,13 @@ function sim.getScriptInt32Param(scriptHandle, parameterId) end
 ---@return any scriptName
 function sim.getScriptName(scriptHandle) end
 
+--- A parameter of a script, or of the object the script is attached to.
+---@param scriptHandle integer the script, or sim.handle_self
+---@param parameterName string its name
+---@param forceStringReturn? boolean give the text; otherwise `true`, `12` and the like come as what they look like
+---@return any value nil when there is no such parameter
+function sim.getScriptSimulationParameter(scriptHandle, parameterName, forceStringReturn) end
+
 --- A string parameter of a script.
 ---@deprecated properties
 ---@param scriptHandle integer the script
@@ -1400,6 +1407,12 @@ function sim.getThreadSwitchAllowed() end
 ---@return number value milliseconds times 1000, as in 4.10
 function sim.getThreadSwitchTiming() end
 
+--- A parameter of an object.
+---@param objectHandle integer the object
+---@param parameterName string its name
+---@return any value nil when there is no such parameter; `true`, `12` and the like come as what they look like
+function sim.getUserParameter(objectHandle, parameterName) end
+
 --- Names of the global variables of this script that are not functions.
 ---@return string[] variables sorted
 function sim.getUserVariables() end
@@ -1572,7 +1585,8 @@ function sim.isPluginLoaded(name) end
 function sim.loadPlugin(name) end
 
 --- Replaces the scene. For add-ons and the sandbox, while the simulation is stopped.
----@param filename string a `.lua` file: its text becomes a customization script; empty for an empty scene
+---@param filename string a `.lua` file: its text becomes a customization script of the default scene; empty for the default scene alone
+---@return integer result 1
 function sim.loadScene(filename) end
 
 --- Pose of a matrix.
@@ -2516,6 +2530,13 @@ function sim.setScriptAttribute(scriptHandle, attributeId, attribute) end
 ---@param parameter integer the new value
 function sim.setScriptInt32Param(scriptHandle, parameterId, parameter) end
 
+--- Sets a parameter of a script, or of the object the script is attached to if that has it.
+---@param scriptHandle integer the script, or sim.handle_self
+---@param parameterName string its name
+---@param parameterValue string its text
+---@return integer result 1
+function sim.setScriptSimulationParameter(scriptHandle, parameterName, parameterValue) end
+
 --- Sets a string parameter of a script.
 ---@deprecated properties
 ---@param scriptHandle integer the script
@@ -2645,6 +2666,13 @@ function sim.setThreadSwitchAllowed(allow) end
 ---@deprecated sim.setAutoYieldDelay
 ---@param milliseconds integer whole
 function sim.setThreadSwitchTiming(milliseconds) end
+
+--- Sets a parameter of an object.
+---@param objectHandle integer the object
+---@param parameterName string its name
+---@param parameterValue string its text
+---@return integer result 1
+function sim.setUserParameter(objectHandle, parameterName, parameterValue) end
 
 --- Sets a property; names below `customData.` and `signal.` are created.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self

@@ -37,6 +37,7 @@ mod signal;
 mod simulation;
 mod thread;
 mod time;
+mod user_param;
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -87,6 +88,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Custom data", custom_data::FUNCTIONS),
     ("Signals", signal::FUNCTIONS),
     ("Packing", packing::FUNCTIONS),
+    ("User parameters", user_param::FUNCTIONS),
     ("Scene files", scene_file::FUNCTIONS),
 ];
 

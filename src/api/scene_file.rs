@@ -1,6 +1,6 @@
 //! `sim.*`: scene and model files.
 //!
-//! A scene is a Lua file, or the empty scene. Reading and writing CoppeliaSim's own formats is not built; asking for it says so.
+//! A scene is a Lua file on top of the default scene, or the default scene alone. Reading and writing CoppeliaSim's own formats is not built; asking for it says so.
 
 use std::rc::Rc;
 
@@ -12,12 +12,14 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, close_scene];
 
 /// Replaces the scene. For add-ons and the sandbox, while the simulation is stopped.
 ///
-/// @param filename a `.lua` file: its text becomes a customization script; empty for an empty scene
+/// @param filename a `.lua` file: its text becomes a customization script of the default scene; empty for the default scene alone
+/// @return result 1
 #[api("sim.loadScene")]
-fn load_scene(cx: &mut Cx, filename: String) -> Result<()> {
+fn load_scene(cx: &mut Cx, filename: String) -> Result<i64> {
     let code = if filename.is_empty() { None } else { Some(read_lua(&filename)?) };
     let caller = Rc::clone(cx.script());
-    Rc::clone(cx.sim()).switch_scene(&caller, code)
+    Rc::clone(cx.sim()).switch_scene(&caller, code)?;
+    Ok(1)
 }
 
 fn read_lua(filename: &str) -> Result<Vec<u8>> {
@@ -31,7 +33,7 @@ fn read_lua(filename: &str) -> Result<Vec<u8>> {
     }
 }
 
-/// Empties the scene. For add-ons and the sandbox, while the simulation is stopped.
+/// Closes the scene: the default scene takes its place. For add-ons and the sandbox, while the simulation is stopped.
 ///
 /// @return result 1
 #[api("sim.closeScene")]

@@ -40,6 +40,8 @@ pub struct Object {
     pub custom_data: CustomData,
     /// Named values that last as long as the scripts that set them; they are not saved.
     pub signals: CustomData,
+    /// Parameters of the old parameter dialog: name and value as text.
+    pub user_params: Vec<(String, String)>,
     /// Tagged lists of handles: `(tag, handles)`; -1 stands for an object that is gone.
     pub references: Vec<(String, Vec<i64>)>,
     pub original_references: Vec<(String, Vec<i64>)>,
@@ -141,6 +143,7 @@ impl Object {
             priority: 1,
             custom_data: CustomData::default(),
             signals: CustomData::default(),
+            user_params: Vec::new(),
             references: Vec::new(),
             original_references: Vec::new(),
             dynamic_flag: 0,

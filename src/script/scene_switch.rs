@@ -10,19 +10,20 @@ use crate::scene::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Kind, Settings};
 
 impl Sim {
-    /// Empties the scene on behalf of `caller`, and fills it with the script `code` if there is one.
+    /// Puts the default scene in place of the present one on behalf of `caller`, and adds the script `code` if there is one.
     ///
     /// # Errors
     /// When the simulation is not stopped, or the caller is a script of the scene: it would remove itself while running.
     pub(crate) fn switch_scene(self: &Rc<Self>, caller: &Script, code: Option<Vec<u8>>) -> ApiResult<()> {
         if !self.is_stopped() {
-            return Err(ApiError::Other("the scene cannot be replaced while the simulation is running.".into()));
+            return Err(ApiError::Other("simulation is not stopped.".into()));
         }
         if caller.object.is_some() {
             return Err(ApiError::Other("a script of the scene cannot replace the scene: use an add-on.".into()));
         }
         self.broadcast(SysCall::BeforeInstanceSwitch, &[]);
         self.clear_scene()?;
+        self.scene.borrow_mut().add_default_objects()?;
         if let Some(code) = code {
             self.add_scene_script(code)?;
         }

@@ -1,0 +1,116 @@
+//! `sim.*`: parameters of the old parameter dialog, texts that a script or an object carries (deprecated).
+
+use api_macro::api;
+
+use super::scripts::script_of;
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::{Data, Field, Handle, Scene};
+use crate::script::{Number, Results};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    get_script_simulation_parameter,
+    set_script_simulation_parameter,
+    get_user_parameter,
+    set_user_parameter,
+];
+
+/// A parameter of a script, or of the object the script is attached to.
+///
+/// @param scriptHandle the script, or sim.handle_self
+/// @param parameterName its name
+/// @param forceStringReturn give the text; otherwise `true`, `12` and the like come as what they look like
+/// @return value nil when there is no such parameter
+#[api("sim.getScriptSimulationParameter")]
+fn get_script_simulation_parameter(
+    cx: &Cx,
+    script_handle: Number,
+    parameter_name: String,
+    #[default(false)] force_string_return: bool,
+) -> Result<Results> {
+    let (script, host) = hosts(cx, script_handle)?;
+    let scene = cx.scene();
+    let text = [Some(script), host].into_iter().flatten().find_map(|object| find(&scene, object, &parameter_name));
+    Ok(Results(vec![value(text, force_string_return)]))
+}
+
+/// Sets a parameter of a script, or of the object the script is attached to if that has it.
+///
+/// @param scriptHandle the script, or sim.handle_self
+/// @param parameterName its name
+/// @param parameterValue its text
+/// @return result 1
+#[api("sim.setScriptSimulationParameter")]
+fn set_script_simulation_parameter(
+    cx: &mut Cx,
+    script_handle: Number,
+    parameter_name: String,
+    parameter_value: String,
+) -> Result<i64> {
+    let (script, host) = hosts(cx, script_handle)?;
+    let owner = host.filter(|&host| find(&cx.scene(), host, &parameter_name).is_some()).unwrap_or(script);
+    set(cx, owner, parameter_name, parameter_value)
+}
+
+/// A parameter of an object.
+///
+/// @param objectHandle the object
+/// @param parameterName its name
+/// @return value nil when there is no such parameter; `true`, `12` and the like come as what they look like
+#[api("sim.getUserParameter")]
+fn get_user_parameter(cx: &Cx, object_handle: Handle, parameter_name: String) -> Result<Results> {
+    cx.scene().object(object_handle)?;
+    let text = find(&cx.scene(), object_handle, &parameter_name);
+    Ok(Results(vec![value(text, false)]))
+}
+
+/// Sets a parameter of an object.
+///
+/// @param objectHandle the object
+/// @param parameterName its name
+/// @param parameterValue its text
+/// @return result 1
+#[api("sim.setUserParameter")]
+fn set_user_parameter(
+    cx: &mut Cx,
+    object_handle: Handle,
+    parameter_name: String,
+    parameter_value: String,
+) -> Result<i64> {
+    set(cx, object_handle, parameter_name, parameter_value)
+}
+
+/// The script object a handle means, and the object it is attached to.
+fn hosts(cx: &Cx, script_handle: Number) -> Result<(Handle, Option<Handle>)> {
+    let script = script_of(cx, script_handle.0)?.object.ok_or(ApiError::NoSuchScript)?;
+    let host = cx.scene().object(script)?.parent();
+    Ok((script, host))
+}
+
+fn find(scene: &Scene, object: Handle, name: &str) -> Option<String> {
+    let params = &scene.object(object).ok()?.user_params;
+    params.iter().find(|(known, _)| known == name).map(|(_, text)| text.clone())
+}
+
+fn set(cx: &mut Cx, object: Handle, name: String, text: String) -> Result<i64> {
+    cx.scene_mut().modify(object, Field::Other, |object| {
+        object.user_params.retain(|(known, _)| *known != name);
+        object.user_params.push((name, text));
+    })?;
+    Ok(1)
+}
+
+/// The text, or what it looks like.
+fn value(text: Option<String>, as_text: bool) -> Data {
+    let Some(text) = text else { return Data::Nil };
+    if as_text {
+        return Data::text(&text);
+    }
+    match text.as_str() {
+        "nil" => Data::Nil,
+        "true" => Data::Bool(true),
+        "false" => Data::Bool(false),
+        _ => {
+            text.parse().map(Data::Int).or_else(|_| text.parse().map(Data::Float)).unwrap_or_else(|_| Data::text(&text))
+        }
+    }
+}
