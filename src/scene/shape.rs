@@ -4,7 +4,8 @@ use std::rc::Rc;
 
 use super::Pose;
 use super::mass::MassProperties;
-use super::mesh::{BoundingBox, Mesh};
+use super::mesh::Mesh;
+use super::mesh_box::BoundingBox;
 use super::primitive::PrimitiveKind;
 
 /// Frictions of the presets that hold things, in the order of [`Material::of_frictions`].

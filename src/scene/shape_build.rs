@@ -4,7 +4,8 @@ use std::rc::Rc;
 
 use super::Pose;
 use super::mass::MassProperties;
-use super::mesh::{BoundingBox, Mesh};
+use super::mesh::Mesh;
+use super::mesh_box::BoundingBox;
 use super::primitive::{PrimitiveKind, bounding_size, clamp_size, has_pure_size, heightfield, tessellate};
 use super::shape::{Appearance, HeightField, Material, Part, Primitive, Shape, ShapeDynamics, Velocity};
 use super::{SceneError, SceneResult};

@@ -5,7 +5,8 @@ use std::rc::Rc;
 use nalgebra::UnitQuaternion;
 
 use super::mass::compute_mass_and_inertia;
-use super::mesh::{BoundingBox, Mesh};
+use super::mesh::Mesh;
+use super::mesh_box::BoundingBox;
 use super::primitive::PrimitiveKind;
 use super::shape::{Part, Shape};
 use super::{Field, Handle, Pose, Scene, SceneError, SceneResult};

@@ -182,3 +182,29 @@ impl Scene {
 fn is_sensor(kind: &Kind) -> bool {
     matches!(kind, Kind::ProximitySensor(_) | Kind::VisionSensor(_))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::dummy::Dummy;
+
+    fn dummy(scene: &mut Scene) -> SceneResult<Handle> {
+        scene.add("dummy", Kind::Dummy(Dummy::new(0.01)))
+    }
+
+    #[test]
+    fn handles_start_over_at_the_end_and_skip_those_in_use() {
+        let mut scene = Scene::new();
+        assert_eq!(dummy(&mut scene), Ok(Handle(0)));
+        scene.next_handle = Handle::END - 1;
+        assert_eq!(dummy(&mut scene), Ok(Handle(Handle::END - 1)));
+        assert_eq!(dummy(&mut scene), Ok(Handle(1)));
+    }
+
+    #[test]
+    fn a_full_scene_says_so() {
+        let mut scene = Scene::new();
+        scene.live = Handle::END as usize;
+        assert_eq!(dummy(&mut scene), Err(SceneError::TooManyObjects));
+    }
+}

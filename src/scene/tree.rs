@@ -73,7 +73,7 @@ impl Scene {
             return Ok(());
         }
         let world = self.world_pose(handle)?;
-        self.siblings_mut(old)?.retain(|&h| h != handle);
+        take_out(self.siblings_mut(old)?, handle);
         self.siblings_mut(parent)?.push(handle);
         self.object_mut(handle)?.parent = parent;
         self.set_dynamic_when_parented(handle)?;
@@ -123,7 +123,7 @@ impl Scene {
         if !(0..len).contains(&target) {
             return Err(SceneError::OperationFailed);
         }
-        siblings.retain(|&h| h != handle);
+        take_out(siblings, handle);
         siblings.insert(target as usize, handle);
         self.changes_mut().note(Change::Modified(handle, Field::Parent));
         Ok(())
@@ -195,7 +195,7 @@ impl Scene {
         self.forget_references(&doomed);
         for &handle in handles {
             let parent = self.object(handle)?.parent();
-            self.siblings_mut(parent)?.retain(|&h| h != handle);
+            take_out(self.siblings_mut(parent)?, handle);
             // Children of the doomed are doomed too by now; they must not be looked up through this parent.
             for child in std::mem::take(&mut self.object_mut(handle)?.children) {
                 self.object_mut(child)?.parent = None;
@@ -216,5 +216,12 @@ impl Scene {
             .collect();
         orphans.sort_by_key(|object| object.uid());
         orphans.into_iter().map(super::Object::handle).collect()
+    }
+}
+
+/// Takes a member out of its list. New objects are last and are the ones that move most.
+fn take_out(list: &mut Vec<Handle>, member: Handle) {
+    if let Some(at) = list.iter().rposition(|&h| h == member) {
+        list.remove(at);
     }
 }

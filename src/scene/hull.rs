@@ -1,0 +1,103 @@
+//! Convex hulls of points, by parry, checked. Lengths are in metres.
+
+use std::collections::{HashMap, HashSet};
+
+use nalgebra::Vector3;
+use parry3d_f64::{math::Vector, transformation::try_convex_hull};
+
+use super::mesh::Mesh;
+
+/// Points whose thickness is less than this part of their length count as flat.
+const FLATTEST: f64 = 1e-7;
+
+/// Most pairs of points and faces that the check of a hull looks at.
+const CHECKED_PAIRS: usize = 20_000_000;
+
+impl Mesh {
+    /// Convex hull of points; `None` for fewer than 4 points, points in a plane or not finite ones.
+    ///
+    /// parry's hull sometimes cuts off points that crowd near a plane, so its answer is checked and asked for
+    /// again with points merged more and more coarsely, up to 0.1 % of the size of the cloud.
+    pub fn convex_hull(points: &[[f64; 3]]) -> Option<Mesh> {
+        if !points.as_flattened().iter().all(|c| c.is_finite()) {
+            return None;
+        }
+        let cloud = spread(points)?;
+        let hulls = [0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3].into_iter().filter_map(|grid| {
+            let (source, hull) = hull_of_cloud(&cloud, grid)?;
+            let vertices = source.iter().map(|i| points[*i]).collect();
+            let mesh = Mesh::new(vertices, hull.triangles.clone()).ok()?;
+            (hull.encloses(&cloud, 1e-9 + 4.0 * grid) && mesh.volume() > 0.0).then_some(mesh)
+        });
+        hulls.into_iter().next()
+    }
+
+    /// Whether the mesh is closed and has the points inside, to within `tolerance` (m). Of many points a part
+    /// is looked at.
+    fn encloses(&self, points: &[[f64; 3]], tolerance: f64) -> bool {
+        let edges: HashSet<_> = self.triangles.iter().flat_map(|t| (0..3).map(|i| (t[i], t[(i + 1) % 3]))).collect();
+        let closed = edges.len() == 3 * self.triangles.len() && edges.iter().all(|(a, b)| edges.contains(&(*b, *a)));
+        let stride = 1 + points.len() * self.triangles.len() / CHECKED_PAIRS;
+        let outside = |t: &[u32; 3]| {
+            let [a, ..] = self.corners(t);
+            let normal = self.area_vector(t).try_normalize(0.0).unwrap_or_default();
+            points.iter().step_by(stride).any(|p| normal.dot(&(Vector3::from(*p) - a)) > tolerance)
+        };
+        closed && !self.triangles.iter().any(outside)
+    }
+}
+
+/// The points in skewed axes in which the cloud is about as wide in all directions, which leaves hulls as
+/// they are; `None` when they do not span space.
+fn spread(points: &[[f64; 3]]) -> Option<Vec<[f64; 3]>> {
+    let offset = |p: &[f64; 3]| Vector3::from(*p) - Vector3::from(points[0]);
+    let farthest = |part: &dyn Fn(Vector3<f64>) -> Vector3<f64>| {
+        let parts = points.iter().map(|p| part(offset(p)));
+        let widest = parts.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+        Some((widest.try_normalize(0.0)?, widest.norm()))
+    };
+    let (x, length) = farthest(&|d| d)?;
+    let (y, width) = farthest(&|d| d - x * x.dot(&d))?;
+    let z = x.cross(&y);
+    let thickness = points.iter().map(|p| z.dot(&offset(p)).abs()).fold(0.0, f64::max);
+    let spatial = length.is_finite() && width.min(thickness) > FLATTEST * length;
+    let scaled = |d: Vector3<f64>| [x.dot(&d) / length, y.dot(&d) / width, z.dot(&d) / thickness];
+    spatial.then(|| points.iter().map(|p| scaled(offset(p))).collect())
+}
+
+/// Hull of the points of a cloud that differ on a grid, and which points its vertices are.
+fn hull_of_cloud(cloud: &[[f64; 3]], grid: f64) -> Option<(Vec<usize>, Mesh)> {
+    let mut seen = HashSet::new();
+    let cells = cloud.iter().map(|p| p.map(|c| (c / grid.max(1e-9)).round() as i64)).enumerate();
+    let kept: Vec<usize> = cells.filter(|(_, cell)| seen.insert(*cell)).map(|(i, _)| i).collect();
+    let distinct: Vec<Vector> = kept.iter().map(|i| shaken(cloud[*i], grid)).collect();
+    let (vertices, triangles) = try_convex_hull(&distinct).ok()?;
+    let key = |v: &Vector| v.to_array().map(f64::to_bits);
+    let index: HashMap<_, _> = distinct.iter().map(key).zip(kept).collect();
+    let source = vertices.iter().map(|v| index.get(&key(v)).copied()).collect::<Option<_>>()?;
+    let mesh = Mesh::new(vertices.iter().map(Vector::to_array).collect(), triangles).ok()?;
+    Some((source, mesh))
+}
+
+/// A point moved by up to `size`, always in the same way, so that few points share a plane.
+fn shaken(p: [f64; 3], size: f64) -> Vector {
+    let phase = 1e3 * (1.3 * p[0] + 1.7 * p[1] + 2.3 * p[2]);
+    Vector::from_array([0, 1, 2].map(|i| p[i] + size * (phase * (1.0 + i as f64)).sin()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::mesh::samples::CORNER;
+    use super::*;
+
+    #[test]
+    fn hulls_need_volume() {
+        let hull = Mesh::convex_hull(&[&CORNER[..], &[[0.1, 0.1, 0.1], [1., 0., 0.]]].concat()).expect("spans space");
+        assert_eq!((hull.vertices.len(), hull.triangles.len()), (4, 4));
+        let bad = [[f64::NAN, 0., 0.], [f64::INFINITY, 0., 0.], [0.5, 0.5, 0.0]];
+        for fourth in bad {
+            assert_eq!(Mesh::convex_hull(&[CORNER[0], CORNER[1], CORNER[2], fourth]), None);
+        }
+        assert_eq!(Mesh::convex_hull(&[]), None);
+    }
+}
