@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::process::ExitCode;
 
-use super::refuse;
+use super::{refuse, say};
 use crate::docs::{self, Function};
 
 /// How many letters a name may be off to be suggested.
@@ -21,11 +21,11 @@ pub(super) struct Args {
 pub(super) fn api(args: &Args) -> ExitCode {
     let functions = docs::functions();
     let Some(name) = &args.name else {
-        print!("{}", list(&functions));
+        say(list(&functions).as_bytes());
         return ExitCode::SUCCESS;
     };
     if let Some(function) = functions.iter().find(|function| function.name == *name || function.member() == name) {
-        print!("{}", docs::function_text(function));
+        say(docs::function_text(function).as_bytes());
         return ExitCode::SUCCESS;
     }
     refuse(&unknown(name, &functions))

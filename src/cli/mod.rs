@@ -11,6 +11,7 @@ mod progress;
 mod run;
 mod session;
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -58,7 +59,9 @@ impl Command {
             Self::Api(args) => api::api(&args),
             Self::Init(args) => init::init(&args),
             Self::Completions { shell } => {
-                clap_complete::generate(shell, &mut Cli::command(), "swanilda", &mut std::io::stdout());
+                let mut script = Vec::new();
+                clap_complete::generate(shell, &mut Cli::command(), "swanilda", &mut script);
+                say(&script);
                 ExitCode::SUCCESS
             }
         }
@@ -69,4 +72,9 @@ impl Command {
 fn refuse(reason: &str) -> ExitCode {
     eprintln!("swanilda: {reason}");
     ExitCode::from(USAGE)
+}
+
+/// Writes to standard output. A reader that closes the pipe has seen enough, which is no error.
+fn say(text: &[u8]) {
+    let _ = std::io::stdout().write_all(text);
 }

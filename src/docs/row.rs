@@ -151,8 +151,10 @@ impl Doc {
 /// A default value of Rust code in Lua's spelling.
 fn lua_literal(rust: &str) -> String {
     match rust {
-        "None" => "nil".to_owned(),
+        "None" | "Data::Nil" => "nil".to_owned(),
+        "Options::default()" | "Vec::new()" => "{}".to_owned(),
         "Frame::World" | "Frame::default()" => "sim.handle_world".to_owned(),
+        _ if rust.starts_with("special::") => rust.replace("special::", "sim.handle_").to_lowercase(),
         _ if rust.starts_with('[') => rust.replace('[', "{").replace(']', "}"),
         _ => rust
             .split_once('(')
