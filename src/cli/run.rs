@@ -51,6 +51,9 @@ pub(super) struct Args {
     /// Seed of the scripts' random numbers
     #[arg(long)]
     seed: Option<u32>,
+    /// Lua instructions that stand for a millisecond of a thread's time slice
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    instructions_per_ms: Option<u64>,
     /// A named parameter scripts can read (sim.getNamedStringParam); may be repeated
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = named_param)]
     define: Vec<(String, String)>,
@@ -150,6 +153,7 @@ impl Args {
             ..Options::default()
         };
         options.seed = self.seed.unwrap_or(options.seed);
+        options.instructions_per_ms = self.instructions_per_ms.unwrap_or(options.instructions_per_ms);
         options.verbosity = self.verbosity.unwrap_or(options.verbosity);
         options
     }
