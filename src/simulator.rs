@@ -216,6 +216,7 @@ impl Drop for Simulator {
     /// The end of the application: add-ons and the sandbox clean up.
     fn drop(&mut self) {
         self.sim.end_detached();
+        self.sim.close_all();
     }
 }
 
@@ -226,5 +227,21 @@ fn detached(name: &str, code: &[u8]) -> Detached {
         code: code.to_vec(),
         priority: 1,
         ..Detached::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_simulator_goes_with_all_its_states() {
+        let mut sim = Simulator::new(Options::default());
+        let code = b"function sysCall_init() self = 1 end";
+        let script = sim.add_script(ScriptKind::Customization, "script", code).expect("the script loads");
+        let gone = Rc::downgrade(&script.0);
+        drop(script);
+        drop(sim);
+        assert!(gone.upgrade().is_none());
     }
 }

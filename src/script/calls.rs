@@ -127,6 +127,12 @@ impl Sim {
         auto_start
     }
 
+    /// Closes every interpreter. A script and its interpreter know each other: without this neither would ever go.
+    pub(crate) fn close_all(&self) {
+        let scripts: Vec<Rc<Script>> = self.scripts.borrow().values().cloned().collect();
+        scripts.iter().for_each(|script| drop(script.runtime.take()));
+    }
+
     /// Ends an add-on or the sandbox at application exit.
     pub(crate) fn end_detached(self: &Rc<Self>) {
         for script in self.everyone() {
