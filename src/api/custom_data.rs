@@ -6,7 +6,7 @@
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Namespace, SceneError, special};
+use crate::scene::{Data, Edit, Namespace, SceneError, special};
 use crate::script::{Bytes, Number, Target};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -48,15 +48,8 @@ fn write_custom_string_data(
 ) -> Result<()> {
     let target = owner(cx, object_handle.0)?;
     let bytes = data.map(|data| data.0).filter(|bytes| !bytes.is_empty());
-    cx.sim().change_named_values(&target, Namespace::CustomData, |values| match bytes {
-        _ if tag_name.is_empty() => {
-            let any = values.tags().next().is_some();
-            values.clear();
-            any
-        }
-        Some(bytes) => values.set(&tag_name, Data::Buffer(bytes)),
-        None => values.remove(&tag_name),
-    })?;
+    let edit = if tag_name.is_empty() { Edit::Clear } else { Edit::Tag(&tag_name, bytes.map(Data::Buffer)) };
+    cx.sim().edit_named_values(&target, Namespace::CustomData, edit)?;
     Ok(())
 }
 

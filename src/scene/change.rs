@@ -3,7 +3,10 @@
 //! Every mutation of [`Scene`](super::Scene) goes through `Scene::modify` or one of the structural operations, and each of those
 //! notes its change here. Nothing is stored while nobody listens.
 
-use super::Handle;
+use std::collections::BTreeMap;
+
+use super::custom_data::Edited;
+use super::{Handle, Holder, Namespace};
 
 /// What changed about an object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -15,8 +18,6 @@ pub enum Field {
     ObjectProperty,
     SpecialProperty,
     ModelProperty,
-    CustomData,
-    Signal,
     Dynamics,
     Geometry,
     Appearance,
@@ -32,14 +33,23 @@ pub enum Field {
 }
 
 /// One change, in the order it happened.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Change {
     Added(Handle),
     Removed(Handle),
     Modified(Handle, Field),
     Selection,
     Settings,
+    /// Custom data or a signal was written or removed: which of the two, the holder tells. Its name is without the mark of its type.
+    Stored {
+        holder: Holder,
+        namespace: Namespace,
+        name: String,
+    },
 }
+
+/// Names of the data of one object that were written (true) or removed.
+pub type ChangedNames = BTreeMap<String, bool>;
 
 /// Collects changes for whoever listens, and counts changes of the tree for caches.
 #[derive(Debug, Default)]
@@ -48,14 +58,15 @@ pub struct Changes {
     pending: Vec<Change>,
     tree_revision: u64,
     dynamics_revision: u64,
+    changed_data: BTreeMap<(Handle, Namespace), ChangedNames>,
 }
 
 impl Changes {
     pub(super) fn note(&mut self, change: Change) {
         match change {
             Change::Modified(_, Field::Pose | Field::JointPosition | Field::JointControl) => {}
-            Change::Modified(_, Field::Alias | Field::CustomData | Field::Signal | Field::Appearance) => {}
-            Change::Selection | Change::Settings => {}
+            Change::Modified(_, Field::Alias | Field::Appearance) => {}
+            Change::Selection | Change::Settings | Change::Stored { .. } => {}
             Change::Modified(_, Field::Script | Field::Priority) => self.tree_revision += 1,
             Change::Added(_) | Change::Removed(_) | Change::Modified(_, Field::Parent | Field::ModelProperty) => {
                 self.tree_revision += 1;
@@ -66,6 +77,34 @@ impl Changes {
         if self.listening {
             self.pending.push(change);
         }
+    }
+
+    /// Notes what an edit of named values did. Scripts attached to objects are told in any case, see `take_changed_data`.
+    pub fn note_stored(&mut self, holder: Holder, namespace: Namespace, edited: &Edited<'_>) {
+        match edited {
+            Edited::Nothing => {}
+            Edited::Written(name) => self.note_name(holder, namespace, name, true),
+            Edited::Removed(name) => self.note_name(holder, namespace, name, false),
+            Edited::Cleared(names) => names.iter().for_each(|name| self.note_name(holder, namespace, name, false)),
+        }
+    }
+
+    fn note_name(&mut self, holder: Holder, namespace: Namespace, name: &str, written: bool) {
+        if let Holder::Object(handle) = holder {
+            let names = self.changed_data.entry((handle, namespace)).or_default();
+            match names.get_mut(name) {
+                Some(last) => *last = written,
+                None => drop(names.insert(name.to_owned(), written)),
+            }
+        }
+        if self.listening {
+            self.pending.push(Change::Stored { holder, namespace, name: name.to_owned() });
+        }
+    }
+
+    /// Which data of which objects was changed since the last call.
+    pub fn take_changed_data(&mut self) -> BTreeMap<(Handle, Namespace), ChangedNames> {
+        std::mem::take(&mut self.changed_data)
     }
 
     /// Starts or stops collecting.

@@ -3,7 +3,7 @@
 //! A value is stored under a tag: the mark of its type followed by its name. Buffers have no mark, so that raw custom data of a name
 //! and its buffer property are the same.
 
-use super::{Change, Data, Field, Handle, Scene, SceneResult};
+use super::{Data, Handle, Scene, SceneResult};
 
 macro_rules! value_types {
     ($($variant:ident = $code:literal $word:literal $mark:literal;)*) => {
@@ -58,6 +58,33 @@ impl ValueType {
     }
 }
 
+/// What is done to named values. Names are without, tags with the mark of a type.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Edit<'a> {
+    /// Sets the value with that tag; None removes it.
+    Tag(&'a str, Option<Data>),
+    /// Sets the value of that name, in place of one of any other type; None removes it, whatever its type.
+    Name(&'a str, Option<(ValueType, Data)>),
+    /// Removes everything.
+    Clear,
+}
+
+/// What an edit did, by names without marks.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Edited<'a> {
+    Nothing,
+    Written(&'a str),
+    Removed(&'a str),
+    Cleared(Vec<String>),
+}
+
+impl Edited<'_> {
+    /// Whether anything is different now.
+    pub fn any(&self) -> bool {
+        *self != Self::Nothing
+    }
+}
+
 /// Values of one owner, in the order they were created.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CustomData {
@@ -70,8 +97,18 @@ impl CustomData {
         self.entries.iter().find(|(t, _)| t == tag).map(|(_, value)| value)
     }
 
-    /// Sets the value with that tag; tells whether anything changed.
-    pub fn set(&mut self, tag: &str, value: Data) -> bool {
+    /// Does `edit`. Writing what is there already is no change.
+    pub fn edit<'a>(&mut self, edit: Edit<'a>) -> Edited<'a> {
+        match edit {
+            Edit::Tag(tag, Some(value)) => written(self.set(tag, value), ValueType::split_tag(tag).1),
+            Edit::Tag(tag, None) => removed(self.retain(|t| t != tag), ValueType::split_tag(tag).1),
+            Edit::Name(name, Some((ty, value))) => written(self.set_typed(name, ty, value), name),
+            Edit::Name(name, None) => removed(self.retain(|t| ValueType::split_tag(t).1 != name), name),
+            Edit::Clear => self.clear(),
+        }
+    }
+
+    fn set(&mut self, tag: &str, value: Data) -> bool {
         match self.entries.iter_mut().find(|(t, _)| t == tag) {
             Some((_, old)) if *old == value => false,
             Some((_, old)) => {
@@ -85,15 +122,23 @@ impl CustomData {
         }
     }
 
-    /// Removes a tag; tells whether it existed.
-    pub fn remove(&mut self, tag: &str) -> bool {
+    fn set_typed(&mut self, name: &str, ty: ValueType, value: Data) -> bool {
+        let tag = ty.tag(name);
+        self.retain(|t| *t == *tag || ValueType::split_tag(t).1 != name);
+        self.set(&tag, value)
+    }
+
+    /// Tells whether anything went.
+    fn retain(&mut self, keep: impl Fn(&str) -> bool) -> bool {
         let before = self.entries.len();
-        self.entries.retain(|(t, _)| t != tag);
+        self.entries.retain(|(tag, _)| keep(tag));
         self.entries.len() != before
     }
 
-    pub fn clear(&mut self) {
-        self.entries.clear();
+    fn clear(&mut self) -> Edited<'static> {
+        let names: Vec<String> =
+            self.entries.drain(..).map(|(tag, _)| ValueType::split_tag(&tag).1.to_owned()).collect();
+        if names.is_empty() { Edited::Nothing } else { Edited::Cleared(names) }
     }
 
     /// The tags in the order of their creation.
@@ -108,20 +153,14 @@ impl CustomData {
             (tagged == name).then_some((ty, value))
         })
     }
+}
 
-    /// Sets `name` to a value of type `ty`, in place of one of any other type; tells whether anything changed.
-    pub fn set_typed(&mut self, name: &str, ty: ValueType, value: Data) -> bool {
-        let tag = ty.tag(name);
-        self.entries.retain(|(t, _)| *t == tag || ValueType::split_tag(t).1 != name);
-        self.set(&tag, value)
-    }
+fn written(changed: bool, name: &str) -> Edited<'_> {
+    if changed { Edited::Written(name) } else { Edited::Nothing }
+}
 
-    /// Removes `name` of whatever type; tells whether it existed.
-    pub fn remove_typed(&mut self, name: &str) -> bool {
-        let before = self.entries.len();
-        self.entries.retain(|(tag, _)| ValueType::split_tag(tag).1 != name);
-        self.entries.len() != before
-    }
+fn removed(existed: bool, name: &str) -> Edited<'_> {
+    if existed { Edited::Removed(name) } else { Edited::Nothing }
 }
 
 /// The two kinds of named values.
@@ -131,6 +170,15 @@ pub enum Namespace {
     CustomData,
     /// Passing values: they belong to the scripts that set them.
     Signal,
+}
+
+/// Who holds named values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Holder {
+    /// The application: its values are kept outside of the scene, and outlive it.
+    App,
+    Scene,
+    Object(Handle),
 }
 
 impl Scene {
@@ -149,12 +197,12 @@ impl Scene {
         })
     }
 
-    /// Changes named values; `change` tells whether it did anything, and so does the result.
-    pub fn change_named_values(
+    /// Changes named values of an object, or of the scene itself (None): the one gate for them. Tells whether anything changed.
+    pub fn edit_named_values(
         &mut self,
         owner: Option<Handle>,
         namespace: Namespace,
-        change: impl FnOnce(&mut CustomData) -> bool,
+        edit: Edit<'_>,
     ) -> SceneResult<bool> {
         let values = match (owner, namespace) {
             (None, Namespace::CustomData) => &mut self.custom_data,
@@ -162,35 +210,37 @@ impl Scene {
             (Some(handle), Namespace::CustomData) => &mut self.object_mut(handle)?.custom_data,
             (Some(handle), Namespace::Signal) => &mut self.object_mut(handle)?.signals,
         };
-        let changed = change(values);
-        if changed {
-            self.note_named_values(owner, namespace);
-        }
-        Ok(changed)
-    }
-
-    fn note_named_values(&mut self, owner: Option<Handle>, namespace: Namespace) {
-        let field = match namespace {
-            Namespace::CustomData => Field::CustomData,
-            Namespace::Signal => Field::Signal,
-        };
-        let change = owner.map_or(Change::Settings, |handle| Change::Modified(handle, field));
-        self.changes_mut().note(change);
+        let edited = values.edit(edit);
+        self.changes_mut().note_stored(owner.map_or(Holder::Scene, Holder::Object), namespace, &edited);
+        Ok(edited.any())
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{CustomData, Data, ValueType};
+    use super::{CustomData, Data, Edit, Edited, ValueType};
 
     #[test]
     fn another_type_takes_the_place_of_the_old_one() {
         let mut data = CustomData::default();
-        assert!(data.set_typed("x", ValueType::Int, Data::Int(1)));
-        assert!(!data.set_typed("x", ValueType::Int, Data::Int(1)));
-        assert!(data.set_typed("x", ValueType::Buffer, Data::Buffer(vec![1])));
+        let int = || Edit::Name("x", Some((ValueType::Int, Data::Int(1))));
+        assert_eq!(data.edit(int()), Edited::Written("x"));
+        assert_eq!(data.edit(int()), Edited::Nothing);
+        let buffer = Data::Buffer(vec![1]);
+        assert!(data.edit(Edit::Name("x", Some((ValueType::Buffer, buffer.clone())))).any());
         assert_eq!(data.tags().collect::<Vec<_>>(), ["x"]);
-        assert_eq!(data.typed("x"), Some((ValueType::Buffer, &Data::Buffer(vec![1]))));
+        assert_eq!(data.typed("x"), Some((ValueType::Buffer, &buffer)));
+    }
+
+    #[test]
+    fn edits_tell_names_without_marks() {
+        let mut data = CustomData::default();
+        data.edit(Edit::Name("x", Some((ValueType::Int, Data::Int(1)))));
+        data.edit(Edit::Tag("y", Some(Data::Buffer(vec![1]))));
+        assert_eq!(data.edit(Edit::Tag("z", None)), Edited::Nothing);
+        assert_eq!(data.edit(Edit::Tag("&int&.x", None)), Edited::Removed("x"));
+        assert_eq!(data.edit(Edit::Clear), Edited::Cleared(vec!["y".into()]));
+        assert_eq!(data.edit(Edit::Clear), Edited::Nothing);
     }
 
     #[test]

@@ -52,7 +52,7 @@ mod tree;
 pub use change::{Change, Changes, Field};
 pub use collection::{Collection, CollectionItem};
 pub use copy::CopyOptions;
-pub use custom_data::{CustomData, Namespace, ValueType};
+pub use custom_data::{CustomData, Edit, Edited, Holder, Namespace, ValueType};
 pub use data::{Data, Key};
 pub use error::{SceneError, SceneResult};
 pub use handle::{Handle, Uid, flag, special};

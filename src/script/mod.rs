@@ -10,6 +10,7 @@ mod clock;
 mod console;
 mod cx;
 mod data;
+mod data_changes;
 mod dispatch;
 mod dynamics_step;
 mod embedded;

@@ -7,7 +7,7 @@ use super::error::{ApiError, ApiResult};
 use super::instance::Script;
 use super::sim::Sim;
 use crate::scene::script_object::{ScriptObject, ScriptType};
-use crate::scene::{Kind, Settings};
+use crate::scene::{Edit, Kind, Namespace, Settings};
 
 impl Sim {
     /// Puts the default scene in place of the present one on behalf of `caller`, and adds the script `code` if there is one.
@@ -38,8 +38,9 @@ impl Sim {
         }
         let mut scene = self.scene.borrow_mut();
         scene.modify_settings(|settings| *settings = Settings::default());
-        scene.custom_data.clear();
-        scene.signals.clear();
+        for namespace in [Namespace::CustomData, Namespace::Signal] {
+            scene.edit_named_values(None, namespace, Edit::Clear)?;
+        }
         Ok(())
     }
 

@@ -19,6 +19,7 @@ impl Sim {
             SimulationState::Paused => self.notify(SysCall::Suspended),
             _ => {}
         }
+        self.notify_changed_data();
         self.notify_selection();
         if self.clock.state.get().is_advancing() {
             if !self.step_is_due() {

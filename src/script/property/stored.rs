@@ -4,17 +4,9 @@ use std::collections::BTreeMap;
 
 use super::table::flags;
 use super::{Info, Sim, Target};
-use crate::scene::{CustomData, Data, Handle, Namespace, ValueType};
+use crate::scene::{CustomData, Data, Edit, Handle, Holder, Namespace, ValueType};
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::instance::Script;
-
-/// Who holds named values.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Holder {
-    App,
-    Scene,
-    Object(Handle),
-}
 
 /// The script that wrote each signal last. A signal goes with the Lua state of that script.
 pub(crate) type SignalOwners = BTreeMap<(Holder, String), i64>;
@@ -36,10 +28,9 @@ impl Target {
     }
 }
 
-impl Holder {
-    fn in_scene(self) -> Option<Handle> {
-        if let Self::Object(handle) = self { Some(handle) } else { None }
-    }
+/// The object among the holders; None for the scene.
+fn object_of(holder: Holder) -> Option<Handle> {
+    if let Holder::Object(handle) = holder { Some(handle) } else { None }
 }
 
 impl Sim {
@@ -53,19 +44,17 @@ impl Sim {
             return Ok(read(self.app.borrow().named_values(namespace)));
         }
         let scene = self.scene.borrow();
-        Ok(read(scene.named_values(holder.in_scene(), namespace)?))
+        Ok(read(scene.named_values(object_of(holder), namespace)?))
     }
 
-    fn change_stored(
-        &self,
-        holder: Holder,
-        namespace: Namespace,
-        change: impl FnOnce(&mut CustomData) -> bool,
-    ) -> ApiResult<bool> {
-        if holder == Holder::App {
-            return Ok(change(self.app.borrow_mut().named_values_mut(namespace)));
+    /// The one gate for changes of named values; tells whether there was any.
+    fn edit_stored(&self, holder: Holder, namespace: Namespace, edit: Edit<'_>) -> ApiResult<bool> {
+        if holder != Holder::App {
+            return Ok(self.scene.borrow_mut().edit_named_values(object_of(holder), namespace, edit)?);
         }
-        Ok(self.scene.borrow_mut().change_named_values(holder.in_scene(), namespace, change)?)
+        let edited = self.app.borrow_mut().named_values_mut(namespace).edit(edit);
+        self.scene.borrow_mut().changes_mut().note_stored(holder, namespace, &edited);
+        Ok(edited.any())
     }
 
     /// Reads custom data or signals as a whole.
@@ -81,17 +70,12 @@ impl Sim {
         self.with_stored(target.holder().ok_or(ApiError::NoSuchTarget)?, namespace, read)
     }
 
-    /// Changes custom data or signals as a whole; `change` tells whether it did anything.
+    /// Changes custom data or signals; tells whether anything is different then.
     ///
     /// # Errors
     /// When the target has none or is gone.
-    pub(crate) fn change_named_values(
-        &self,
-        target: &Target,
-        namespace: Namespace,
-        change: impl FnOnce(&mut CustomData) -> bool,
-    ) -> ApiResult<bool> {
-        self.change_stored(target.holder().ok_or(ApiError::NoSuchTarget)?, namespace, change)
+    pub(crate) fn edit_named_values(&self, target: &Target, namespace: Namespace, edit: Edit<'_>) -> ApiResult<bool> {
+        self.edit_stored(target.holder().ok_or(ApiError::NoSuchTarget)?, namespace, edit)
     }
 
     pub(super) fn read_stored(
@@ -125,7 +109,7 @@ impl Sim {
             return Err(ApiError::PropertyName);
         }
         let holder = target.holder().ok_or(ApiError::UnknownProperty)?;
-        self.change_stored(holder, namespace, |values| values.set_typed(name, ty, value))?;
+        self.edit_stored(holder, namespace, Edit::Name(name, Some((ty, value))))?;
         if namespace == Namespace::Signal {
             self.signal_owners.borrow_mut().insert((holder, name.to_owned()), writer.id);
         }
@@ -137,7 +121,7 @@ impl Sim {
         if namespace == Namespace::Signal {
             self.signal_owners.borrow_mut().remove(&(holder, name.to_owned()));
         }
-        self.change_stored(holder, namespace, |values| values.remove_typed(name))
+        self.edit_stored(holder, namespace, Edit::Name(name, None))
     }
 
     pub(super) fn stored_info(&self, target: &Target, namespace: Namespace, name: &str) -> Option<Info> {
@@ -175,7 +159,7 @@ impl Sim {
         });
         for (holder, name) in owned {
             // An object that is gone took its signals along.
-            let _ = self.change_stored(holder, Namespace::Signal, |values| values.remove_typed(&name));
+            let _ = self.edit_stored(holder, Namespace::Signal, Edit::Name(&name, None));
         }
     }
 

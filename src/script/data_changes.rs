@@ -1,0 +1,53 @@
+//! Telling scripts that the data of their object changed (`sysCall_data`).
+
+use std::rc::Rc;
+
+use super::callback::SysCall;
+use super::instance::Script;
+use super::order::attached_scripts;
+use super::sim::Sim;
+use crate::scene::change::ChangedNames;
+use crate::scene::script_object::ScriptType;
+use crate::scene::{Data, Handle, Key, Namespace};
+
+impl Sim {
+    /// Tells scripts about the custom data and signals that were written or removed since the last pass: one call per object and kind.
+    pub(crate) fn notify_changed_data(self: &Rc<Self>) {
+        let changed = self.scene.borrow_mut().changes_mut().take_changed_data();
+        if self.nobody_responds(SysCall::Data) {
+            return;
+        }
+        for ((object, namespace), names) in changed {
+            let args = [written_or_removed(names), Data::text(word(namespace))];
+            for script in self.scripts_of(object) {
+                self.deliver(&script, SysCall::Data, &args);
+            }
+        }
+    }
+
+    /// The script an object is, or those attached to it: simulation scripts first.
+    fn scripts_of(&self, object: Handle) -> Vec<Rc<Script>> {
+        let handles = {
+            let scene = self.scene.borrow();
+            match scene.object(object) {
+                Ok(object) if object.script().is_ok() => vec![object.handle()],
+                Ok(_) => attached_scripts(&scene, object),
+                Err(_) => return Vec::new(),
+            }
+        };
+        let mut scripts: Vec<_> = handles.into_iter().filter_map(|handle| self.script(handle.raw())).collect();
+        scripts.sort_by_key(|script| script.script_type != ScriptType::Simulation);
+        scripts
+    }
+}
+
+fn written_or_removed(names: ChangedNames) -> Data {
+    Data::Map(names.into_iter().map(|(name, written)| (Key::Text(name.into_bytes()), Data::Bool(written))).collect())
+}
+
+fn word(namespace: Namespace) -> &'static str {
+    match namespace {
+        Namespace::CustomData => "customData",
+        Namespace::Signal => "signal",
+    }
+}
