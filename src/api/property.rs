@@ -181,7 +181,7 @@ fn get_property_name(
     target: i64,
     index: i64,
     #[default(Options::default())] options: Options,
-) -> Result<Option<(String, String)>> {
+) -> Result<Option<(String, &'static str)>> {
     let target = cx.sim().property_target(target, cx.script())?;
     let Ok(index) = usize::try_from(index) else { return Ok(None) };
     Ok(cx.sim().property_names(&target, &options.prefix).into_iter().nth(index))

@@ -29,6 +29,8 @@ pub enum Field {
     Sensor,
     Script,
     Priority,
+    /// A value that is only kept for scripts.
+    Kept,
     Other,
 }
 
@@ -65,7 +67,7 @@ impl Changes {
     pub(super) fn note(&mut self, change: Change) {
         match change {
             Change::Modified(_, Field::Pose | Field::JointPosition | Field::JointControl) => {}
-            Change::Modified(_, Field::Alias | Field::Appearance) => {}
+            Change::Modified(_, Field::Alias | Field::Appearance | Field::Kept) => {}
             Change::Selection | Change::Settings | Change::Stored { .. } => {}
             Change::Modified(_, Field::Script | Field::Priority) => self.tree_revision += 1,
             Change::Added(_) | Change::Removed(_) | Change::Modified(_, Field::Parent | Field::ModelProperty) => {

@@ -7,7 +7,7 @@ use super::restore::InitialState;
 use super::script_object::ScriptObject;
 use super::sensors::{Camera, Graph, Light, OcTree, PointCloud, ProximitySensor, VisionSensor};
 use super::shape::Shape;
-use super::{CustomData, Handle, Pose, SceneError, SceneResult, Uid};
+use super::{CustomData, Handle, Kept, Pose, SceneError, SceneResult, Uid};
 
 /// The value of [`Object::model_property`] of an object that is no model base.
 pub const NOT_MODEL: i64 = 0xf000;
@@ -40,6 +40,8 @@ pub struct Object {
     pub custom_data: CustomData,
     /// Named values that last as long as the scripts that set them; they are not saved.
     pub signals: CustomData,
+    /// Values that have no effect here, as scripts set them.
+    pub kept: Kept,
     /// Parameters of the old parameter dialog: name and value as text.
     pub user_params: Vec<(String, String)>,
     /// Tagged lists of handles: `(tag, handles)`; -1 stands for an object that is gone.
@@ -143,6 +145,7 @@ impl Object {
             priority: 1,
             custom_data: CustomData::default(),
             signals: CustomData::default(),
+            kept: Kept::default(),
             user_params: Vec::new(),
             references: Vec::new(),
             original_references: Vec::new(),

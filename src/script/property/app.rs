@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::access::{Accessor, subject_properties};
-use crate::scene::{CustomData, Namespace};
+use crate::scene::{CustomData, Kept, Namespace};
 
 /// What scripts keep with the application.
 #[derive(Default)]
@@ -14,6 +14,8 @@ pub(crate) struct AppData {
     pub named_params: BTreeMap<String, Vec<u8>>,
     /// What scripts keep beyond the life of a scene.
     pub persistent_data: BTreeMap<String, Vec<u8>>,
+    /// Values that have no effect here, as scripts set them.
+    pub kept: Kept,
     /// Numbered switches, numbers and texts that have no effect here, as scripts set them.
     pub idle_params: IdleParams,
 }

@@ -1,13 +1,21 @@
 //! Properties of dummies, and colours.
 
 use super::Color;
-use super::access::{Accessor, object_properties};
-use crate::scene::Handle;
+use super::access::{Accessor, object_properties, placed_properties};
+use crate::scene::dummy::LinkType;
+use crate::scene::{Handle, SceneError};
 
 pub(super) const DUMMY: &[Accessor] = object_properties! {
     "dummySize": f64, |o| o.dummy()?.size, Appearance |o, size| o.dummy_mut()?.size = size;
-    "linkedDummyHandle": i64, |o| o.dummy()?.link.map_or(-1, Handle::raw);
-    "dummyType": i64, |o| o.dummy()?.link_type as i64;
+};
+
+pub(super) const LINK: &[Accessor] = placed_properties! {
+    "linkedDummyHandle": i64, |s, h| s.object(h)?.dummy()?.link.map_or(-1, Handle::raw),
+        |s, h, partner| s.link_dummies(h, Handle::from_raw(partner))?;
+    "dummyType": i64, |s, h| s.object(h)?.dummy()?.link_type as i64, |s, h, code| {
+        let link_type = LinkType::from_code(code).ok_or(SceneError::InvalidData)?;
+        s.set_link_type(h, link_type)?;
+    };
 };
 
 pub(super) const COLOUR: &[Accessor] = object_properties! {

@@ -7,6 +7,7 @@ mod access;
 mod app;
 mod dummy;
 mod joint;
+mod kept;
 mod object;
 mod scene;
 mod script;
@@ -23,7 +24,7 @@ use super::sim::Sim;
 use crate::scene::script_object::ScriptType;
 use crate::scene::{Data, Handle, Namespace, ValueType, special};
 use access::Subject;
-use table::{Row, flags, part, parts_of};
+use table::{Class, Row, Source, app_class, flags, object_class, scene_class, script_class};
 
 pub(crate) use app::AppData;
 pub(crate) use stored::SignalOwners;
@@ -45,9 +46,6 @@ enum Name<'a> {
     /// A named parameter of the application.
     Param(&'a str),
 }
-
-/// A part of the table, with its class as `sim.getPropertyName` tells it.
-type Part = (&'static str, String);
 
 /// Type and flags, as `sim.getPropertyInfo` tells them.
 pub(crate) type Info = (ValueType, i64);
@@ -72,17 +70,26 @@ impl Sim {
 
     /// Value of a property of type `ty`.
     pub(crate) fn read_property(self: &Rc<Self>, target: &Target, name: &str, ty: ValueType) -> ApiResult<Data> {
-        match self.parse_name(target, name) {
+        let class = self.class_of(target)?;
+        match parse_name(class, target, name) {
             Name::Stored(namespace, name) => self.read_stored(target, namespace, name, ty),
             Name::Param(name) => self.read_param(name, ty),
-            Name::Static(name) => {
-                let row = self.static_row(target, name, ty)?;
-                if row.flags & flags::NOT_READABLE != 0 {
-                    return Err(ApiError::PropertyNotReadable);
-                }
-                let read = row.accessor.and_then(|accessor| accessor.read).ok_or_else(|| not_built(name))?;
+            Name::Static(name) => self.read_row(target, row_of(class, name, ty)?),
+        }
+    }
+
+    /// Value of a static property.
+    pub(crate) fn read_row(self: &Rc<Self>, target: &Target, row: &Row) -> ApiResult<Data> {
+        if row.flags & flags::NOT_READABLE != 0 {
+            return Err(ApiError::PropertyNotReadable);
+        }
+        match &row.source {
+            Source::Works(accessor) => {
+                let read = accessor.read.ok_or(ApiError::PropertyNotReadable)?;
                 read(&Subject { sim: self, target })
             }
+            Source::Kept(default) => Ok(self.read_kept(target, row.name)?.unwrap_or_else(|| default.clone())),
+            Source::Constant(value) => Ok(value.clone()),
         }
     }
 
@@ -94,26 +101,35 @@ impl Sim {
         (ty, value): (ValueType, Data),
         writer: &Script,
     ) -> ApiResult<()> {
-        match self.parse_name(target, name) {
+        let class = self.class_of(target)?;
+        match parse_name(class, target, name) {
             Name::Stored(namespace, name) => self.write_stored(target, namespace, name, (ty, value), writer),
             Name::Param(name) => self.write_param(name, ty, value),
-            Name::Static(name) => {
-                let row = self.static_row(target, name, ty)?;
-                if row.flags & flags::NOT_WRITABLE != 0 {
-                    return Err(ApiError::PropertyNotWritable);
-                }
-                let write = row.accessor.and_then(|accessor| accessor.write).ok_or_else(|| not_built(name))?;
+            Name::Static(name) => self.write_row(target, row_of(class, name, ty)?, value),
+        }
+    }
+
+    fn write_row(self: &Rc<Self>, target: &Target, row: &Row, value: Data) -> ApiResult<()> {
+        if row.flags & flags::NOT_WRITABLE != 0 {
+            return Err(ApiError::PropertyNotWritable);
+        }
+        match &row.source {
+            Source::Works(accessor) => {
+                let write = accessor.write.ok_or(ApiError::PropertyNotWritable)?;
                 write(&Subject { sim: self, target }, value)
             }
+            Source::Kept(default) => self.write_kept(target, row.name, kept::checked(default, value)?),
+            Source::Constant(_) => Err(ApiError::PropertyNotWritable),
         }
     }
 
     /// Removes custom data, a signal or a named parameter.
     pub(crate) fn remove_property(&self, target: &Target, name: &str) -> ApiResult<()> {
-        let existed = match self.parse_name(target, name) {
+        let class = self.class_of(target)?;
+        let existed = match parse_name(class, target, name) {
             Name::Stored(namespace, name) => self.remove_stored(target, namespace, name)?,
             Name::Param(name) => self.app.borrow_mut().named_params.remove(name).is_some(),
-            Name::Static(name) if self.find_row(target, name).is_some() => return Err(ApiError::PropertyNotRemovable),
+            Name::Static(name) if class.find(name).is_some() => return Err(ApiError::PropertyNotRemovable),
             Name::Static(_) => false,
         };
         if existed { Ok(()) } else { Err(ApiError::UnknownProperty) }
@@ -121,92 +137,66 @@ impl Sim {
 
     /// Type and flags of a property; None when there is none of that name.
     pub(crate) fn property_info(&self, target: &Target, name: &str) -> Option<Info> {
-        match self.parse_name(target, name) {
+        let class = self.class_of(target).ok()?;
+        match parse_name(class, target, name) {
             Name::Stored(namespace, name) => self.stored_info(target, namespace, name),
             Name::Param(name) => {
                 let known = self.app.borrow().named_params.contains_key(name);
                 known.then_some((ValueType::String, flags::REMOVABLE | flags::MODEL_HASH_EXCLUDE))
             }
-            Name::Static(name) => self.find_row(target, name).map(|row| (row.ty, row.flags)),
+            Name::Static(name) => class.find(name).map(|row| (row.ty, row.flags)),
         }
     }
 
     /// All properties in the order of enumeration: name and class. Static ones only if they begin with `prefix`; custom data and
     /// signals in any case, as in CoppeliaSim.
-    pub(crate) fn property_names(&self, target: &Target, prefix: &str) -> Vec<(String, String)> {
-        let (before, after) = self.parts(target);
-        let listed = |parts: &[Part]| -> Vec<(String, String)> {
-            let rows = parts.iter().flat_map(|(name, class)| part(name).listed().map(move |row| (row, class)));
-            let rows = rows.filter(|(row, _)| row.name.starts_with(prefix));
-            rows.map(|(row, class)| (row.name.to_owned(), class.clone())).collect()
+    pub(crate) fn property_names(&self, target: &Target, prefix: &str) -> Vec<(String, &'static str)> {
+        let Ok((before, after)) = self.rows_of(target) else { return Vec::new() };
+        let class = before.last().map_or("", |row| row.class);
+        let listed = |rows: &'static [Row]| {
+            let rows = rows.iter().filter(|row| row.flags & flags::DEPRECATED == 0 && row.name.starts_with(prefix));
+            rows.map(|row| (row.name.to_owned(), row.class))
         };
-        let mut names = listed(&before);
-        let class = before.last().map_or_else(|| "app".to_owned(), |(_, class)| class.clone());
-        names.extend(self.stored_names(target).into_iter().map(|name| (name, class.clone())));
-        names.extend(listed(&after));
-        names
+        let stored = self.stored_names(target).into_iter().map(|name| (name, class));
+        listed(before).chain(stored).chain(listed(after)).collect()
     }
 
-    /// The parts of the table a target has, each with its class: those before and those after the named values.
-    fn parts(&self, target: &Target) -> (Vec<Part>, Vec<Part>) {
-        let with = |names: &[&'static str], class: &str| names.iter().map(|&n| (n, class.to_owned())).collect();
-        match target {
-            Target::App => (with(&["app"], "app"), Vec::new()),
-            Target::Scene => (with(&["dynamics", "simulation", "environment", "container"], "app.scene"), Vec::new()),
-            Target::Script(_) => (with(&["script"], "app.script"), Vec::new()),
-            Target::Object(handle) => {
-                let scene = self.scene.borrow();
-                let Ok(object) = scene.object(*handle) else { return Default::default() };
-                let (class, names) = parts_of(&object.kind);
-                (with(&["object"], "app.scene.object"), with(names, &format!("app.scene.object.{class}")))
-            }
-        }
+    /// The static properties of a target in the order of enumeration: those before and those after custom data and signals.
+    ///
+    /// # Errors
+    /// When the target is gone.
+    pub(crate) fn rows_of(&self, target: &Target) -> ApiResult<(&'static [Row], &'static [Row])> {
+        Ok(self.class_of(target)?.rows())
     }
 
-    fn find_row(&self, target: &Target, name: &str) -> Option<&'static Row> {
-        let (before, after) = self.parts(target);
-        before.iter().chain(&after).find_map(|(part_name, _)| part(part_name).find(name))
-    }
-
-    /// The row of a static property that has the type it is asked for.
-    fn static_row(&self, target: &Target, name: &str, ty: ValueType) -> ApiResult<&'static Row> {
-        let row = self.find_row(target, name).ok_or(ApiError::UnknownProperty)?;
-        if row.ty == ty { Ok(row) } else { Err(ApiError::PropertyType) }
-    }
-
-    /// Takes a name apart; the class of the target may stand in front of it.
-    fn parse_name<'a>(&self, target: &Target, name: &'a str) -> Name<'a> {
-        let name = self.without_class(target, name);
-        let stored = !matches!(target, Target::Script(_));
-        if let (true, Some(rest)) = (stored, name.strip_prefix("customData.")) {
-            return Name::Stored(Namespace::CustomData, rest);
-        }
-        if let (true, Some(rest)) = (stored, name.strip_prefix("signal.")) {
-            return Name::Stored(Namespace::Signal, rest);
-        }
-        match (target, name.strip_prefix("namedParam.")) {
-            (Target::App, Some(rest)) => Name::Param(rest),
-            _ => Name::Static(name),
-        }
-    }
-
-    fn without_class<'a>(&self, target: &Target, name: &'a str) -> &'a str {
-        let strip = |name: &'a str, class: &str| -> &'a str {
-            name.strip_prefix(class).and_then(|rest| rest.strip_prefix('.')).unwrap_or(name)
-        };
-        match target {
-            Target::App => strip(name, "app"),
-            Target::Scene => strip(strip(name, "app"), "scene"),
-            Target::Script(_) => strip(strip(name, "scene"), "script"),
-            Target::Object(handle) => {
-                let scene = self.scene.borrow();
-                let class = scene.object(*handle).map_or("object", |object| parts_of(&object.kind).0);
-                strip(strip(strip(name, "scene"), "object"), class)
-            }
-        }
+    fn class_of(&self, target: &Target) -> ApiResult<&'static Class> {
+        Ok(match target {
+            Target::App => app_class(),
+            Target::Scene => scene_class(),
+            Target::Script(_) => script_class(),
+            Target::Object(handle) => object_class(&self.scene.borrow().object(*handle)?.kind),
+        })
     }
 }
 
-fn not_built(name: &str) -> ApiError {
-    ApiError::NotImplemented(format!("property {name}"))
+/// The row of a static property that has the type it is asked for.
+fn row_of(class: &'static Class, name: &str, ty: ValueType) -> ApiResult<&'static Row> {
+    let row = class.find(name).ok_or(ApiError::UnknownProperty)?;
+    if row.ty == ty { Ok(row) } else { Err(ApiError::PropertyType) }
+}
+
+/// Takes a name apart; the class of the target may stand in front of it.
+fn parse_name<'a>(class: &Class, target: &Target, name: &'a str) -> Name<'a> {
+    let name = class.without_words(name);
+    let stored = !matches!(target, Target::Script(_));
+    if let (true, Some(rest)) = (stored, name.strip_prefix("customData.")) {
+        return Name::Stored(Namespace::CustomData, rest);
+    }
+    if let (true, Some(rest)) = (stored, name.strip_prefix("signal.")) {
+        return Name::Stored(Namespace::Signal, rest);
+    }
+    match (target, name.strip_prefix("namedParam.")) {
+        (Target::App, Some(rest)) => Name::Param(rest),
+        _ => Name::Static(name),
+    }
 }

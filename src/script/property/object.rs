@@ -1,7 +1,7 @@
 //! Properties all objects have.
 
 use super::access::{Accessor, object_properties, placed_properties};
-use super::table::parts_of;
+use super::table::object_class;
 use super::{Long, PoseArray, Text, Vector3};
 use crate::scene::pose::{pose_from_array, pose_to_array};
 use crate::scene::{Handle, NOT_MODEL, Object, Scene, SceneResult, clean_alias};
@@ -22,7 +22,7 @@ pub(super) const OWN: &[Accessor] = object_properties! {
     "parentHandle": i64, |o| o.parent().map_or(-1, Handle::raw);
     "calcLinearVelocity": Vector3, |o| Vector3(o.measured.linear);
     "dynamicFlag": i64, |o| o.dynamic_flag;
-    "objectType": String, |o| parts_of(&o.kind).0.to_owned();
+    "objectType": String, |o| object_class(&o.kind).word.to_owned();
 };
 
 pub(super) const PLACED: &[Accessor] = placed_properties! {

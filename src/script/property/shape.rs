@@ -2,6 +2,7 @@
 
 use super::access::{Accessor, object_properties};
 use super::{PoseArray, Quaternion, Vector3};
+use crate::scene::SceneError;
 use crate::scene::pose::{pose_to_array, quaternion_to_array};
 
 pub(super) const SHAPE: &[Accessor] = object_properties! {
@@ -33,7 +34,11 @@ pub(super) const BOX: &[Accessor] = object_properties! {
 pub(super) const MASS: &[Accessor] = object_properties! {
     "mass": f64, |o| o.shape()?.mass.mass, Dynamics |o, mass| o.shape_mut()?.mass.set_mass(mass);
     "centerOfMass": Vector3, |o| Vector3(o.shape()?.mass.com), Dynamics |o, com| o.shape_mut()?.mass.com = com.0;
-    "inertia": Vec<f64>, |o| o.shape()?.mass.absolute_inertia().to_vec();
+    "inertia": Vec<f64>, |o| o.shape()?.mass.absolute_inertia().to_vec(), Dynamics |o, tensor| {
+        let mass = &mut o.shape_mut()?.mass;
+        let tensor: &[f64; 9] = tensor.first_chunk().ok_or(SceneError::InvalidData)?;
+        mass.set_absolute_inertia(tensor, &mass.com_matrix());
+    };
     "principalMomentOfInertia": Vec<f64>, |o| o.shape()?.mass.principal_axes().1.to_vec();
     "pmiQuaternion": Quaternion, |o| Quaternion(quaternion_to_array(&o.shape()?.mass.principal_axes().0));
 };

@@ -1,15 +1,18 @@
-//! The table of static properties: `static.tsv` says which there are, the files beside it how they are read and written.
-//!
-//! A property in the table without code exists and can be asked about; reading or writing it says that it is not built.
+//! The table of static properties: `static.tsv` says which there are and what becomes of them, the files beside it how those that have
+//! a meaning are read and written.
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use super::access::Accessor;
 use super::{app, dummy, joint, object, scene, script, shape};
-use crate::scene::{Kind, ValueType};
+use crate::scene::{Data, Kind, ValueType};
 
-/// `part<TAB>name<TAB>type<TAB>flags`, in the order of enumeration within a part.
+/// `part<TAB>name<TAB>type<TAB>flags<TAB>state<TAB>default`, in the order of enumeration within a part.
+///
+/// The state is `works` (an accessor below), `kept` (stored and read back, no effect) or `constant` (always the default). An empty
+/// default is false, 0, no text, an empty list, the origin or no rotation; numbers in lists are separated by spaces. A list that has a
+/// default keeps its length.
 const STATIC: &str = include_str!("static.tsv");
 
 /// Bits of the flags of a property.
@@ -21,50 +24,161 @@ pub(crate) mod flags {
     pub const DEPRECATED: i64 = 0x10;
 }
 
-/// One static property.
-#[derive(Clone, Copy)]
+/// One static property of one class.
+#[derive(Clone)]
 pub(crate) struct Row {
     pub name: &'static str,
     pub ty: ValueType,
     pub flags: i64,
-    pub accessor: Option<&'static Accessor>,
+    pub source: Source,
+    /// The class as `sim.getPropertyName` tells it.
+    pub class: &'static str,
 }
 
-/// Properties that come together, e.g. those of all dummies.
-#[derive(Default)]
-pub(crate) struct Part {
+/// Where the value of a property comes from.
+#[derive(Clone)]
+pub(crate) enum Source {
+    Works(&'static Accessor),
+    /// Stored as scripts set it, without effect; the default until then.
+    Kept(Data),
+    Constant(Data),
+}
+
+/// Targets that have the same static properties.
+pub(crate) struct Class {
+    /// The word for it; it may stand in front of a name.
+    pub word: &'static str,
+    /// Words that may stand before that one.
+    outer: &'static [&'static str],
+    /// In the order of enumeration.
     rows: Vec<Row>,
+    /// How many rows come before custom data and signals.
+    common: usize,
     by_name: HashMap<&'static str, usize>,
 }
 
-impl Part {
+impl Class {
+    /// The row with that name, without class in front.
     pub(crate) fn find(&self, name: &str) -> Option<&Row> {
         self.by_name.get(name).map(|&at| &self.rows[at])
     }
 
-    /// All but the deprecated ones.
-    pub(crate) fn listed(&self) -> impl Iterator<Item = &Row> {
-        self.rows.iter().filter(|row| row.flags & flags::DEPRECATED == 0)
+    /// The rows that come before custom data and signals, and those that come after.
+    pub(crate) fn rows(&self) -> (&[Row], &[Row]) {
+        self.rows.split_at(self.common)
+    }
+
+    /// The name without the words for the class that may stand in front of it.
+    pub(crate) fn without_words<'a>(&self, name: &'a str) -> &'a str {
+        let strip = |name: &'a str, word: &str| name.strip_prefix(word)?.strip_prefix('.');
+        let words = self.outer.iter().copied().chain([self.word]);
+        words.fold(name, |name, word| strip(name, word).unwrap_or(name))
     }
 }
 
-/// The part with that name.
-pub(crate) fn part(name: &str) -> &'static Part {
-    static PARTS: LazyLock<HashMap<&'static str, Part>> = LazyLock::new(build);
-    PARTS.get(name).expect("part names in the code stand in static.tsv")
+/// What makes up a class: its word, its path, the words that may precede it, its parts before and after the named values.
+type ClassSpec =
+    (&'static str, &'static str, &'static [&'static str], &'static [&'static str], &'static [&'static str]);
+
+const APP: usize = 0;
+const SCENE: usize = 1;
+const SCRIPT: usize = 2;
+
+/// The path of the part all objects have.
+const OBJECT_PATH: &str = "app.scene.object";
+const OBJECT: &[&str] = &["scene", "object"];
+
+#[rustfmt::skip]
+const CLASSES: [ClassSpec; 15] = [
+    ("app", "app", &[], &["app"], &[]),
+    ("scene", "app.scene", &["app"], &["dynamics", "simulation", "environment", "container"], &[]),
+    ("script", "app.script", &["scene"], &["script"], &[]),
+    ("shape", "app.scene.object.shape", OBJECT, &["object"], &["mass", "material", "shape"]),
+    ("joint", "app.scene.object.joint", OBJECT, &["object"], &["colour", "joint"]),
+    ("graph", "app.scene.object.graph", OBJECT, &["object"], &["colour", "graph"]),
+    ("camera", "app.scene.object.camera", OBJECT, &["object"], &["colour", "viewable", "camera"]),
+    ("dummy", "app.scene.object.dummy", OBJECT, &["object"], &["colour", "dummy"]),
+    ("proximitySensor", "app.scene.object.proximitySensor", OBJECT, &["object"], &["colour", "rayColour", "volume", "proximitySensor"]),
+    ("visionSensor", "app.scene.object.visionSensor", OBJECT, &["object"], &["colour", "viewable", "visionSensor"]),
+    ("forceSensor", "app.scene.object.forceSensor", OBJECT, &["object"], &["colour", "forceSensor"]),
+    ("light", "app.scene.object.light", OBJECT, &["object"], &["colour", "lightColour", "light"]),
+    ("ocTree", "app.scene.object.ocTree", OBJECT, &["object"], &["colour", "ocTree"]),
+    ("pointCloud", "app.scene.object.pointCloud", OBJECT, &["object"], &["colour", "pointCloud"]),
+    ("script", "app.scene.object.script", OBJECT, &["object"], &["colour", "script", "scriptObject"]),
+];
+
+pub(crate) fn app_class() -> &'static Class {
+    class(APP)
 }
 
-fn build() -> HashMap<&'static str, Part> {
+pub(crate) fn scene_class() -> &'static Class {
+    class(SCENE)
+}
+
+/// The class of scripts that are no objects.
+pub(crate) fn script_class() -> &'static Class {
+    class(SCRIPT)
+}
+
+/// The class of objects of that kind.
+pub(crate) fn object_class(kind: &Kind) -> &'static Class {
+    class(match kind {
+        Kind::Shape(_) => 3,
+        Kind::Joint(_) => 4,
+        Kind::Graph(_) => 5,
+        Kind::Camera(_) => 6,
+        Kind::Dummy(_) => 7,
+        Kind::ProximitySensor(_) => 8,
+        Kind::VisionSensor(_) => 9,
+        Kind::ForceSensor(_) => 10,
+        Kind::Light(_) => 11,
+        Kind::OcTree(_) => 12,
+        Kind::PointCloud(_) => 13,
+        Kind::Script(_) => 14,
+    })
+}
+
+fn class(index: usize) -> &'static Class {
+    static ALL: LazyLock<Vec<Class>> = LazyLock::new(|| {
+        let parts = parts();
+        CLASSES.iter().map(|spec| build(spec, &parts)).collect()
+    });
+    &ALL[index]
+}
+
+fn build(&(word, path, outer, before, after): &ClassSpec, parts: &Parts) -> Class {
+    let rows_of = |names: &[&'static str]| -> Vec<Row> {
+        let with_class =
+            |part: &str, row: &Row| Row { class: if part == "object" { OBJECT_PATH } else { path }, ..row.clone() };
+        names.iter().flat_map(|&part| parts[part].iter().map(move |row| with_class(part, row))).collect()
+    };
+    let (mut rows, own) = (rows_of(before), rows_of(after));
+    let common = rows.len();
+    rows.extend(own);
+    let by_name = rows.iter().enumerate().map(|(at, row)| (row.name, at)).collect();
+    Class { word, outer, rows, common, by_name }
+}
+
+type Parts = HashMap<&'static str, Vec<Row>>;
+
+fn parts() -> Parts {
     let accessors = accessors();
-    let mut parts: HashMap<&'static str, Part> = HashMap::new();
+    let mut parts = Parts::new();
     for line in STATIC.lines() {
         let fields: Vec<&'static str> = line.split('\t').collect();
-        let [part, name, ty, flags] = fields[..] else { panic!("a line of static.tsv has four fields: {line}") };
+        let [part, name, ty, flags, state, default] = fields[..] else {
+            panic!("a line of static.tsv has six fields: {line}")
+        };
         let ty = ValueType::from_word(ty).expect("static.tsv holds known types");
         let flags = flags.parse().expect("static.tsv holds flags as integers");
-        let entry = parts.entry(part).or_default();
-        entry.by_name.insert(name, entry.rows.len());
-        entry.rows.push(Row { name, ty, flags, accessor: accessors.get(&(part, name)).copied() });
+        let default = super::kept::parse_default(ty, default).expect("static.tsv holds defaults of the row's type");
+        let source = match state {
+            "works" => Source::Works(accessors[&(part, name)]),
+            "kept" => Source::Kept(default),
+            "constant" => Source::Constant(default),
+            _ => panic!("a state in static.tsv is works, kept or constant: {line}"),
+        };
+        parts.entry(part).or_default().push(Row { name, ty, flags, source, class: "" });
     }
     parts
 }
@@ -87,6 +201,7 @@ fn accessors() -> Accessors {
         ("script", script::SCRIPT),
         ("scriptObject", script::SCRIPT_OBJECT),
         ("dummy", dummy::DUMMY),
+        ("dummy", dummy::LINK),
         ("colour", dummy::COLOUR),
         ("shape", shape::SHAPE),
         ("object", shape::BOX),
@@ -98,38 +213,40 @@ fn accessors() -> Accessors {
     files.iter().flat_map(|&(part, rows)| rows.iter().map(move |row| ((part, row.name), row))).collect()
 }
 
-/// The parts an object of that kind has beside the common one, and the word for its class.
-pub(crate) fn parts_of(kind: &Kind) -> (&'static str, &'static [&'static str]) {
-    match kind {
-        Kind::Shape(_) => ("shape", &["mass", "material", "shape"]),
-        Kind::Joint(_) => ("joint", &["colour", "joint"]),
-        Kind::Graph(_) => ("graph", &["colour", "graph"]),
-        Kind::Camera(_) => ("camera", &["colour", "viewable", "camera"]),
-        Kind::Dummy(_) => ("dummy", &["colour", "dummy"]),
-        Kind::ProximitySensor(_) => ("proximitySensor", &["colour", "rayColour", "volume", "proximitySensor"]),
-        Kind::VisionSensor(_) => ("visionSensor", &["colour", "viewable", "visionSensor"]),
-        Kind::ForceSensor(_) => ("forceSensor", &["colour", "forceSensor"]),
-        Kind::Light(_) => ("light", &["colour", "lightColour", "light"]),
-        Kind::OcTree(_) => ("ocTree", &["colour", "ocTree"]),
-        Kind::PointCloud(_) => ("pointCloud", &["colour", "pointCloud"]),
-        Kind::Script(_) => ("script", &["colour", "script", "scriptObject"]),
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{STATIC, accessors, part};
+    use super::{CLASSES, Source, accessors, app_class, class, flags, parts};
 
     #[test]
     fn every_accessor_has_its_row() {
-        for (part_name, name) in accessors().keys() {
-            assert!(part(part_name).find(name).is_some(), "{part_name}: {name}");
+        let parts = parts();
+        for (part, name) in accessors().keys() {
+            let row = parts[part].iter().find(|row| row.name == *name);
+            assert!(row.is_some_and(|row| matches!(row.source, Source::Works(_))), "{part}: {name}");
+        }
+    }
+
+    #[test]
+    fn what_works_works_in_every_direction_it_is_said_to() {
+        for (part, row) in parts().iter().flat_map(|(part, rows)| rows.iter().map(move |row| (part, row))) {
+            let Source::Works(accessor) = row.source else { continue };
+            assert!(accessor.read.is_some() || row.flags & flags::NOT_READABLE != 0, "{part}: {} is read", row.name);
+            assert!(
+                accessor.write.is_some() || row.flags & flags::NOT_WRITABLE != 0,
+                "{part}: {} is written",
+                row.name
+            );
         }
     }
 
     #[test]
     fn rows_are_found_by_name() {
-        assert!(STATIC.lines().count() > 600);
-        assert!(part("object").find("layer").is_some_and(|row| row.flags == 0 && row.accessor.is_some()));
+        for at in 0..CLASSES.len() {
+            let (before, after) = class(at).rows();
+            for row in before.iter().chain(after) {
+                assert_eq!(class(at).find(row.name).map(|found| found.ty), Some(row.ty), "{}", row.name);
+            }
+        }
+        assert_eq!(app_class().without_words("app.sessionId"), "sessionId");
     }
 }

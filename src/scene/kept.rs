@@ -1,0 +1,77 @@
+//! Values that are kept for scripts and have no effect: properties of displays, of other physics engines, and the like.
+
+use std::collections::BTreeMap;
+
+use super::{Change, Data, Field, Handle, Scene, SceneResult};
+
+/// Values by the name of their property. What nobody set is not in it; its default is the business of whoever asks.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Kept {
+    values: BTreeMap<&'static str, Data>,
+}
+
+impl Kept {
+    pub fn get(&self, name: &str) -> Option<&Data> {
+        self.values.get(name)
+    }
+
+    /// Sets a value; tells whether it is another one than before.
+    pub fn set(&mut self, name: &'static str, value: Data) -> bool {
+        if self.values.get(name) == Some(&value) {
+            return false;
+        }
+        self.values.insert(name, value);
+        true
+    }
+}
+
+impl Scene {
+    /// A kept value of an object, or of the scene itself (None); None when nobody set it.
+    ///
+    /// # Errors
+    /// When the object does not exist.
+    pub fn kept(&self, owner: Option<Handle>, name: &str) -> SceneResult<Option<&Data>> {
+        let kept = match owner {
+            None => &self.kept,
+            Some(handle) => &self.object(handle)?.kept,
+        };
+        Ok(kept.get(name))
+    }
+
+    /// Keeps a value with an object, or with the scene itself (None).
+    ///
+    /// # Errors
+    /// When the object does not exist.
+    pub fn keep(&mut self, owner: Option<Handle>, name: &'static str, value: Data) -> SceneResult<()> {
+        let kept = match owner {
+            None => &mut self.kept,
+            Some(handle) => &mut self.object_mut(handle)?.kept,
+        };
+        if kept.set(name, value) {
+            let change = owner.map_or(Change::Settings, |handle| Change::Modified(handle, Field::Kept));
+            self.changes_mut().note(change);
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Change, Data, Field, Scene};
+    use crate::scene::dummy::Dummy;
+    use crate::scene::{CopyOptions, Kind};
+
+    #[test]
+    fn only_new_values_are_changes_and_copies_inherit_them() {
+        let mut scene = Scene::new();
+        let dummy = scene.add("dummy", Kind::Dummy(Dummy::new(0.1))).expect("there is room");
+        scene.changes_mut().listen(true);
+        for _ in 0..2 {
+            scene.keep(Some(dummy), "assemblyTag", Data::text("a")).expect("the dummy exists");
+        }
+        assert_eq!(scene.changes_mut().take(), [Change::Modified(dummy, Field::Kept)]);
+        let copies = scene.copy_objects(&[dummy], CopyOptions(0)).expect("there is room");
+        assert_eq!(scene.kept(Some(copies[&dummy]), "assemblyTag"), Ok(Some(&Data::text("a"))));
+        assert_eq!(scene.kept(None, "assemblyTag"), Ok(None));
+    }
+}
