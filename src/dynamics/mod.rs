@@ -152,6 +152,7 @@ impl Dynamics {
         self.bodies.sweep(f64::from(pass) / f64::from(call.passes), world);
         let motions: BTreeMap<Handle, Motion> =
             self.links.iter().map(|(&handle, link)| (handle, link.motion)).collect();
+        let engine = scene.settings().dynamics.engine[0];
         let mut requests = Vec::new();
         for (&handle, link) in &mut self.links {
             let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) else { continue };
@@ -162,7 +163,7 @@ impl Dynamics {
                     requests.push(request(handle, joint, link));
                     None
                 }
-                _ => link.motor.drive(joint, link.motion, call.step),
+                _ => link.motor.drive(joint, engine, link.motion, call.step),
             };
             link.set_drive(drive, world);
         }

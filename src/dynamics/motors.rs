@@ -42,8 +42,9 @@ pub(super) struct Motor {
 }
 
 impl Motor {
-    /// The order for the next `step` seconds; None when the motor is off. Callback control is not decided here.
-    pub(super) fn drive(&mut self, joint: &Joint, now: Motion, step: f64) -> Option<Drive> {
+    /// The order for the next `step` seconds with the gains of that engine; None when the motor is off. Callback control is not decided
+    /// here.
+    pub(super) fn drive(&mut self, joint: &Joint, engine: i64, now: Motion, step: f64) -> Option<Drive> {
         let limit = joint.target_force.abs();
         if joint.control != Control::Velocity || !joint.motor_lock || joint.target_velocity != 0.0 {
             self.lock = None;
@@ -53,7 +54,9 @@ impl Motor {
             Control::Force => Some(push(joint.target_force)),
             Control::Velocity if joint.motor_lock && joint.target_velocity == 0.0 => Some(self.hold(now, step)),
             Control::Velocity => Some(Drive { velocity: self.velocity(joint, now, step), force: limit }),
-            Control::Position => Some(Drive { velocity: self.approach(joint, now, step), force: limit }),
+            Control::Position => {
+                Some(Drive { velocity: self.approach(joint, joint.gains_with(engine), now, step), force: limit })
+            }
             Control::Spring => {
                 let effort = joint.spring[0] * position_error(joint, now.position) - joint.spring[1] * now.velocity;
                 Some(Drive { velocity: joint.target_velocity.abs().copysign(effort), force: effort.abs() })
@@ -75,7 +78,7 @@ impl Motor {
         self.follow(ruckig::velocity_step(now.position, velocity, acceleration, target, max_accel, max_jerk, step))
     }
 
-    fn approach(&mut self, joint: &Joint, now: Motion, step: f64) -> f64 {
+    fn approach(&mut self, joint: &Joint, [p, i, d]: [f64; 3], now: Motion, step: f64) -> f64 {
         let error = position_error(joint, now.position);
         if joint.position_profile {
             let (velocity, acceleration) = self.profile;
@@ -85,7 +88,6 @@ impl Motor {
                 ruckig::position_step(now.position, velocity, acceleration, target, limits.0, limits.1, limits.2, step);
             return self.follow(next);
         }
-        let [p, i, d] = joint.pid;
         self.integral = if i == 0.0 { 0.0 } else { self.integral + error * step };
         let wish = (p * error + i * self.integral - d * now.velocity) / CONTROL_PERIOD;
         wish.clamp(-joint.max_vel.abs(), joint.max_vel.abs())
@@ -145,7 +147,7 @@ mod tests {
     #[test]
     fn position_control_closes_a_tenth_of_the_error_in_five_milliseconds() {
         let joint = Joint { target_position: 0.1, ..joint(Control::Position) };
-        let drive = Motor::default().drive(&joint, AT_ZERO, 0.005).expect("on");
+        let drive = Motor::default().drive(&joint, 0, AT_ZERO, 0.005).expect("on");
         assert!((drive.velocity * 0.005 - 0.01).abs() < 1e-15);
     }
 
@@ -153,7 +155,7 @@ mod tests {
     fn a_spring_pushes_with_its_effort() {
         let joint =
             Joint { spring: [2.0, 0.1], target_velocity: 1000.0, target_position: 0.5, ..joint(Control::Spring) };
-        let drive = Motor::default().drive(&joint, Motion { position: 0.0, velocity: 1.0 }, 0.005).expect("on");
+        let drive = Motor::default().drive(&joint, 0, Motion { position: 0.0, velocity: 1.0 }, 0.005).expect("on");
         assert!((drive.force - 0.9).abs() < 1e-12);
         assert_eq!(drive.velocity, 1000.0);
     }

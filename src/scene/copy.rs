@@ -98,14 +98,7 @@ impl Scene {
         self.set_parent(copy, parent, false)?;
         let pose = if direct { local } else { self.parent_frame(copy)?.inverse() * world };
         self.object_mut(copy)?.pose = pose;
-        self.copy_engine_params(original, copy);
         Ok(copy)
-    }
-
-    fn copy_engine_params(&mut self, original: Handle, copy: Handle) {
-        let of_original = self.engine_params.iter().filter(|((_, object), _)| *object == original.raw());
-        let params: Vec<_> = of_original.map(|(&(id, _), value)| ((id, copy.raw()), value.clone())).collect();
-        self.engine_params.extend(params);
     }
 }
 

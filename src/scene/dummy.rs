@@ -1,6 +1,6 @@
 //! Dummies: frames, and the ends of loop closures.
 
-use super::{Field, Handle, Scene, SceneResult};
+use super::{Field, Handle, Kept, Scene, SceneResult};
 
 /// What the link of two dummies means (`sim.dummytype_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,11 +19,13 @@ pub struct Dummy {
     pub link: Option<Handle>,
     pub link_type: LinkType,
     pub colour: [f32; 3],
+    /// Parameters of physics engines, as they were set.
+    pub engine_values: Kept,
 }
 
 impl Dummy {
     pub fn new(size: f64) -> Self {
-        Self { size, link: None, link_type: LinkType::Default, colour: [0.0; 3] }
+        Self { size, link: None, link_type: LinkType::Default, colour: [0.0; 3], engine_values: Kept::default() }
     }
 }
 

@@ -1,178 +1,146 @@
-//! Parameters of physics engines. Those that mean something here live in materials, joints and settings; all others are kept as they
-//! were set, with the defaults of SPEC-dynamics sections 5 and 6 and SPEC-joints section 2.
+//! The parameters of physics engines: one table of their property names, defaults and the numbers they had before properties.
+//!
+//! Numbers and names are two ways to one value. Where values are stored is said in `engine_values`.
 
-use super::joint::Joint;
-use super::shape::Material;
-use super::{Data, Field, Handle, Kind, Scene, SceneError, SceneResult};
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
-/// First numbers of the three position gains of joints, for each engine by its number.
-const GAINS: [i64; 5] = [3006, 12006, 21052, 30003, 40028];
-/// The step size of each engine.
-const STEP_SIZES: [i64; 4] = [1, 9001, 18001, 27001];
+use super::{Data, ValueType};
 
-impl Scene {
-    /// The value of an engine parameter of an object (None: a global one). Booleans are 0 and 1.
-    ///
-    /// # Errors
-    /// When nobody set it and its default is not known.
-    pub fn engine_param(&self, id: i64, object: Option<Handle>) -> SceneResult<f64> {
-        let meaning = match object.map(|handle| self.object(handle)).transpose()?.map(|object| &object.kind) {
-            Some(Kind::Shape(shape)) => shape.material.engine_param(id),
-            Some(Kind::Joint(joint)) => self.gain_in_use(id).map(|gain| joint.pid[gain]),
-            Some(_) => None,
-            None => STEP_SIZES.contains(&id).then(|| self.settings().dynamics.step),
-        };
-        let kept = || self.engine_params.get(&(id, object.map_or(-1, Handle::raw))).and_then(Data::as_f64);
-        meaning.or_else(kept).or_else(|| default(id)).ok_or(SceneError::InvalidArgument)
+/// `owner<TAB>name<TAB>type<TAB>flags<TAB>state<TAB>default<TAB>numbers<TAB>bit`, in the order of enumeration.
+///
+/// The state is `works` (the physics here uses it), `kept` (stored and read back) or `number` (kept, and no property). A list has a
+/// number per element. `bit` is the number that joins switches of an engine, and the bit of this one. Defaults are those of the file
+/// format and SPEC-dynamics 5 and 6; those of Vortex' switches, which neither tells, are our choice.
+const TABLE: &str = include_str!("engine_params.tsv");
+
+/// The engines by their number (`sim.physics_*`), as they stand in front of the names.
+pub const ENGINES: [&str; 5] = ["bullet", "ode", "vortex", "newton", "mujoco"];
+
+/// What a parameter belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum EngineOwner {
+    Scene,
+    /// The material of a shape.
+    Material,
+    Joint,
+    Dummy,
+}
+
+/// One parameter of one engine.
+#[derive(Debug)]
+pub struct EngineParam {
+    pub owner: EngineOwner,
+    /// With the engine in front, e.g. `bullet.friction`.
+    pub name: &'static str,
+    pub ty: ValueType,
+    /// The flags of the property.
+    pub flags: i64,
+    /// Whether the physics here uses it.
+    pub works: bool,
+    /// Whether scripts see it as a property.
+    pub is_property: bool,
+    pub default: Data,
+}
+
+/// What a number means.
+#[derive(Debug)]
+pub(super) enum Numbered {
+    /// An element of a parameter; of one that is no list, the parameter itself.
+    Element(&'static EngineParam, usize),
+    /// Switches, each with its bit.
+    Bits(Vec<(&'static EngineParam, i64)>),
+}
+
+impl EngineParam {
+    /// The engine, and the name without it.
+    pub fn split(&self) -> (&'static str, &'static str) {
+        self.name.split_once('.').unwrap_or(("", self.name))
     }
+}
 
-    /// Sets an engine parameter of an object (None: a global one).
-    ///
-    /// # Errors
-    /// For unknown objects and values that are no number.
-    pub fn set_engine_param(&mut self, id: i64, object: Option<Handle>, value: f64) -> SceneResult<()> {
-        if !value.is_finite() {
-            return Err(SceneError::InvalidData);
+/// The parameters of `owner`, in the order of enumeration.
+pub fn engine_params(owner: EngineOwner) -> impl Iterator<Item = &'static EngineParam> {
+    rows().iter().map(|(param, ..)| param).filter(move |param| param.owner == owner)
+}
+
+/// A parameter with the numbers of its elements, and the number and the bit it shares with others.
+type Row = (EngineParam, Vec<i64>, Option<(i64, i64)>);
+
+fn rows() -> &'static [Row] {
+    static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| TABLE.lines().map(row).collect());
+    &ROWS
+}
+
+fn row(line: &'static str) -> Row {
+    let fields: Vec<&'static str> = line.split('\t').collect();
+    let [owner, name, ty, flags, state, default, numbers, bit] = fields[..] else {
+        panic!("a line of engine_params.tsv has eight fields: {line}")
+    };
+    let ty = ValueType::from_word(ty).expect("engine_params.tsv holds known types");
+    let integer = |text: &str| -> i64 { text.parse().expect("engine_params.tsv holds numbers as integers") };
+    let param = EngineParam {
+        owner: match owner {
+            "dynamics" => EngineOwner::Scene,
+            "material" => EngineOwner::Material,
+            "joint" => EngineOwner::Joint,
+            "dummy" => EngineOwner::Dummy,
+            _ => panic!("an unknown owner in engine_params.tsv: {line}"),
+        },
+        name,
+        ty,
+        flags: integer(flags),
+        works: state == "works",
+        is_property: state != "number",
+        default: ty.parse(default).expect("engine_params.tsv holds defaults of the row's type"),
+    };
+    let bit = bit.split_once(':').map(|(number, bit)| (integer(number), integer(bit)));
+    (param, numbers.split_whitespace().map(integer).collect(), bit)
+}
+
+/// What `number` stands for (`sim.bullet_*`, `sim.ode_*` and so on).
+pub(super) fn numbered(number: i64) -> Option<&'static Numbered> {
+    static NUMBERS: LazyLock<BTreeMap<i64, Numbered>> = LazyLock::new(numbers);
+    NUMBERS.get(&number)
+}
+
+fn numbers() -> BTreeMap<i64, Numbered> {
+    let mut all = BTreeMap::new();
+    for (param, numbers, bit) in rows() {
+        all.extend(numbers.iter().enumerate().map(|(at, &number)| (number, Numbered::Element(param, at))));
+        let Some((number, bit)) = *bit else { continue };
+        match all.entry(number).or_insert_with(|| Numbered::Bits(Vec::new())) {
+            Numbered::Bits(switches) => switches.push((param, bit)),
+            Numbered::Element(other, _) => panic!("{number} is {} and bits", other.name),
         }
-        let gain = self.gain_in_use(id);
-        match object {
-            Some(handle) => {
-                let taken = self.modify(handle, Field::Dynamics, |object| match &mut object.kind {
-                    Kind::Shape(shape) => shape.material.set_engine_param(id, value),
-                    Kind::Joint(joint) => gain.is_some_and(|gain| set_gain(joint, gain, value)),
-                    _ => false,
-                })?;
-                if !taken {
-                    self.engine_params.insert((id, handle.raw()), value.into());
-                }
-            }
-            None if STEP_SIZES.contains(&id) => {
-                self.modify_settings(|settings| settings.dynamics.step = value.clamp(1e-5, settings.time_step));
-            }
-            None => {
-                self.engine_params.insert((id, -1), value.into());
-            }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Data, Numbered, engine_params, numbered, rows};
+
+    #[test]
+    fn every_number_means_one_thing() {
+        let elements: usize = rows().iter().map(|(_, numbers, _)| numbers.len()).sum();
+        let found = rows().iter().flat_map(|(_, numbers, _)| numbers);
+        let distinct: std::collections::BTreeSet<i64> = found.copied().collect();
+        assert_eq!(distinct.len(), elements);
+    }
+
+    #[test]
+    fn lists_have_as_many_numbers_as_elements() {
+        for (param, numbers, _) in rows() {
+            let length = if let Data::Array(items) = &param.default { items.len() } else { 1 };
+            assert!(numbers.is_empty() || numbers.len() == length, "{}", param.name);
         }
-        Ok(())
     }
 
-    /// Which gain of position control a parameter is, if it belongs to the engine that is selected.
-    fn gain_in_use(&self, id: i64) -> Option<usize> {
-        let first = *GAINS.get(usize::try_from(self.settings().dynamics.engine[0]).ok()?)?;
-        (first..first + 3).contains(&id).then(|| (id - first) as usize)
+    #[test]
+    fn names_are_those_of_the_property() {
+        assert!(matches!(numbered(43_005), Some(Numbered::Element(param, 1)) if param.name == "mujoco.solref"));
+        assert!(matches!(numbered(25_006), Some(Numbered::Bits(bits)) if bits.len() == 9));
+        assert!(engine_params(super::EngineOwner::Joint).all(|param| param.split().1 != param.name));
     }
-
-    /// Gives a shape a preset material, or that of another shape; tells whether it was another shape's.
-    ///
-    /// # Errors
-    /// When `source` is neither a preset nor a shape.
-    pub fn set_shape_material(&mut self, handle: Handle, source: i64) -> SceneResult<bool> {
-        let preset = Material::preset(source);
-        let copied = preset.is_none();
-        let material = match preset {
-            Some(preset) => preset,
-            None => {
-                let other = Handle::from_raw(source).ok_or(SceneError::NoSuchObject)?;
-                self.object(other)?.shape()?.material.clone()
-            }
-        };
-        self.try_modify(handle, Field::Dynamics, |object| {
-            object.shape_mut()?.material = material;
-            Ok(copied)
-        })
-    }
-}
-
-fn set_gain(joint: &mut Joint, gain: usize, value: f64) -> bool {
-    joint.pid[gain] = value;
-    true
-}
-
-impl Material {
-    fn field(&mut self, id: i64) -> Option<&mut f64> {
-        Some(match id {
-            6001 => &mut self.restitution,
-            6002 => &mut self.friction,
-            6003 => &mut self.other_engines.bullet_new,
-            6004 => &mut self.linear_damping,
-            6005 => &mut self.angular_damping,
-            15001 => &mut self.other_engines.ode,
-            33001 => &mut self.other_engines.newton_static,
-            33002 => &mut self.other_engines.newton_kinetic,
-            _ => return None,
-        })
-    }
-
-    fn engine_param(&self, id: i64) -> Option<f64> {
-        self.clone().field(id).copied()
-    }
-
-    fn set_engine_param(&mut self, id: i64, value: f64) -> bool {
-        self.field(id).map(|field| *field = value).is_some()
-    }
-}
-
-/// The value of a parameter nobody has set.
-fn default(id: i64) -> Option<f64> {
-    bullet(id).or_else(|| ode(id)).or_else(|| newton(id)).or_else(|| mujoco(id)).or_else(|| gains(id))
-}
-
-/// Position control starts as 0.1, 0, 0 with every engine.
-fn gains(id: i64) -> Option<f64> {
-    GAINS.iter().find(|&&first| (first..first + 3).contains(&id)).map(|&first| if id == first { 0.1 } else { 0.0 })
-}
-
-fn bullet(id: i64) -> Option<f64> {
-    Some(match id {
-        2 => 10.0,
-        3 | 6006 => 0.1,
-        1001 => 100.0,
-        2001 | 8003 => 1.0,
-        3001 => 0.2,
-        6007 => 0.002,
-        1003 | 3002 | 3003 => 0.0,
-        _ => return None,
-    })
-}
-
-fn ode(id: i64) -> Option<f64> {
-    Some(match id {
-        9002 | 11002 | 12004 => 1.0,
-        9003 | 12002 | 12005 => 1e-5,
-        9004 | 12001 => 0.6,
-        10001 => 100.0,
-        10003 => -1.0,
-        15002 => 0.2,
-        16001 => 64.0,
-        12003 | 15003 | 15004 | 15005 => 0.0,
-        _ => return None,
-    })
-}
-
-fn newton(id: i64) -> Option<f64> {
-    Some(match id {
-        27002 => 0.01,
-        28001 => 8.0,
-        33003..=33005 => 0.0,
-        _ => return None,
-    })
-}
-
-fn mujoco(id: i64) -> Option<f64> {
-    /// solref, solimp: of limits and of contacts.
-    const SOLVER: [f64; 7] = [0.02, 1.0, 0.9, 0.95, 0.001, 0.5, 2.0];
-    Some(match id {
-        37002 | 37019 | 43001 => 1.0,
-        37018 => 1000.0,
-        38002 => 100.0,
-        38010 => 63.0,
-        40001..=40007 => SOLVER[(id - 40001) as usize],
-        43002 => 0.005,
-        43003 => 0.0001,
-        43009 => 0.05,
-        43004..=43010 => SOLVER[(id - 43004) as usize],
-        44001 => 3.0,
-        37003..=37005 | 40008 | 40016..=40018 | 40021 | 40022 | 43012 => 0.0,
-        _ => return None,
-    })
 }

@@ -3,7 +3,8 @@
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use std::f64::consts::{PI, TAU};
 
-use super::{Handle, Pose};
+use super::engine_params::ENGINES;
+use super::{Handle, Kept, Pose};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointType {
@@ -54,8 +55,8 @@ pub struct Joint {
     pub max_vel: f64,
     pub max_accel: f64,
     pub max_jerk: f64,
-    /// Gains of position control: P, I, D.
-    pub pid: [f64; 3],
+    /// Gains of position control, P, I, D, by the number of the engine they are meant for.
+    pub gains: [[f64; 3]; ENGINES.len()],
     /// K and C of spring control.
     pub spring: [f64; 2],
     pub velocity_profile: bool,
@@ -73,6 +74,8 @@ pub struct Joint {
     /// Effort of the last dynamics call: mean over its sub-steps, and of the last sub-step.
     pub force: Option<f64>,
     pub raw_force: Option<f64>,
+    /// Parameters of physics engines that have no field, as they were set.
+    pub engine_values: Kept,
 }
 
 /// q = offset + coefficient * position of the master.
@@ -117,7 +120,7 @@ impl Joint {
             max_vel: limits,
             max_accel: limits,
             max_jerk: limits,
-            pid: [0.1, 0.0, 0.0],
+            gains: [[0.1, 0.0, 0.0]; ENGINES.len()],
             spring: [0.1, 0.0],
             velocity_profile: false,
             position_profile: false,
@@ -129,6 +132,7 @@ impl Joint {
             error: None,
             force: None,
             raw_force: None,
+            engine_values: Kept::default(),
         }
     }
 
@@ -148,6 +152,11 @@ impl Joint {
             JointType::Prismatic => Isometry3::translation(0.0, 0.0, self.position),
             JointType::Spherical => Isometry3::from_parts(Translation3::identity(), self.spherical),
         }
+    }
+
+    /// Gains of position control (P, I, D) when that engine is selected.
+    pub fn gains_with(&self, engine: i64) -> [f64; 3] {
+        usize::try_from(engine).ok().and_then(|engine| self.gains.get(engine)).copied().unwrap_or(self.gains[0])
     }
 
     pub fn is_revolute(&self) -> bool {

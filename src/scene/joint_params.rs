@@ -54,7 +54,7 @@ impl Joint {
     pub fn float_param(&self, id: i64) -> Option<f64> {
         let element = |first: i64| (id - first) as usize;
         Some(match id {
-            2002..=2004 => self.pid[element(2002)],
+            2002..=2004 => self.gains[0][element(2002)],
             2005..=2011 => pose_to_array(&self.intrinsic_pose())[element(2005)],
             2012 => self.velocity,
             2013..=2016 => self.spherical.coords[element(2013)],
@@ -78,7 +78,8 @@ impl Joint {
         }
         let element = |first: i64| (id - first) as usize;
         match id {
-            2002..=2004 => self.pid[element(2002)] = value,
+            // From before engines had gains of their own.
+            2002..=2004 => self.gains.iter_mut().for_each(|gains| gains[element(2002)] = value),
             2013..=2016 => self.set_spherical(element(2013), value),
             2017 => self.set_interval(self.cyclic, self.min, value - self.min),
             2018 | 2019 => self.spring[element(2018)] = value,

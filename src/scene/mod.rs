@@ -12,7 +12,8 @@ pub mod data;
 mod default_scene;
 pub mod dummy;
 pub mod dynamics_report;
-mod engine_params;
+pub mod engine_params;
+mod engine_values;
 pub mod error;
 pub mod force_sensor;
 pub mod handle;
@@ -49,6 +50,7 @@ mod shape_group;
 mod shape_params;
 mod store;
 mod tree;
+mod value_type;
 
 pub use change::{Change, Changes, Field};
 pub use collection::{Collection, CollectionItem};

@@ -57,7 +57,6 @@ impl Scene {
 
     /// Drops what other objects know of the doomed: links, dependencies, selection, collections, referenced handles.
     pub(super) fn forget_references(&mut self, doomed: &BTreeSet<Handle>) {
-        self.engine_params.retain(|(_, object), _| Handle::from_raw(*object).is_none_or(|h| !doomed.contains(&h)));
         self.selection.retain(|h| !doomed.contains(h));
         for collection in self.collections.values_mut() {
             collection.items.retain(|item| item.base.is_none_or(|base| !doomed.contains(&base)));

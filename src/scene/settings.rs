@@ -1,5 +1,7 @@
 //! Settings of a scene: what the simulation dialog of CoppeliaSim holds.
 
+use super::Kept;
+
 /// Scene-wide settings. Times in seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
@@ -27,6 +29,8 @@ pub struct DynamicsSettings {
     /// Engine number and version (`sim.physics_*`). Kept for scripts that ask; rapier does the work.
     pub engine: [i64; 2],
     pub show_contact_points: bool,
+    /// Parameters of physics engines, as they were set.
+    pub engine_values: Kept,
 }
 
 impl Default for Settings {
@@ -48,7 +52,14 @@ impl Default for Settings {
 
 impl Default for DynamicsSettings {
     fn default() -> Self {
-        Self { enabled: true, step: 0.005, gravity: [0.0, 0.0, -9.81], engine: [0, 0], show_contact_points: false }
+        Self {
+            enabled: true,
+            step: 0.005,
+            gravity: [0.0, 0.0, -9.81],
+            engine: [0, 0],
+            show_contact_points: false,
+            engine_values: Kept::default(),
+        }
     }
 }
 

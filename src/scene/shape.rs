@@ -2,11 +2,11 @@
 
 use std::rc::Rc;
 
-use super::Pose;
 use super::mass::MassProperties;
 use super::mesh::Mesh;
 use super::mesh_box::BoundingBox;
 use super::primitive::PrimitiveKind;
+use super::{Kept, Pose};
 
 /// Frictions of the presets that hold things, in the order of [`Material::of_frictions`].
 const GRIP: [f64; 5] = [1.0, 0.5, 1.0, 1.0, 1.0];
@@ -95,8 +95,7 @@ impl Default for ShapeDynamics {
     }
 }
 
-/// Surface properties. Only those the physics here uses, and those presets differ in, have fields; scripts may set any engine
-/// parameter, and read it back, through [`Scene::engine_params`](super::Scene).
+/// Surface properties: those the physics here uses, and those of other engines as they were set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// What the physics here uses; Bullet 2.78's ("old") friction.
@@ -104,16 +103,8 @@ pub struct Material {
     pub restitution: f64,
     pub linear_damping: f64,
     pub angular_damping: f64,
-    pub other_engines: OtherFrictions,
-}
-
-/// What other physics engines would use for friction. Kept for scripts only.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OtherFrictions {
-    pub bullet_new: f64,
-    pub ode: f64,
-    pub newton_static: f64,
-    pub newton_kinetic: f64,
+    /// Parameters of physics engines that have no field.
+    pub engine_values: Kept,
 }
 
 impl Material {
@@ -121,9 +112,13 @@ impl Material {
     pub const FIRST_PRESET: i64 = 2_310_013;
 
     /// A material with the frictions of Bullet 2.78, Bullet 2.83, ODE, and Newton's static and kinetic one.
-    const fn of_frictions([old, bullet_new, ode, newton_static, newton_kinetic]: [f64; 5]) -> Self {
-        let other_engines = OtherFrictions { bullet_new, ode, newton_static, newton_kinetic };
-        Self { friction: old, restitution: 0.0, linear_damping: 0.0, angular_damping: 0.0, other_engines }
+    fn of_frictions([friction, others @ ..]: [f64; 5]) -> Self {
+        let mut engine_values = Kept::default();
+        let names = ["bullet.friction", "ode.friction", "newton.staticFriction", "newton.kineticFriction"];
+        for (name, friction) in names.into_iter().zip(others) {
+            engine_values.set(name, friction.into());
+        }
+        Self { friction, restitution: 0.0, linear_damping: 0.0, angular_damping: 0.0, engine_values }
     }
 
     /// The preset with that number (`sim.dynmat_*`), if there is one; values of SPEC-dynamics section 5.

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::object::{Kind, Object};
-use super::{Change, Changes, CustomData, Data, Field, Handle, Kept, SceneError, SceneResult, Settings, Uid};
+use super::{Change, Changes, CustomData, Field, Handle, Kept, SceneError, SceneResult, Settings, Uid};
 
 /// A scene: its objects and its settings.
 #[derive(Debug, Default)]
@@ -30,8 +30,6 @@ pub struct Scene {
     pub signals: CustomData,
     /// Values of the scene itself that have no effect here, as scripts set them.
     pub kept: Kept,
-    /// Engine parameters that have no meaning for rapier, kept as they were set: `(parameter, object or -1)`.
-    pub engine_params: BTreeMap<(i64, i64), Data>,
 }
 
 impl Scene {

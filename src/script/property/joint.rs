@@ -33,9 +33,6 @@ pub(super) const CONTROL: &[Accessor] = object_properties! {
         Joint |o, spring| if let [stiffness, damping, ..] = spring[..] {
             o.joint_mut()?.spring = [stiffness, damping];
         };
-    "bullet.posPid": Vec<f64>, |o| o.joint()?.pid.to_vec(), Joint |o, pid| if let [p, i, d, ..] = pid[..] {
-        o.joint_mut()?.pid = [p, i, d];
-    };
 };
 
 /// Properties whose change has consequences for the joint or for those that follow it.

@@ -39,6 +39,12 @@ pub(crate) enum Target {
     Script(Rc<Script>),
 }
 
+impl Target {
+    fn object(&self) -> Option<Handle> {
+        if let Self::Object(handle) = self { Some(*handle) } else { None }
+    }
+}
+
 /// A property name, taken apart.
 enum Name<'a> {
     Static(&'a str),
@@ -90,6 +96,7 @@ impl Sim {
             }
             Source::Kept(default) => Ok(self.read_kept(target, row.name)?.unwrap_or_else(|| default.clone())),
             Source::Constant(value) => Ok(value.clone()),
+            Source::Engine(param) => Ok(self.scene.borrow().engine_value(param, target.object())?),
         }
     }
 
@@ -118,8 +125,15 @@ impl Sim {
                 let write = accessor.write.ok_or(ApiError::PropertyNotWritable)?;
                 write(&Subject { sim: self, target }, value)
             }
-            Source::Kept(default) => self.write_kept(target, row.name, kept::checked(default, value)?),
+            Source::Kept(default) => {
+                let value = row.ty.accept(default, value).ok_or(ApiError::PropertyNotWritable)?;
+                self.write_kept(target, row.name, value)
+            }
             Source::Constant(_) => Err(ApiError::PropertyNotWritable),
+            Source::Engine(param) => {
+                let set = self.scene.borrow_mut().set_engine_value(param, target.object(), value);
+                set.map_err(|_| ApiError::PropertyNotWritable)
+            }
         }
     }
 

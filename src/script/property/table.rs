@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 
 use super::access::Accessor;
 use super::{app, dummy, joint, object, scene, script, shape};
+use crate::scene::engine_params::{EngineOwner, EngineParam, engine_params};
 use crate::scene::{Data, Kind, ValueType};
 
 /// `part<TAB>name<TAB>type<TAB>flags<TAB>state<TAB>default`, in the order of enumeration within a part.
@@ -42,6 +43,8 @@ pub(crate) enum Source {
     /// Stored as scripts set it, without effect; the default until then.
     Kept(Data),
     Constant(Data),
+    /// A parameter of a physics engine.
+    Engine(&'static EngineParam),
 }
 
 /// Targets that have the same static properties.
@@ -171,7 +174,7 @@ fn parts() -> Parts {
         };
         let ty = ValueType::from_word(ty).expect("static.tsv holds known types");
         let flags = flags.parse().expect("static.tsv holds flags as integers");
-        let default = super::kept::parse_default(ty, default).expect("static.tsv holds defaults of the row's type");
+        let default = ty.parse(default).expect("static.tsv holds defaults of the row's type");
         let source = match state {
             "works" => Source::Works(accessors[&(part, name)]),
             "kept" => Source::Kept(default),
@@ -180,7 +183,22 @@ fn parts() -> Parts {
         };
         parts.entry(part).or_default().push(Row { name, ty, flags, source, class: "" });
     }
+    for (part, owner) in ENGINE_PARTS {
+        parts.entry(part).or_default().extend(engine_params(owner).filter(|param| param.is_property).map(engine_row));
+    }
     parts
+}
+
+/// The parts that end with parameters of physics engines.
+const ENGINE_PARTS: [(&str, EngineOwner); 4] = [
+    ("dynamics", EngineOwner::Scene),
+    ("material", EngineOwner::Material),
+    ("joint", EngineOwner::Joint),
+    ("dummy", EngineOwner::Dummy),
+];
+
+fn engine_row(param: &'static EngineParam) -> Row {
+    Row { name: param.name, ty: param.ty, flags: param.flags, source: Source::Engine(param), class: "" }
 }
 
 type Accessors = HashMap<(&'static str, &'static str), &'static Accessor>;

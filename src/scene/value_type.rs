@@ -1,0 +1,98 @@
+//! Types of properties as tables of properties use them: defaults in words, and what a value must be like.
+
+use super::{Data, ValueType};
+
+impl ValueType {
+    /// The value that a table says in words: numbers of lists are separated by spaces, nothing is false, 0, no text, an empty list, the
+    /// origin or no rotation. None when the words are no value of this type.
+    pub fn parse(self, text: &str) -> Option<Data> {
+        match self {
+            Self::Bool => matches!(text, "" | "true" | "false").then_some(Data::Bool(text == "true")),
+            Self::Int | Self::Long if text.is_empty() => Some(Data::Int(0)),
+            Self::Int | Self::Long => text.parse().ok().map(Data::Int),
+            Self::Float if text.is_empty() => Some(Data::Float(0.0)),
+            Self::Float => text.parse().ok().map(Data::Float),
+            Self::String => Some(Data::text(text)),
+            Self::Buffer => text.is_empty().then(|| Data::Buffer(Vec::new())),
+            Self::Table => text.is_empty().then(|| Data::Array(Vec::new())),
+            Self::FloatArray => list::<f64>(text, &[]),
+            Self::Vector2 => list(text, &[0.0; 2]),
+            Self::Vector3 | Self::Color => list(text, &[0.0; 3]),
+            Self::Quaternion => list(text, &[0.0, 0.0, 0.0, 1.0]),
+            Self::Pose => list(text, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
+            Self::IntArray => list::<i64>(text, &[]),
+            Self::IntArray2 => list::<i64>(text, &[0; 2]),
+        }
+    }
+
+    /// The value as it is stored in place of `default`: finite numbers, and of a list as many as the default has, if it has any.
+    /// None when it cannot be.
+    pub fn accept(self, default: &Data, mut value: Data) -> Option<Data> {
+        if let (Data::Array(default), Data::Array(items)) = (default, &mut value) {
+            if items.len() < default.len() {
+                return None;
+            }
+            if !default.is_empty() {
+                items.truncate(default.len());
+            }
+        }
+        (self.is_kind_of(&value) && is_finite(&value)).then_some(value)
+    }
+
+    fn is_kind_of(self, value: &Data) -> bool {
+        let is_int = |item: &Data| matches!(item, Data::Int(_));
+        let is_float = |item: &Data| matches!(item, Data::Float(_));
+        match (self, value) {
+            (Self::Bool, Data::Bool(_)) | (Self::Int | Self::Long, Data::Int(_)) | (Self::Float, Data::Float(_)) => {
+                true
+            }
+            (Self::String, Data::Text(_)) | (Self::Buffer, Data::Buffer(_)) => true,
+            (Self::Table, Data::Array(_) | Data::Map(_)) => true,
+            (Self::IntArray | Self::IntArray2, Data::Array(items)) => items.iter().all(is_int),
+            (Self::FloatArray | Self::Vector2 | Self::Vector3 | Self::Color, Data::Array(items)) => {
+                items.iter().all(is_float)
+            }
+            (Self::Quaternion | Self::Pose, Data::Array(items)) => items.iter().all(is_float),
+            _ => false,
+        }
+    }
+}
+
+fn list<T: std::str::FromStr + Clone + Into<Data>>(text: &str, empty: &[T]) -> Option<Data> {
+    let given: Vec<T> = text.split_whitespace().map(|word| word.parse().ok()).collect::<Option<_>>()?;
+    match given.len() {
+        0 => Some(empty.to_vec().into()),
+        length => (empty.is_empty() || length == empty.len()).then(|| given.into()),
+    }
+}
+
+fn is_finite(value: &Data) -> bool {
+    match value {
+        Data::Float(number) => number.is_finite(),
+        Data::Array(items) => items.iter().all(is_finite),
+        _ => true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Data, ValueType};
+
+    #[test]
+    fn defaults_are_said_in_words() {
+        assert_eq!(ValueType::FloatArray.parse("0.02 1"), Some(vec![0.02, 1.0].into()));
+        assert_eq!(ValueType::Color.parse(""), Some([0.0; 3].into()));
+        assert_eq!(ValueType::Color.parse("1"), None);
+        assert_eq!(ValueType::Int.parse("x"), None);
+    }
+
+    #[test]
+    fn lists_keep_the_length_of_their_default() {
+        let accept = |default: Data, value: Vec<f64>| ValueType::FloatArray.accept(&default, value.into());
+        assert_eq!(accept(vec![0.0; 2].into(), vec![1.0, 2.0, 3.0]), Some(vec![1.0, 2.0].into()));
+        assert_eq!(accept(vec![0.0; 2].into(), vec![1.0]), None);
+        assert_eq!(accept(vec![0.0; 2].into(), vec![1.0, f64::NAN]), None);
+        assert_eq!(accept(Data::Array(vec![]), vec![1.0]), Some(vec![1.0].into()));
+        assert_eq!(ValueType::FloatArray.accept(&Data::Array(vec![]), Data::Int(1)), None);
+    }
+}
