@@ -42,7 +42,7 @@ mod user_param;
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use crate::script::{Bound, Embedded, FILES, Member, Registry};
+use crate::script::{Bound, Embedded, FILES, Member, Registry, cbor};
 
 pub(crate) use crate::script::{ApiError, ApiResult as Result};
 pub use crate::script::{ApiFn, Args, Cx, FromScript, IntoScript, Param};
@@ -92,6 +92,9 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Scene files", scene_file::FUNCTIONS),
 ];
 
+/// Native functions of Lua modules: `module.function` each. A Lua file of the module's name gets them as its second argument.
+const LIBRARIES: &[(&str, &[ApiFn])] = &[("org.conman.cbor", cbor::TREES), ("org.conman.cbor_c", cbor::HEADS)];
+
 /// `name<TAB>value` of every constant of `sim`.
 pub(crate) const CONSTANTS: &str = include_str!("constants.tsv");
 /// `old<TAB>new`: names that do exactly what another does.
@@ -112,7 +115,7 @@ pub(crate) fn registry() -> &'static Registry {
 }
 
 fn build() -> Registry {
-    let mut registry = Registry { modules: embedded_modules(), ..Registry::default() };
+    let mut registry = Registry { modules: embedded_modules(), libraries: libraries(), ..Registry::default() };
     let notices = notices();
     add_missing(&mut registry);
     add_constants(&mut registry);
@@ -155,6 +158,11 @@ fn native(name: &'static str, function: &'static ApiFn, notices: &Notices) -> Me
 
 fn embedded_modules() -> HashMap<&'static str, Embedded> {
     FILES.iter().map(|&(name, source)| (name, Embedded::new(source))).collect()
+}
+
+fn libraries() -> HashMap<&'static str, Vec<Bound>> {
+    let bound = |function: &'static ApiFn| Bound { name: function.name, function, deprecation: None };
+    LIBRARIES.iter().map(|&(module, functions)| (module, functions.iter().map(bound).collect())).collect()
 }
 
 fn add_missing(registry: &mut Registry) {

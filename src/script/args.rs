@@ -36,6 +36,11 @@ impl<'a> Args<'a> {
         Self { stack, position: 0, count: stack.top() }
     }
 
+    /// The stack the arguments are on, for functions that decode them themselves.
+    pub(crate) fn stack(&self) -> Stack<'a> {
+        self.stack
+    }
+
     /// Number of the argument being decoded, from 1.
     pub fn position(&self) -> c_int {
         self.position

@@ -64,6 +64,8 @@ pub(crate) struct Registry {
     pub old_names: HashMap<&'static str, &'static str>,
     /// Embedded Lua files by module name.
     pub modules: HashMap<&'static str, Embedded>,
+    /// Native functions of Lua modules by module name: the module itself where there is no Lua file, else for that file's use.
+    pub libraries: HashMap<&'static str, Vec<Bound>>,
 }
 
 /// Pushes `bound` as a Lua function.

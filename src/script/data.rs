@@ -62,7 +62,8 @@ fn read_table(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) ->
     data
 }
 
-fn read_buffer(stack: Stack<'_>, table: c_int) -> Option<Vec<u8>> {
+/// The bytes of the table at `table`, when it is a buffer.
+pub(crate) fn read_buffer(stack: Stack<'_>, table: c_int) -> Option<Vec<u8>> {
     if !stack.push_metatable(table) {
         return None;
     }

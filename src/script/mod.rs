@@ -6,6 +6,7 @@ mod args;
 mod binding;
 mod callback;
 mod calls;
+pub(crate) mod cbor;
 mod clock;
 mod console;
 mod cx;

@@ -3,7 +3,7 @@
 use std::ffi::{CStr, c_int, c_void};
 use std::rc::Rc;
 
-use super::binding::{Member, push_bound};
+use super::binding::{Bound, Member, push_bound};
 use super::data::BUFFER_METATABLE;
 use super::env::{Env, Runtime};
 use super::lua::{self, LuaError, Stack, Type, push_callback};
@@ -70,12 +70,34 @@ fn search_embedded(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> 
         return Ok(1);
     }
     let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
-    if !sim.registry.modules.contains_key(name.as_str()) {
-        stack.push_bytes(format!("no module '{name}' in Swanilda's library").as_bytes());
-        return Ok(1);
+    let file = name.replace('.', "/");
+    let native = sim.registry.libraries.get(name.as_str());
+    match native {
+        _ if sim.registry.modules.contains_key(file.as_str()) && !file.starts_with("sim/") => {
+            load_module(stack, &sim, &file).map_err(|error| error.text)?;
+        }
+        Some(_) => push_callback(stack, return_library, std::ptr::null()),
+        None => {
+            stack.push_bytes(format!("no module '{name}' in Swanilda's library").as_bytes());
+            return Ok(1);
+        }
     }
-    load_module(stack, &sim, &name).map_err(|error| error.text)?;
-    Ok(1)
+    push_library(stack, native.map(Vec::as_slice).unwrap_or_default());
+    Ok(2)
+}
+
+/// Pushes a table of native functions, by the last part of their names.
+fn push_library(stack: Stack<'_>, functions: &'static [Bound]) {
+    stack.new_table(0, functions.len());
+    for bound in functions {
+        push_bound(stack, bound);
+        stack.raw_set_field(-2, bound.name.rsplit('.').next().unwrap_or(bound.name));
+    }
+}
+
+/// The loader of a module that is native altogether: what the searcher found comes as its second argument.
+fn return_library(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+    Ok(stack.top().min(1))
 }
 
 fn return_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {

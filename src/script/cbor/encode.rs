@@ -1,0 +1,120 @@
+//! From a Lua value to CBOR, without calling Lua.
+
+use std::ffi::c_int;
+
+use super::super::args::Args;
+use super::super::data::read_buffer;
+use super::super::error::ApiResult;
+use super::super::lua::{Stack, Type};
+use super::{MAX_DEPTH, TOO_DEEP};
+use crate::wire::cbor_head::{is_text, major, push_float, push_head, push_int};
+
+const FALSE: u8 = 0xf4;
+const TRUE: u8 = 0xf5;
+const NULL: u8 = 0xf6;
+
+/// Nulls written for holes of one array. Lua's `#` may be astronomic for a table with a few elements.
+const MAX_HOLES: i64 = 1 << 16;
+
+/// Why a value was not written.
+enum Stop {
+    /// It has a metatable, or a type of which Lua decides.
+    NeedsLua,
+    Bad(&'static str),
+}
+
+type Written = Result<(), Stop>;
+
+pub(super) fn encode(args: &mut Args<'_>) -> ApiResult<c_int> {
+    let stack = args.stack();
+    let mut out = Vec::new();
+    if stack.top() == 0 {
+        stack.push_nil();
+    }
+    Ok(match write(stack, 1, &mut out, 0) {
+        Ok(()) => {
+            stack.push_bytes(&out);
+            1
+        }
+        Err(Stop::NeedsLua) => 0,
+        Err(Stop::Bad(message)) => {
+            stack.push_nil();
+            stack.push_bytes(message.as_bytes());
+            2
+        }
+    })
+}
+
+fn write(stack: Stack<'_>, index: c_int, out: &mut Vec<u8>, depth: usize) -> Written {
+    match stack.kind(index) {
+        Type::Nil => out.push(NULL),
+        Type::Boolean => out.push(if stack.truthy(index) { TRUE } else { FALSE }),
+        Type::Number => match stack.integer(index) {
+            Some(integer) => push_int(out, integer),
+            None => push_float(out, stack.number(index).unwrap_or_default()),
+        },
+        Type::String => write_string(out, stack.bytes(index).unwrap_or_default()),
+        Type::Table => write_table(stack, stack.absolute(index), out, depth)?,
+        _ => return Err(Stop::NeedsLua),
+    }
+    Ok(())
+}
+
+fn write_string(out: &mut Vec<u8>, bytes: &[u8]) {
+    push_head(out, if is_text(bytes) { major::TEXT } else { major::BYTES }, bytes.len() as u64);
+    out.extend_from_slice(bytes);
+}
+
+fn write_table(stack: Stack<'_>, table: c_int, out: &mut Vec<u8>, depth: usize) -> Written {
+    if depth >= MAX_DEPTH || !stack.reserve(8) {
+        return Err(Stop::Bad(TOO_DEEP));
+    }
+    if stack.push_metatable(table) {
+        stack.pop(1);
+        let bytes = read_buffer(stack, table).ok_or(Stop::NeedsLua)?;
+        push_head(out, major::BYTES, bytes.len() as u64);
+        out.extend_from_slice(&bytes);
+        return Ok(());
+    }
+    match stack.raw_len(table) {
+        0 => write_map(stack, table, out, depth),
+        len => write_array(stack, table, len as i64, out, depth),
+    }
+}
+
+fn write_array(stack: Stack<'_>, table: c_int, len: i64, out: &mut Vec<u8>, depth: usize) -> Written {
+    push_head(out, major::ARRAY, len as u64);
+    let mut holes = 0;
+    for i in 1..=len {
+        if stack.raw_get_index(table, i) == Type::Nil {
+            holes += 1;
+            if holes > MAX_HOLES {
+                return Err(Stop::Bad("Cannot encode table: too many holes"));
+            }
+        }
+        write(stack, -1, out, depth + 1)?;
+        stack.pop(1);
+    }
+    Ok(())
+}
+
+fn write_map(stack: Stack<'_>, table: c_int, out: &mut Vec<u8>, depth: usize) -> Written {
+    let start = out.len();
+    let mut count: u64 = 0;
+    out.push(major::MAP);
+    stack.push_nil();
+    while stack.next(table) {
+        write(stack, -2, out, depth + 1)?;
+        write(stack, -1, out, depth + 1)?;
+        stack.pop(1);
+        count += 1;
+    }
+    // The number of entries is known only now; its place is before them.
+    let mut head = Vec::with_capacity(9);
+    push_head(&mut head, major::MAP, count);
+    match *head {
+        [short] => out[start] = short,
+        _ => drop(out.splice(start..=start, head)),
+    }
+    Ok(())
+}

@@ -1,0 +1,69 @@
+//! The native part of the Lua modules `org.conman.cbor` and `org.conman.cbor_c`: CBOR between a Lua stack and bytes.
+//!
+//! Whole trees of plain values go through here at once. What needs Lua code - `__tocbor`, conversions, shared references - is left
+//! to `lua/org/conman/cbor.lua`: these functions say so and have no effect then.
+
+mod decode;
+mod encode;
+mod low_level;
+
+use std::ffi::c_int;
+
+use super::args::Args;
+use super::binding::{ApiFn, Param};
+use super::error::ApiResult;
+
+/// How deep arrays, maps and tags may be nested.
+const MAX_DEPTH: usize = 500;
+/// The text for what is nested deeper: a cycle most of the time.
+const TOO_DEEP: &str = "nested too deeply (500 levels): does a table contain itself?";
+
+type Call = fn(&mut Args<'_>) -> ApiResult<c_int>;
+
+const fn row(name: &'static str, doc: &'static str, params: &'static [Param], call: Call) -> ApiFn {
+    ApiFn { name, doc, params, returns: &[], mutates: false, call }
+}
+
+const fn required(name: &'static str, ty: &'static str) -> Param {
+    Param { name, ty, default: None }
+}
+
+/// For `org.conman.cbor`.
+pub(crate) const TREES: &[ApiFn] = &[
+    row(
+        "org.conman.cbor.encode",
+        "The value as CBOR; nothing when that needs Lua code; nil and a message when it cannot be.",
+        &[required("value", "any")],
+        encode::encode,
+    ),
+    row(
+        "org.conman.cbor.decode",
+        "Type, next position and value; nothing when that needs Lua code; nil, a message and a position when the data are malformed. \
+         Tags found in `tags` need Lua. With `rich`, byte strings become buffers and typed arrays tables.",
+        &[required("packet", "string"), required("pos", "int"), required("tags", "table"), required("rich", "bool")],
+        decode::decode,
+    ),
+    row(
+        "org.conman.cbor.head",
+        "What `org.conman.cbor_c.decode` tells, but nil and a message where there is no head.",
+        &[required("packet", "string"), required("pos", "int")],
+        low_level::head,
+    ),
+];
+
+/// The functions of `org.conman.cbor_c`.
+pub(crate) const HEADS: &[ApiFn] = &[
+    row(
+        "org.conman.cbor_c.encode",
+        "A head of major type `type` with the number `n`, or of unknown length when `n` is nil. Type 0xE0 with a float `x`: that float, \
+         in the precision `n` (25, 26, 27) or the shortest exact one.",
+        &[required("type", "int"), required("n", "int"), required("x", "float")],
+        low_level::encode,
+    ),
+    row(
+        "org.conman.cbor_c.decode",
+        "Major type, info, number (the float of a float, infinity where the length is unknown) and next position of a head.",
+        &[required("packet", "string"), required("pos", "int")],
+        low_level::decode,
+    ),
+];
