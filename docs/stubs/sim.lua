@@ -1711,9 +1711,9 @@ function sim.packInt64Table(numbers, startIndex, count) end
 
 --- Packs a table into bytes.
 ---@param aTable table any values; functions become texts
----@param Scheme? integer
+---@param scheme? integer 0: CoppeliaSim's own encoding, 1: CBOR
 ---@return string|table data
-function sim.packTable(aTable, Scheme) end
+function sim.packTable(aTable, scheme) end
 
 --- Packs numbers into bytes; those that do not fit are cut as in C.
 ---@param numbers integer[] the list
@@ -2713,6 +2713,17 @@ function sim.switchThread() end
 ---@param ... any
 function sim.throttle(period, f, ...) end
 
+--- Converts a buffer of numbers or pixels to another format; each number becomes number * multiplier + offset.
+---
+--- sim.buffer_split: a list of buffers
+---@param inBuffer string|table numbers or pixels
+---@param inFormat integer sim.buffer_*, their format; sim.buffer_base64: text to be decoded
+---@param multiplier number not of alpha
+---@param offset number not of alpha; with sim.buffer_split: bytes per part
+---@param outFormat integer sim.buffer_*, with sim.buffer_clamp added: numbers are cut to the range of the format; sim.buffer_base64: text;
+---@return any outBuffer
+function sim.transformBuffer(inBuffer, inFormat, multiplier, offset, outFormat) end
+
 --- Takes a compound apart into the shapes it was made of.
 ---@param shapeHandle integer the shape; -2 minus the handle divides a single mesh into its islands
 ---@return integer[] simpleShapeHandles the new shapes, or the shape itself when there is nothing to take apart
@@ -2751,7 +2762,7 @@ function sim.unpackInt32Table(data, startIndex, count, additionalByteOffset) end
 function sim.unpackInt64Table(data, startIndex, count, additionalByteOffset) end
 
 --- Unpacks a table.
----@param data string|table what sim.packTable gave, or other CBOR
+---@param data string|table what sim.packTable gave, here or in CoppeliaSim, or other CBOR
 ---@param Scheme? integer
 ---@return any aTable
 function sim.unpackTable(data, Scheme) end

@@ -1,13 +1,13 @@
-//! `sim.*`: values as bytes: lists of numbers in little-endian order, and tables.
-//!
-//! Both packing schemes of tables are CBOR here; data packed by CoppeliaSim with its own scheme 0 is refused.
+//! `sim.*`: values as bytes: lists of numbers in little-endian order, tables, and buffers in other formats.
 
 use api_macro::api;
+use base64::Engine;
 
-use super::{ApiFn, Cx, Result, functions};
+use super::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::{Data, SceneError};
 use crate::script::{Bytes, Number, Table};
-use crate::wire::cbor;
+use crate::wire::number_buffer::{Format, Mapping, transform};
+use crate::wire::{cbor, pack};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     pack_int32_table,
@@ -26,7 +26,24 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     unpack_double_table,
     pack_table,
     unpack_table,
+    transform_buffer,
 ];
+
+/// The packing scheme of tables that is CBOR; scheme 0 is CoppeliaSim's own.
+const CBOR: i64 = 1;
+
+/// Values of `sim.buffer_*` that are no format of numbers.
+mod format {
+    pub const BASE64: i64 = 12;
+    pub const SPLIT: i64 = 13;
+    pub const CLAMP: i64 = 0x100;
+}
+
+/// No buffer a script gets is larger, bytes.
+const MAX_BUFFER: usize = 1 << 29;
+
+/// No buffer is split into more parts.
+const MAX_PARTS: usize = 1 << 20;
 
 /// `count` items of a list beginning with number `start`; all to its end when `count` is 0.
 fn range<T>(list: &[T], start: i64, count: i64) -> &[T] {
@@ -93,21 +110,84 @@ number_lists! {
 /// Packs a table into bytes.
 ///
 /// @param aTable any values; functions become texts
-/// @param scheme 0 or 1
+/// @param scheme 0: CoppeliaSim's own encoding, 1: CBOR
 /// @return data
 #[api("sim.packTable")]
-fn pack_table(_cx: &Cx, a_table: Table, #[default(0)] _scheme: Number) -> Result<Bytes> {
-    Ok(Bytes(cbor::encode(&a_table.0)))
+fn pack_table(_cx: &Cx, a_table: Table, #[default(0)] scheme: Number) -> Result<Bytes> {
+    match scheme.0 {
+        CBOR => Ok(Bytes(cbor::encode(&a_table.0))),
+        _ => pack::encode(&a_table.0).map(Bytes).ok_or_else(too_large),
+    }
 }
 
 /// Unpacks a table.
 ///
-/// @param data what sim.packTable gave, or other CBOR
+/// @param data what sim.packTable gave, here or in CoppeliaSim, or other CBOR
 /// @param scheme the encoding is recognised without it
 /// @return aTable
 #[api("sim.unpackTable")]
 fn unpack_table(_cx: &Cx, data: Bytes, #[default(0)] _scheme: Number) -> Result<Data> {
-    Ok(cbor::decode(&data.0).map_err(|_| SceneError::InvalidData)?)
+    let table = if pack::is_packed(&data.0) { pack::decode(&data.0).ok() } else { cbor::decode(&data.0).ok() };
+    Ok(table.ok_or(SceneError::InvalidData)?)
+}
+
+/// Converts a buffer of numbers or pixels to another format; each number becomes number * multiplier + offset.
+///
+/// @param inBuffer numbers or pixels
+/// @param inFormat sim.buffer_*, their format; sim.buffer_base64: text to be decoded
+/// @param multiplier not of alpha
+/// @param offset not of alpha; with sim.buffer_split: bytes per part
+/// @param outFormat sim.buffer_*, with sim.buffer_clamp added: numbers are cut to the range of the format; sim.buffer_base64: text;
+/// sim.buffer_split: a list of buffers
+/// @return outBuffer
+#[api("sim.transformBuffer")]
+fn transform_buffer(
+    _cx: &Cx,
+    in_buffer: Bytes,
+    in_format: Number,
+    multiplier: f64,
+    offset: f64,
+    out_format: Number,
+) -> Result<Data> {
+    let mapping = Mapping { multiplier, offset, clamp: out_format.0 & format::CLAMP != 0 };
+    let bytes = match in_format.0 {
+        format::BASE64 => from_base64(&in_buffer.0)?,
+        _ => in_buffer.0,
+    };
+    let from = if in_format.0 == format::BASE64 { Format::U8 } else { number_format(in_format.0)? };
+    match out_format.0 & !format::CLAMP {
+        format::SPLIT => split(&bytes, offset),
+        format::BASE64 => Ok(Data::Buffer(base64::prelude::BASE64_STANDARD.encode(bytes).into_bytes())),
+        number => {
+            let to = number_format(number)?;
+            if bytes.len() / from.size() > MAX_BUFFER / to.size() {
+                return Err(too_large());
+            }
+            let out = transform(&bytes, from, mapping, to);
+            Ok(Data::Buffer(out.ok_or_else(|| ApiError::Other("incorrect buffer size.".into()))?))
+        }
+    }
+}
+
+fn number_format(number: i64) -> Result<Format> {
+    Ok(Format::from_number(number).ok_or(SceneError::InvalidArgument)?)
+}
+
+fn from_base64(text: &[u8]) -> Result<Vec<u8>> {
+    Ok(base64::prelude::BASE64_STANDARD.decode(text).map_err(|_| SceneError::InvalidData)?)
+}
+
+/// Parts of `size` bytes; the last one may be shorter.
+fn split(bytes: &[u8], size: f64) -> Result<Data> {
+    match size as usize {
+        0 => Err(SceneError::InvalidArgument.into()),
+        size if bytes.len().div_ceil(size) > MAX_PARTS => Err(too_large()),
+        size => Ok(Data::Array(bytes.chunks(size).map(|part| Data::Buffer(part.to_vec())).collect())),
+    }
+}
+
+fn too_large() -> ApiError {
+    ApiError::Other("the data is too large.".into())
 }
 
 #[cfg(test)]

@@ -98,11 +98,22 @@ impl<'a> Args<'a> {
         }
     }
 
-    /// The first `count` numbers of a table.
-    fn numbers(&self, count: usize) -> ApiResult<Vec<f64>> {
-        let mut numbers = vec![0.0; count];
-        self.fill(&mut numbers)?;
-        Ok(numbers)
+    /// The numbers of a list. What its length claims is not allocated before it is there.
+    fn numbers(&self) -> ApiResult<Vec<f64>> {
+        (1..=self.table_len()? as i64).map(|i| self.element(i)).collect()
+    }
+
+    /// The integers of a list; other numbers lose their fraction.
+    fn integers(&self) -> ApiResult<Vec<i64>> {
+        let element = |i| match self.stack.integer_at(self.position, i) {
+            Some(integer) => Ok(integer),
+            None => self.element(i).map(|number| number as i64),
+        };
+        (1..=self.table_len()? as i64).map(element).collect()
+    }
+
+    fn element(&self, i: i64) -> ApiResult<f64> {
+        self.stack.number_at(self.position, i).ok_or(ApiError::NotA { position: -1, expected: "number" })
     }
 
     fn table_len(&self) -> ApiResult<usize> {
@@ -114,8 +125,7 @@ impl<'a> Args<'a> {
             return Err(ApiError::TableSize);
         }
         for (i, slot) in out.iter_mut().enumerate() {
-            let element = self.stack.number_at(self.position, i as i64 + 1);
-            *slot = element.ok_or(ApiError::NotA { position: -1, expected: "number" })?;
+            *slot = self.element(i as i64 + 1)?;
         }
         Ok(())
     }
@@ -145,12 +155,9 @@ scalars! {
     Frame, "int", |args| Ok(Frame::from_raw(args.number()? as i64)?);
     Handle, "int", |args| Handle::from_raw(args.number()? as i64).ok_or(crate::scene::SceneError::NoSuchObject.into());
     ObjectRef, "int", |args| ObjectRef::from_raw(args.number()? as i64);
-    Handles, "int[]", |args| {
-        let numbers = args.numbers(args.table_len()?)?;
-        Ok(Handles(numbers.into_iter().map(|n| n as i64).collect()))
-    };
-    Vec<f64>, "float[]", |args| args.numbers(args.table_len()?);
-    Vec<i64>, "int[]", |args| Ok(args.numbers(args.table_len()?)?.into_iter().map(|n| n as i64).collect());
+    Handles, "int[]", |args| args.integers().map(Handles);
+    Vec<f64>, "float[]", |args| args.numbers();
+    Vec<i64>, "int[]", |args| args.integers();
     Table, "table", |args| match read_data(args.stack, args.position) {
         data @ (Data::Array(_) | Data::Map(_)) => Ok(Table(data)),
         _ => Err(args.not_a("table")),

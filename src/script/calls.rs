@@ -135,11 +135,11 @@ impl Sim {
 
     /// Ends an add-on or the sandbox at application exit.
     pub(crate) fn end_detached(self: &Rc<Self>) {
-        for script in self.everyone() {
+        for script in self.everyone().iter() {
             if matches!(script.script_type, ScriptType::AddOn | ScriptType::Sandbox)
                 && script.base_state() == state::INITIALIZED
             {
-                self.end(&script);
+                self.end(script);
             }
         }
     }

@@ -12,6 +12,9 @@ pub(crate) const BUFFER_METATABLE: &CStr = c"swanilda.buffer";
 /// The field of a buffer table that holds its bytes.
 const BUFFER_FIELD: &str = "__buff__";
 
+/// Room is made for so many entries before they are seen.
+const MAX_HINT: usize = 1 << 10;
+
 /// How deep a table may be nested; deeper parts become empty tables.
 const MAX_DEPTH: usize = 100;
 
@@ -81,7 +84,8 @@ pub(crate) fn read_buffer(stack: Stack<'_>, table: c_int) -> Option<Vec<u8>> {
 
 fn read_entries(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) -> Data {
     let len = stack.raw_len(table);
-    let mut entries = Vec::with_capacity(len);
+    // A table with holes may claim any length.
+    let mut entries = Vec::with_capacity(len.min(MAX_HINT));
     let mut array = true;
     stack.push_nil();
     while stack.next(table) {

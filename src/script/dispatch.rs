@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::callback::SysCall;
 use super::instance::{Script, state};
 use super::lifecycle::Reply;
-use super::order::{Group, ScriptList};
+use super::order::Group;
 use super::sim::Sim;
 use crate::scene::Data;
 
@@ -36,25 +36,9 @@ impl Sim {
         if self.nobody_responds(call) {
             return;
         }
-        for script in self.everyone() {
-            self.deliver(&script, call, args);
+        for script in self.everyone().iter() {
+            self.deliver(script, call, args);
         }
-    }
-
-    /// Everyone who takes part now, in regular order: while stopped, neither simulation scripts nor the main script do.
-    pub(crate) fn everyone(&self) -> Vec<Rc<Script>> {
-        let stopped = self.clock.state.get() == super::clock::SimulationState::Stopped;
-        let mut lists: Vec<ScriptList> = Vec::with_capacity(5);
-        if !stopped {
-            lists.push(self.scripts_in(Group::Simulation));
-        }
-        lists.push(self.scripts_in(Group::Customization));
-        if !stopped {
-            lists.push(self.scripts_in(Group::Main));
-        }
-        lists.push(self.scripts_in(Group::AddOn));
-        lists.push(self.scripts_in(Group::Sandbox));
-        lists.iter().flat_map(|list| list.iter().cloned()).collect()
     }
 
     /// Asks scripts in turn until one answers with a value.
@@ -79,9 +63,9 @@ impl Sim {
         if self.nobody_responds(SysCall::Msg) {
             return;
         }
-        for script in self.everyone() {
+        for script in self.everyone().iter() {
             if script.id != sender && script.base_state() == state::INITIALIZED {
-                self.deliver(&script, SysCall::Msg, args);
+                self.deliver(script, SysCall::Msg, args);
             }
         }
     }
@@ -102,10 +86,10 @@ impl Sim {
             return false;
         }
         let mut vetoed = false;
-        for script in self.everyone() {
+        for script in self.everyone().iter() {
             let is_main = script.script_type == crate::scene::script_object::ScriptType::Main;
             if !is_main && script.base_state() == state::INITIALIZED {
-                let Reply { value, .. } = self.deliver(&script, SysCall::BeforeMainScript, &[]);
+                let Reply { value, .. } = self.deliver(script, SysCall::BeforeMainScript, &[]);
                 vetoed |= value.as_ref().and_then(|v| v.field("doNotRunMainScript")).is_some_and(Data::truthy);
             }
         }

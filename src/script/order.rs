@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use super::clock::SimulationState;
 use super::instance::Script;
 use super::sim::Sim;
 use crate::scene::script_object::ScriptType;
@@ -22,6 +23,8 @@ pub(crate) struct OrderCache {
     add_ons: ScriptList,
     sandbox: ScriptList,
     main: ScriptList,
+    everyone: ScriptList,
+    everyone_stopped: ScriptList,
 }
 
 impl OrderCache {
@@ -55,6 +58,14 @@ impl Sim {
         .clone()
     }
 
+    /// Everyone who takes part now, in regular order: while stopped, neither simulation scripts nor the main script do.
+    pub(crate) fn everyone(&self) -> ScriptList {
+        self.refresh_order();
+        let cache = self.order.borrow();
+        let stopped = self.clock.state.get() == SimulationState::Stopped;
+        if stopped { &cache.everyone_stopped } else { &cache.everyone }.clone()
+    }
+
     fn refresh_order(&self) {
         let revision = self.scene.borrow().changes().tree_revision();
         if self.order.borrow().revision == Some(revision) {
@@ -70,6 +81,9 @@ impl Sim {
         cache.add_ons = self.detached_of(ScriptType::AddOn);
         cache.sandbox = self.detached_of(ScriptType::Sandbox);
         cache.main = self.detached_of(ScriptType::Main);
+        cache.everyone_stopped = joined(&[&cache.customization, &cache.add_ons, &cache.sandbox]);
+        cache.everyone =
+            joined(&[&cache.simulation, &cache.customization, &cache.main, &cache.add_ons, &cache.sandbox]);
     }
 
     fn detached_of(&self, script_type: ScriptType) -> ScriptList {
@@ -93,6 +107,10 @@ impl Sim {
         let of_type = |t: ScriptType| scripts.iter().filter(move |s| s.script_type == t).cloned();
         of_type(ScriptType::Simulation).chain(of_type(ScriptType::Customization)).collect()
     }
+}
+
+fn joined(lists: &[&ScriptList]) -> ScriptList {
+    lists.iter().flat_map(|list| list.iter().cloned()).collect()
 }
 
 /// Script objects that are children of `object`, by priority.

@@ -2,3 +2,5 @@
 
 pub mod cbor;
 pub mod cbor_head;
+pub mod number_buffer;
+pub mod pack;

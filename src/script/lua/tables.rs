@@ -54,6 +54,14 @@ impl Stack<'_> {
         number
     }
 
+    /// `table[i]` if it is an integer, without leaving it on the stack.
+    pub(crate) fn integer_at(self, table: c_int, i: i64) -> Option<i64> {
+        self.raw_get_index(table, i);
+        let integer = self.integer(-1);
+        self.pop(1);
+        integer
+    }
+
     /// Pops a value into `table[i]`.
     pub(crate) fn raw_set_index(self, table: c_int, i: i64) {
         self.expect_table(table);
@@ -85,9 +93,14 @@ impl Stack<'_> {
     pub(crate) fn raw_set(self, table: c_int) {
         let table = self.absolute(table);
         self.expect_table(table);
-        if self.kind(-2) == Type::Nil || self.number(-2).is_some_and(f64::is_nan) {
-            self.pop(2);
-            return;
+        // Only of numbers: asking a string for its number would parse it.
+        let is_key = match self.kind(-2) {
+            Type::Nil => false,
+            Type::Number => !self.number(-2).is_some_and(f64::is_nan),
+            _ => true,
+        };
+        if !is_key {
+            return self.pop(2);
         }
         // SAFETY: a table and a valid key.
         unsafe { ffi::lua_rawset(self.raw(), table) }
