@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::custom_data::Edited;
-use super::{Handle, Holder, Namespace};
+use super::{Handle, Holder, Namespace, Uid};
 
 /// What changed about an object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -14,6 +14,8 @@ pub enum Field {
     Alias,
     Parent,
     Pose,
+    /// The velocity measured from step to step.
+    Velocity,
     Layer,
     ObjectProperty,
     SpecialProperty,
@@ -38,7 +40,7 @@ pub enum Field {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Change {
     Added(Handle),
-    Removed(Handle),
+    Removed(Handle, Uid),
     Modified(Handle, Field),
     Selection,
     Settings,
@@ -66,11 +68,11 @@ pub struct Changes {
 impl Changes {
     pub(super) fn note(&mut self, change: Change) {
         match change {
-            Change::Modified(_, Field::Pose | Field::JointPosition | Field::JointControl) => {}
+            Change::Modified(_, Field::Pose | Field::Velocity | Field::JointPosition | Field::JointControl) => {}
             Change::Modified(_, Field::Alias | Field::Appearance | Field::Kept) => {}
             Change::Selection | Change::Settings | Change::Stored { .. } => {}
             Change::Modified(_, Field::Script | Field::Priority) => self.tree_revision += 1,
-            Change::Added(_) | Change::Removed(_) | Change::Modified(_, Field::Parent | Field::ModelProperty) => {
+            Change::Added(_) | Change::Removed(..) | Change::Modified(_, Field::Parent | Field::ModelProperty) => {
                 self.tree_revision += 1;
                 self.dynamics_revision += 1;
             }
@@ -115,6 +117,11 @@ impl Changes {
         if !listening {
             self.pending.clear();
         }
+    }
+
+    /// Whether changes are being collected.
+    pub fn is_listening(&self) -> bool {
+        self.listening
     }
 
     /// The changes since the last call.

@@ -43,7 +43,9 @@ pub mod special {
     pub const SCENE: i64 = -12;
     pub const APP: i64 = -13;
     pub const INVERSE: i64 = -14;
+    pub const SCENE_OBJECT: i64 = -16;
     pub const SANDBOX: i64 = -17;
+    pub const MESH: i64 = -18;
 }
 
 /// Bits that may be added to an object handle (`sim.handleflag_*`). Several share a value: what a

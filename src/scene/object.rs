@@ -69,6 +69,13 @@ pub struct Measured {
     pub angular: [f64; 3],
 }
 
+impl Measured {
+    /// Whether both tell the same velocity, wherever the object is.
+    pub(super) fn same_velocity(&self, other: &Self) -> bool {
+        self.linear == other.linear && self.angular == other.angular
+    }
+}
+
 /// The type of an object with the data of that type.
 #[derive(Debug, Clone)]
 pub enum Kind {

@@ -3,7 +3,7 @@
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::joint::JointType;
-use super::{Field, Handle, Kind, Measured, Pose, Scene, SceneError, SceneResult, pose, special};
+use super::{Change, Field, Handle, Kind, Measured, Pose, Scene, SceneError, SceneResult, pose, special};
 
 /// The frame a pose is expressed in, as scripts name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -174,9 +174,13 @@ impl Scene {
             .objects()
             .filter_map(|object| Some((object.handle(), self.world_pose(object.handle()).ok()?)))
             .collect();
+        let listening = self.changes().is_listening();
         for (handle, now) in poses {
-            if let Ok(object) = self.object_mut(handle) {
-                object.measured = measured(object.measured.previous, now, dt);
+            let Ok(object) = self.object_mut(handle) else { continue };
+            let now = measured(object.measured.previous, now, dt);
+            let before = std::mem::replace(&mut object.measured, now);
+            if listening && !object.measured.same_velocity(&before) {
+                self.changes_mut().note(Change::Modified(handle, Field::Velocity));
             }
         }
     }

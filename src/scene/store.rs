@@ -133,7 +133,7 @@ impl Scene {
             self.live -= 1;
             self.sensors -= usize::from(is_sensor(&object.kind));
             self.by_uid.remove(&object.uid());
-            self.changes.note(Change::Removed(handle));
+            self.changes.note(Change::Removed(handle, object.uid()));
         }
     }
 

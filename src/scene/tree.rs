@@ -1,6 +1,6 @@
 //! The object tree: parents, order among siblings, enumeration, removal.
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeSet, HashMap, VecDeque};
 
 use super::{Change, Field, Handle, Scene, SceneError, SceneResult};
 
@@ -31,6 +31,28 @@ impl Scene {
             Some(parent) => Ok(self.object(parent)?.children()),
             None => Ok(&self.roots),
         }
+    }
+
+    /// The number of siblings before `handle` that have the same alias: the index in paths such as `/name[2]`.
+    pub fn child_order(&self, handle: Handle) -> SceneResult<usize> {
+        let alias = self.object(handle)?.alias();
+        let before = self.siblings(handle)?.iter().take_while(|&&sibling| sibling != handle);
+        Ok(before.filter(|&&sibling| self.object(sibling).is_ok_and(|object| object.alias() == alias)).count())
+    }
+
+    /// The children of `parent` (None: the roots), each with its [`child_order`](Self::child_order).
+    pub fn child_orders(&self, parent: Option<Handle>) -> Vec<(Handle, usize)> {
+        let children = match parent {
+            None => &self.roots[..],
+            Some(parent) => self.object(parent).map_or(&[][..], super::Object::children),
+        };
+        let mut seen: HashMap<&str, usize> = HashMap::new();
+        let ordered = children.iter().filter_map(|&child| {
+            let next = seen.entry(self.object(child).ok()?.alias()).or_default();
+            *next += 1;
+            Some((child, *next - 1))
+        });
+        ordered.collect()
     }
 
     fn siblings_mut(&mut self, parent: Option<Handle>) -> SceneResult<&mut Vec<Handle>> {

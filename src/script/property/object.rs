@@ -4,7 +4,7 @@ use super::access::{Accessor, object_properties, placed_properties};
 use super::table::object_class;
 use super::{Long, PoseArray, Text, Vector3};
 use crate::scene::pose::{pose_from_array, pose_to_array};
-use crate::scene::{Handle, NOT_MODEL, Object, Scene, SceneResult, clean_alias};
+use crate::scene::{Handle, NOT_MODEL, Object, Scene, clean_alias};
 
 /// Bits of the special properties.
 mod special {
@@ -30,7 +30,7 @@ pub(super) const PLACED: &[Accessor] = placed_properties! {
         |scene, h, alias| if clean_alias(&alias.0).as_bytes() == alias.0 { scene.set_alias(h, &alias.0)? };
     "pose": PoseArray, |scene, h| PoseArray(pose_to_array(&scene.object(h)?.pose())),
         |scene, h, pose| scene.set_local_pose(h, pose_from_array(&pose.0))?;
-    "childOrder": i64, |scene, h| order_among_siblings(&scene, h)?;
+    "childOrder": i64, |scene, h| scene.child_order(h)? as i64;
     "parentUid": Long, |scene, h| {
         let parent = scene.object(h)?.parent();
         Long(parent.map_or(Ok(-1), |parent| scene.object(parent).map(Object::uid))?)
@@ -82,11 +82,6 @@ pub(super) const FLAG_SETS: &[Accessor] = object_properties! {
 
 fn set_bits(flags: &mut i64, bits: i64, on: bool) {
     if on { *flags |= bits } else { *flags &= !bits }
-}
-
-fn order_among_siblings(scene: &Scene, handle: Handle) -> SceneResult<i64> {
-    let siblings = scene.siblings(handle)?;
-    Ok(siblings.iter().position(|&h| h == handle).map_or(-1, |at| at as i64))
 }
 
 fn select(scene: &mut Scene, handle: Handle, on: bool) {
