@@ -632,6 +632,10 @@ function sim.getFloatProperty(target, propertyName, options) end
 ---@return number signalValue
 function sim.getFloatSignal(signalName) end
 
+--- A snapshot of everything as events, in CBOR. The numbers of its events end where those of the next dispatched batch begin.
+---@return string|table events
+function sim.getGenesisEvents() end
+
 --- An integer parameter.
 ---@param parameter integer sim.intparam_*
 ---@return integer parameterValue
@@ -1757,6 +1761,14 @@ function sim.persistentDataWrite(dataTag, dataValue, options) end
 ---@return number[] matrix upper 3 by 4 block, row by row
 function sim.poseToMatrix(pose) end
 
+--- Adds an event of one's own to the stream.
+---@param event string its name
+---@param handle integer what it is about, or -1
+---@param uid integer the identifier of what it is about, or -1
+---@param eventData table its data
+---@param options? integer bit 0: a later event of the same name and uid in the same batch takes its place
+function sim.pushUserEvent(event, handle, uid, eventData, options) end
+
 --- Ends the program after the current pass.
 function sim.quitSimulator() end
 
@@ -2157,6 +2169,10 @@ function sim.setEngineInt32Param(paramId, objectHandle, int32Param) end
 ---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
 ---@param int32Param integer the value
 function sim.setEngineInt32Parameter(paramId, objectHandle, int32Param) end
+
+--- Chooses which events `sysCall_event` of this script is told. The choice ends with the script's Lua state.
+---@param filters? any from handles (of objects, `sim.handle_app`, `sim.handle_scene`, `sim.handle_sceneobject` for all other objects, ...) to lists of property names; an empty list means all of them. An empty table removes all filters
+function sim.setEventFilters(filters) end
 
 --- Sets whether a sensor or graph is left out when all are handled.
 ---@param objectHandle integer proximity sensor, vision sensor or graph

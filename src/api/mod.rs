@@ -10,6 +10,7 @@ mod custom_data;
 mod dummy;
 mod dynamics;
 mod engine_param;
+mod events;
 mod force_sensor;
 mod global;
 mod joint;
@@ -83,6 +84,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Ruckig", ruckig::FUNCTIONS),
     ("Dynamics", dynamics::FUNCTIONS),
     ("Engine parameters", engine_param::FUNCTIONS),
+    ("Events", events::FUNCTIONS),
     ("Properties", property::FUNCTIONS),
     ("Simulator parameters", param::FUNCTIONS),
     ("Custom data", custom_data::FUNCTIONS),

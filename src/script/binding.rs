@@ -79,5 +79,9 @@ fn call_bound(stack: Stack<'_>, data: *const c_void) -> Result<c_int, String> {
     if let Some(notice) = bound.deprecation {
         Env::of(stack).warn_once(bound.name, notice);
     }
-    (bound.function.call)(&mut Args::new(stack)).map_err(|error| error.text(stack, bound.name))
+    let result = (bound.function.call)(&mut Args::new(stack)).map_err(|error| error.text(stack, bound.name));
+    if bound.function.mutates {
+        Env::of(stack).tell_changes();
+    }
+    result
 }

@@ -22,8 +22,11 @@ impl Sim {
     }
 
     /// Remembers that some script has these callbacks, so that the others need not be offered to anyone.
-    pub(crate) fn note_callbacks(&self, bits: u64) {
+    pub(crate) fn note_callbacks(self: &Rc<Self>, bits: u64) {
         self.callbacks_in_use.set(self.callbacks_in_use.get() | bits);
+        if bits & SysCall::Event.bit() != 0 {
+            self.add_event_listener();
+        }
     }
 
     /// Whether no script can respond to `call`: nobody has ever defined it, and it starts nobody.

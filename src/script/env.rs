@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, HashSet};
 use std::rc::{Rc, Weak};
 
 use super::callback::SysCall;
+use super::events::Filters;
 use super::instance::Script;
 use super::lua::{FunctionRef, Stack, State};
 use super::random::Random;
@@ -24,6 +25,10 @@ pub(crate) struct Env {
     pub yields: Yields,
     pub random: RefCell<Random>,
     pub trajectories: RefCell<Trajectories>,
+    /// What the state wants to hear of; None for everything.
+    pub event_filters: RefCell<Option<Filters>>,
+    /// Whether anybody listens to events, so that changes must be told.
+    pub events_wanted: Rc<Cell<bool>>,
     warned: RefCell<HashSet<&'static str>>,
 }
 
@@ -64,6 +69,8 @@ impl Env {
             yields: Yields { auto: Cell::new(0), overall: Cell::new(0), delay_ms: Cell::new(2), used: Cell::new(0) },
             random: RefCell::new(Random::new(sim.options.seed)),
             trajectories: RefCell::default(),
+            event_filters: RefCell::default(),
+            events_wanted: Rc::clone(&sim.events.listening),
             warned: RefCell::default(),
         }
     }
@@ -84,6 +91,15 @@ impl Env {
     pub(crate) fn log(&self, level: i64, text: &str) {
         if let Some(sim) = self.sim.upgrade() {
             sim.log_from(&self.script, level, text);
+        }
+    }
+
+    /// Turns what a call has changed into events, if anybody listens.
+    pub(crate) fn tell_changes(&self) {
+        if self.events_wanted.get()
+            && let Some(sim) = self.sim.upgrade()
+        {
+            sim.collect_events();
         }
     }
 

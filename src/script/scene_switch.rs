@@ -27,6 +27,7 @@ impl Sim {
         if let Some(code) = code {
             self.add_scene_script(code)?;
         }
+        self.note_new_scene();
         self.broadcast(SysCall::AfterInstanceSwitch, &[]);
         Ok(())
     }

@@ -7,6 +7,7 @@ use std::rc::Rc;
 use super::binding::Registry;
 use super::clock::Clock;
 use super::console::{Console, LogLine};
+use super::events::EventStream;
 use super::instance::{Detached, Script};
 use super::order::OrderCache;
 use super::property::{AppData, SignalOwners};
@@ -72,6 +73,7 @@ pub(crate) struct Sim {
     pub last_selection: RefCell<Vec<Handle>>,
     pub app: RefCell<AppData>,
     pub signal_owners: RefCell<SignalOwners>,
+    pub events: EventStream,
     next_detached: Cell<i64>,
     once: RefCell<HashSet<(String, i64, String)>>,
     started: std::time::Instant,
@@ -98,6 +100,7 @@ impl Sim {
             known_at_start: RefCell::default(),
             last_selection: RefCell::default(),
             signal_owners: RefCell::default(),
+            events: EventStream::new(),
             next_detached: Cell::new(FIRST_DETACHED),
             once: RefCell::default(),
             started: super::wall_clock::now(),
@@ -130,6 +133,11 @@ impl Sim {
         self.scripts.borrow().values().find(|s| s.object.is_none() && s.script_type == script_type).cloned()
     }
 
+    /// All scripts that are no objects, in the order of their creation.
+    pub(crate) fn detached_scripts(&self) -> Vec<Rc<Script>> {
+        self.scripts.borrow().values().filter(|script| script.object.is_none()).cloned().collect()
+    }
+
     /// The name a script has in the log.
     pub(crate) fn log_name(&self, script: &Script) -> String {
         match script.object {
@@ -156,6 +164,9 @@ impl Sim {
     fn log_line(&self, origin: &str, level: i64, text: &str, chatter: bool) {
         if level & verbosity::ONCE != 0 && !self.once.borrow_mut().insert((origin.to_owned(), level, text.to_owned())) {
             return;
+        }
+        if verbosity::plain(level) <= self.verbosity.get().max(verbosity::SCRIPT_INFOS) {
+            self.push_log_event(origin, level, text);
         }
         if verbosity::plain(level) > self.verbosity.get() {
             return;

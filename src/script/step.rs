@@ -14,6 +14,9 @@ use crate::scene::script_object::ScriptType;
 impl Sim {
     /// One pass of the application's loop: idle, paused or advancing.
     pub(crate) fn loop_pass(self: &Rc<Self>) {
+        if !self.clock.state.get().is_advancing() {
+            self.dispatch_events();
+        }
         match self.clock.state.get() {
             SimulationState::Stopped => self.broadcast(SysCall::NonSimulation, &[]),
             SimulationState::Paused => self.notify(SysCall::Suspended),
@@ -64,6 +67,7 @@ impl Sim {
             return;
         }
         self.deliver(&main, SysCall::Actuation, &[]);
+        self.dispatch_events();
         self.deliver(&main, SysCall::Sensing, &[]);
         if self.clock.state.get() == SimulationState::LastBeforeStop {
             self.deliver(&main, SysCall::Cleanup, &[]);

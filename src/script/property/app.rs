@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use super::access::{Accessor, subject_properties};
 use crate::scene::{CustomData, Kept, Namespace};
+use crate::script::error::ApiError;
+use crate::script::events::Protocol;
 
 /// What scripts keep with the application.
 #[derive(Default)]
@@ -53,6 +55,10 @@ impl AppData {
 
 pub(super) const APP: &[Accessor] = subject_properties! {
     "consoleVerbosity": i64, |s| s.sim.verbosity.get(), |s, level| s.sim.verbosity.set(level);
+    "protocolVersion": i64, |s| s.sim.events.protocol.get() as i64, |s, number| {
+        let protocol = Protocol::from_number(number).ok_or(ApiError::PropertyNotWritable)?;
+        s.sim.set_event_protocol(protocol);
+    };
     "processId": i64, |_s| i64::from(std::process::id());
     "canSave": bool, |_s| true;
 };

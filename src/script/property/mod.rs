@@ -24,13 +24,15 @@ use super::sim::Sim;
 use crate::scene::script_object::ScriptType;
 use crate::scene::{Data, Handle, Namespace, ValueType, special};
 use access::Subject;
-use table::{Class, Row, Source, app_class, flags, object_class, scene_class, script_class};
+use table::Source;
 
 pub(crate) use app::AppData;
 pub(crate) use stored::SignalOwners;
+pub(crate) use table::{Class, Row, app_class, flags, object_class, scene_class, script_class};
 pub use value::{Color, IntPair, Long, PoseArray, PropertyValue, Quaternion, Text, Vector2, Vector3};
 
 /// What has properties.
+#[derive(Clone)]
 pub(crate) enum Target {
     App,
     Scene,

@@ -1,0 +1,50 @@
+//! `sim.*`: the stream of events (SPEC-6).
+
+use api_macro::api;
+
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::Data;
+use crate::script::{Bytes, Filters, Table};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![set_event_filters, get_genesis_events, push_user_event];
+
+/// Chooses which events `sysCall_event` of this script is told. The choice ends with the script's Lua state.
+///
+/// @param filters from handles (of objects, `sim.handle_app`, `sim.handle_scene`, `sim.handle_sceneobject` for all other objects, ...) to lists of property names; an empty list means all of them. An empty table removes all filters
+#[api("sim.setEventFilters")]
+fn set_event_filters(cx: &mut Cx, #[default(Data::Array(Vec::new()))] filters: Data) -> Result<()> {
+    let filters = match filters {
+        Data::Array(_) | Data::Map(_) => Filters::from_table(&filters),
+        _ => return Err(ApiError::Other("invalid argument.".into())),
+    };
+    cx.sim().set_event_filters(cx.script(), filters);
+    Ok(())
+}
+
+/// A snapshot of everything as events, in CBOR. The numbers of its events end where those of the next dispatched batch begin.
+///
+/// @return events
+#[api("sim.getGenesisEvents")]
+fn get_genesis_events(cx: &mut Cx) -> Result<Bytes> {
+    Ok(Bytes(cx.sim().genesis_events()))
+}
+
+/// Adds an event of one's own to the stream.
+///
+/// @param event its name
+/// @param handle what it is about, or -1
+/// @param uid the identifier of what it is about, or -1
+/// @param eventData its data
+/// @param options bit 0: a later event of the same name and uid in the same batch takes its place
+#[api("sim.pushUserEvent")]
+fn push_user_event(
+    cx: &mut Cx,
+    event: String,
+    handle: i64,
+    uid: i64,
+    event_data: Table,
+    #[default(0)] options: i64,
+) -> Result<()> {
+    cx.sim().push_user_event(event, (handle, uid), &event_data.0, options);
+    Ok(())
+}

@@ -1,0 +1,65 @@
+//! The snapshot: events from which a listener can build the world as it is (SPEC-6 6.7).
+
+use std::rc::Rc;
+
+use super::data_entry;
+use super::protocol::Protocol;
+use super::queue::{Class, Event, Source};
+use super::watch::{Audience, Watched};
+use crate::scene::{Data, Namespace};
+use crate::script::sim::Sim;
+
+impl Sim {
+    /// Application, scripts outside of the scene, the scene, its objects parents first, the main script.
+    pub(super) fn genesis(self: &Rc<Self>) -> Vec<Event> {
+        let nobody = self.nobody();
+        let (main, outside): (Vec<_>, Vec<_>) = self
+            .detached_scripts()
+            .iter()
+            .map(|script| Watched::script(script, &nobody))
+            .partition(|watched| watched.source.class == Class::Main);
+        let mut events = vec![Event::new("genesisBegin", Source::NONE, Vec::new())];
+        events.extend(self.genesis_of_app(&nobody));
+        events.extend(outside.into_iter().map(|mut script| self.detached_added(&mut script)));
+        events.push(self.genesis_of_scene(&nobody));
+        for handle in self.scene.borrow().all_breadth_first() {
+            let watched = self.scene.borrow().object(handle).map(|object| Watched::object(object, &nobody));
+            events.extend(watched.into_iter().flat_map(|mut watched| self.added(&mut watched)));
+        }
+        events.extend(["objectHandles", "orphanHandles", "selectionHandles"].map(Event::list));
+        events.extend(main.into_iter().map(|mut script| self.detached_added(&mut script)));
+        events.push(Event::new("genesisEnd", Source::NONE, Vec::new()));
+        self.fill_in_lists(&mut events);
+        events
+    }
+
+    fn genesis_of_app(self: &Rc<Self>, nobody: &Audience) -> [Event; 2] {
+        let mut app = Watched::app(nobody);
+        let mut entries = app.describe(self);
+        let params = self.app.borrow().named_params.clone();
+        entries.extend(params.iter().map(|(name, value)| self.named_param_entry(name, Some(value))));
+        entries.extend(app.stored(self, Namespace::Signal));
+        let lasting = app.stored(self, Namespace::CustomData);
+        [entries, lasting].map(|entries| Event::new("objectChanged", Source::APP, entries))
+    }
+
+    fn genesis_of_scene(self: &Rc<Self>, nobody: &Audience) -> Event {
+        let mut scene = Watched::scene(nobody);
+        let mut entries = scene.describe(self);
+        for namespace in [Namespace::CustomData, Namespace::Signal] {
+            entries.extend(scene.stored(self, namespace));
+        }
+        Event::new("objectChanged", Source::SCENE, entries)
+    }
+
+    /// Introduces a script that is no object.
+    pub(super) fn detached_added(self: &Rc<Self>, script: &mut Watched) -> Event {
+        let key = match self.events.protocol.get() {
+            Protocol::V3 => "objectType",
+            Protocol::V4 => "type",
+        };
+        let mut entries = vec![data_entry(key, &Data::text("detachedScript"))];
+        entries.extend(script.describe(self));
+        Event::new("objectAdded", script.source, entries)
+    }
+}

@@ -1,0 +1,137 @@
+//! Which properties of a target the event stream tells, and which of them a change can concern (SPEC-6 6.8).
+
+use std::collections::BTreeMap;
+use std::sync::{LazyLock, Mutex};
+
+use super::protocol::{Meaning, Protocol, renamed};
+use crate::scene::Field;
+use crate::script::property::{Class, Row, flags};
+
+/// Readable properties that are no news: they follow from others, are asked for on purpose, or are drawn anew at each reading.
+const SILENT: &[&str] = &[
+    "objectUid",
+    "mov.optionsFlags",
+    "mov.preferredAxesFlags",
+    "visible",
+    "modelHash",
+    "meshes",
+    "executionDepth",
+    "jointForce",
+    "color.transparency",
+    "imageBuffer",
+    "depthBuffer",
+    "povray.castShadows",
+    "povray.focalBlur",
+    "povray.blurSamples",
+    "povray.blurDistance",
+    "povray.aperture",
+    "closeThreshold",
+    "objectCreationCounter",
+    "objectDestructionCounter",
+    "hierarchyChangeCounter",
+    "processId",
+    "processCnt",
+    "randomFloat",
+    "randomQuaternion",
+    "randomString",
+    // Told whenever objects come, go or are selected, see `Sim::push_list`.
+    "objectHandles",
+    "orphanHandles",
+    "selectionHandles",
+];
+
+/// Properties that are told in one event.
+const PAIRS: &[[&str; 2]] = &[["bbPose", "bbHSize"], ["parentUid", "parentHandle"]];
+
+/// What changes in nearly every step, and the properties it concerns. A change of any other field can concern all properties.
+const FREQUENT: &[(Field, &[&str])] = &[
+    (Field::Pose, &["pose"]),
+    (
+        Field::Velocity,
+        &["calcLinearVelocity", "calcRotationAxis", "calcRotationVelocity", "dynLinearVelocity", "dynAngularVelocity"],
+    ),
+    (
+        Field::JointPosition,
+        &["jointPosition", "quaternion", "intrinsicPose", "intrinsicError", "calcVelocity", "averageJointForce"],
+    ),
+    (
+        Field::JointControl,
+        &[
+            "targetPos",
+            "targetVel",
+            "targetForce",
+            "dynCtrlMode",
+            "dynVelMode",
+            "dynPosMode",
+            "maxVelAccelJerk",
+            "springDamperParams",
+        ],
+    ),
+];
+
+/// One property the stream tells.
+pub(super) struct Told {
+    pub row: &'static Row,
+    /// Index of the one told in the same event.
+    pub partner: Option<usize>,
+    /// Name and meaning in protocol 4.
+    pub renamed: (&'static str, Meaning),
+}
+
+impl Told {
+    /// The name listeners know it by.
+    pub(super) fn key(&self, protocol: Protocol) -> &'static str {
+        if protocol == Protocol::V4 { self.renamed.0 } else { self.row.name }
+    }
+}
+
+/// The properties of a class of targets, in their order.
+pub(super) struct Keys {
+    pub told: Vec<Told>,
+    frequent: Vec<(Field, Vec<usize>)>,
+    all: Vec<usize>,
+}
+
+impl Keys {
+    fn of_class(class: &'static Class) -> Self {
+        let (before, after) = class.rows();
+        let rows: Vec<&'static Row> = before.iter().chain(after).filter(|row| is_told(row)).collect();
+        let index = |name: &str| rows.iter().position(|row| row.name == name);
+        let partner = |name: &str| {
+            let pair = PAIRS.iter().find(|pair| pair.contains(&name))?;
+            index(pair.iter().find(|other| **other != name)?)
+        };
+        let told =
+            rows.iter().map(|row| Told { row, partner: partner(row.name), renamed: renamed(row.class, row.name) });
+        let told = told.collect();
+        let indices = |names: &[&str]| names.iter().filter_map(|name| index(name)).collect();
+        let frequent = FREQUENT.iter().map(|(field, names)| (*field, indices(names))).collect();
+        Self { told, frequent, all: (0..rows.len()).collect() }
+    }
+
+    /// Indices of the properties a change of `field` can concern.
+    pub(super) fn concerned(&self, field: Field) -> &[usize] {
+        self.frequent.iter().find(|(frequent, _)| *frequent == field).map_or(&self.all, |(_, indices)| indices)
+    }
+
+    pub(super) fn all(&self) -> &[usize] {
+        &self.all
+    }
+
+    pub(super) fn index_of(&self, name: &str) -> Option<usize> {
+        self.told.iter().position(|told| told.row.name == name)
+    }
+}
+
+fn is_told(row: &Row) -> bool {
+    let hidden = flags::NOT_READABLE | flags::DEPRECATED;
+    row.flags & hidden == 0 && !SILENT.contains(&row.name) && !row.name.starts_with("volume_")
+}
+
+/// The properties told of targets of that class: worked out once and kept for the life of the process, like the class itself.
+pub(super) fn keys(class: &'static Class) -> &'static Keys {
+    static KNOWN: LazyLock<Mutex<BTreeMap<usize, &'static Keys>>> = LazyLock::new(Mutex::default);
+    let mut known = KNOWN.lock().expect("nothing panics while it holds the lock");
+    let address = std::ptr::from_ref(class) as usize;
+    known.entry(address).or_insert_with(|| Box::leak(Box::new(Keys::of_class(class))))
+}

@@ -1,0 +1,216 @@
+//! What listeners were last told about each target, so that only differences become events.
+
+use std::collections::{BTreeMap, HashMap};
+use std::rc::Rc;
+
+use super::encode;
+use super::filter::Filters;
+use super::keys::{Keys, keys};
+use super::protocol::Protocol;
+use super::queue::{Class, Entry, Event, Source};
+use crate::scene::script_object::ScriptType;
+use crate::scene::{Data, Handle, Namespace, Object, ValueType};
+use crate::script::instance::Script;
+use crate::script::property::{Class as PropertyClass, Target, app_class, object_class, scene_class, script_class};
+use crate::script::sim::Sim;
+
+/// Those who listen, and how they are spoken to.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Audience {
+    pub protocol: Protocol,
+    /// What each wants to hear; None for everything.
+    pub filters: Vec<Option<Filters>>,
+}
+
+impl Audience {
+    fn wants(&self, source: Source, key: &str) -> bool {
+        self.filters.iter().any(|filters| match filters {
+            None => true,
+            Some(filters) => filters.keys_of(source).is_some_and(|keys| keys.contains(key)),
+        })
+    }
+}
+
+/// One target and what was last told about it.
+pub(super) struct Watched {
+    pub target: Target,
+    pub source: Source,
+    /// The parent of an object when it was last looked at: it matters when the object is gone.
+    pub parent: Option<Handle>,
+    pub meshes: Vec<Watched>,
+    protocol: Protocol,
+    keys: &'static Keys,
+    /// Nil where nobody wants to know.
+    told: Vec<Data>,
+    wanted: Vec<bool>,
+}
+
+impl Watched {
+    pub(super) fn app(audience: &Audience) -> Self {
+        Self::new(Target::App, Source::APP, app_class(), audience)
+    }
+
+    pub(super) fn scene(audience: &Audience) -> Self {
+        Self::new(Target::Scene, Source::SCENE, scene_class(), audience)
+    }
+
+    pub(super) fn script(script: &Rc<Script>, audience: &Audience) -> Self {
+        let class = match script.script_type {
+            ScriptType::Main => Class::Main,
+            ScriptType::Sandbox => Class::Sandbox,
+            _ => Class::AddOn,
+        };
+        let source = Source { class, handle: script.id, uid: script.id };
+        Self::new(Target::Script(Rc::clone(script)), source, script_class(), audience)
+    }
+
+    pub(super) fn object(object: &Object, audience: &Audience) -> Self {
+        let handle = object.handle();
+        let source = Source::object(handle, object.uid());
+        let watched = Self::new(Target::Object(handle), source, object_class(&object.kind), audience);
+        Self { parent: object.parent(), ..watched }
+    }
+
+    fn new(target: Target, source: Source, class: &'static PropertyClass, audience: &Audience) -> Self {
+        let keys = keys(class);
+        let wanted = keys.told.iter().map(|told| audience.wants(source, told.key(audience.protocol))).collect();
+        let told = vec![Data::Nil; keys.told.len()];
+        Self { target, source, parent: None, meshes: Vec::new(), protocol: audience.protocol, keys, told, wanted }
+    }
+
+    /// Takes the present values as told.
+    pub(super) fn refresh(&mut self, sim: &Rc<Sim>) {
+        for index in 0..self.told.len() {
+            if self.wanted[index] {
+                self.told[index] = self.read(sim, index).unwrap_or(Data::Nil);
+            }
+        }
+    }
+
+    /// Everything about the target, which counts as told from now on.
+    pub(super) fn describe(&mut self, sim: &Rc<Sim>) -> Vec<Entry> {
+        let mut entries = Vec::with_capacity(self.told.len());
+        for index in 0..self.told.len() {
+            let Some(value) = self.read(sim, index) else { continue };
+            entries.push(self.entry(index, &value));
+            if self.wanted[index] {
+                self.told[index] = value;
+            }
+        }
+        entries
+    }
+
+    /// One event for each of these properties that is not as it was told; pairs are told in one.
+    pub(super) fn differences(&mut self, sim: &Rc<Sim>, indices: &[usize]) -> Vec<Event> {
+        let mut events = Vec::new();
+        for &index in indices {
+            if !self.take_difference(sim, index) {
+                continue;
+            }
+            let mut told = vec![index];
+            if let Some(partner) = self.keys.told[index].partner {
+                self.take_difference(sim, partner);
+                told.push(partner);
+                told.sort_unstable();
+            }
+            let entries = told.iter().map(|&i| self.entry(i, &self.told[i])).collect();
+            events.push(Event::changed(self.source, entries));
+        }
+        events
+    }
+
+    /// Reads a property anew; tells whether it is different from what was told.
+    pub(super) fn take_difference(&mut self, sim: &Rc<Sim>, index: usize) -> bool {
+        if !self.wanted[index] {
+            return false;
+        }
+        let Some(value) = self.read(sim, index) else { return false };
+        let differs = self.told[index] != value;
+        self.told[index] = value;
+        differs
+    }
+
+    /// Whether the property is not wanted, or was told with this value.
+    pub(super) fn was_told(&self, name: &str, value: &Data) -> bool {
+        self.keys.index_of(name).is_none_or(|index| !self.wanted[index] || self.told[index] == *value)
+    }
+
+    pub(super) fn keys(&self) -> &'static Keys {
+        self.keys
+    }
+
+    /// The value of a property; None where there is nothing to tell.
+    fn read(&self, sim: &Rc<Sim>, index: usize) -> Option<Data> {
+        sim.read_row(&self.target, self.keys.told[index].row).ok()
+    }
+
+    fn entry(&self, index: usize, value: &Data) -> Entry {
+        let told = &self.keys.told[index];
+        let mut bytes = Vec::new();
+        match self.protocol {
+            Protocol::V3 => encode::value(Protocol::V3, told.row.ty, value, &mut bytes),
+            Protocol::V4 => encode::meant(told.renamed.1, told.row.ty, value, &mut bytes),
+        }
+        Entry { key: told.key(self.protocol).into(), value: bytes }
+    }
+
+    /// Custom data or signals of the target.
+    pub(super) fn stored(&self, sim: &Sim, namespace: Namespace) -> Vec<Entry> {
+        let entries = sim.with_named_values(&self.target, namespace, |values| {
+            let name = |tag| ValueType::split_tag(tag).1;
+            let entry = |name| Some(stored_entry(self.protocol, namespace, name, values.typed(name)?));
+            values.tags().map(name).filter_map(entry).collect()
+        });
+        entries.unwrap_or_default()
+    }
+}
+
+pub(super) fn stored_entry(
+    protocol: Protocol,
+    namespace: Namespace,
+    name: &str,
+    (ty, value): (ValueType, &Data),
+) -> Entry {
+    let mut bytes = Vec::new();
+    encode::value(protocol, ty, value, &mut bytes);
+    Entry { key: stored_key(namespace, name).into(), value: bytes }
+}
+
+pub(super) fn stored_key(namespace: Namespace, name: &str) -> String {
+    match namespace {
+        Namespace::CustomData => format!("customData.{name}"),
+        Namespace::Signal => format!("signal.{name}"),
+    }
+}
+
+/// All targets with what was told about them.
+pub(super) struct Watch {
+    pub audience: Audience,
+    pub app: Watched,
+    pub scene: Watched,
+    pub objects: HashMap<Handle, Watched>,
+    /// Scripts that are no objects.
+    pub scripts: BTreeMap<i64, Watched>,
+    pub named_params: BTreeMap<String, Vec<u8>>,
+    pub selection: Vec<Handle>,
+}
+
+impl Watch {
+    /// The world as it is, as if all of it had been told.
+    pub(super) fn new(sim: &Rc<Sim>, audience: Audience) -> Self {
+        let objects: Vec<Watched> = sim.scene.borrow().objects().map(|o| Watched::object(o, &audience)).collect();
+        let scripts: Vec<Watched> = sim.detached_scripts().iter().map(|s| Watched::script(s, &audience)).collect();
+        let mut watch = Self {
+            app: Watched::app(&audience),
+            scene: Watched::scene(&audience),
+            objects: objects.into_iter().filter_map(|w| Some((Handle::from_raw(w.source.handle)?, w))).collect(),
+            scripts: scripts.into_iter().map(|w| (w.source.handle, w)).collect(),
+            named_params: sim.app.borrow().named_params.clone(),
+            selection: sim.scene.borrow().selection().to_vec(),
+            audience,
+        };
+        let Watch { app, scene, objects, scripts, .. } = &mut watch;
+        [app, scene].into_iter().chain(objects.values_mut()).chain(scripts.values_mut()).for_each(|w| w.refresh(sim));
+        watch
+    }
+}
