@@ -3,6 +3,7 @@
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::colour::Component;
 use crate::scene::sensors::{OcTree, PointCloud, ProximitySensor, VisionSensor};
 use crate::scene::{Field, Handle, Kind, SceneError};
 use crate::script::Number;
@@ -97,9 +98,14 @@ fn create_point_cloud(
     #[default(0)] options: Number,
     #[default(4.0)] point_size: f64,
 ) -> Result<Handle> {
-    let _ = options;
     let max_points_in_cell = max_pt_cnt_per_voxel.0.max(1);
-    let cloud = PointCloud { max_cell_size: cell_size(max_voxel_size), max_points_in_cell, point_size };
+    let cloud = PointCloud {
+        max_cell_size: cell_size(max_voxel_size),
+        max_points_in_cell,
+        point_size: point_size as i64,
+        uses_octree: options.0 & 4 == 0,
+        display_fraction: 1.0,
+    };
     cx.sim().clone().add_object("pointCloud", Kind::PointCloud(Box::new(cloud)))
 }
 
@@ -122,7 +128,12 @@ type LightParameters = (i64, [f64; 3], [f64; 3], [f64; 3]);
 fn get_light_parameters(cx: &Cx, light_handle: Handle) -> Result<LightParameters> {
     let scene = cx.scene();
     let light = scene.object(light_handle)?.light()?;
-    Ok((i64::from(light.enabled), [0.0; 3], light.diffuse.map(f64::from), light.specular.map(f64::from)))
+    Ok((
+        i64::from(light.enabled),
+        [0.0; 3],
+        light.colour.ambient_diffuse.map(f64::from),
+        light.colour.specular.map(f64::from),
+    ))
 }
 
 /// Changes state and colours of a light.
@@ -145,8 +156,12 @@ fn set_light_parameters(
     Ok(cx.scene_mut().try_modify(light_handle, Field::Appearance, |object| {
         let light = object.light_mut()?;
         light.enabled = state.0 != 0;
-        light.diffuse = diffuse_part.map_or(light.diffuse, |colour| colour.map(|c| c as f32));
-        light.specular = specular_part.map_or(light.specular, |colour| colour.map(|c| c as f32));
+        let parts = [(Component::AmbientDiffuse, diffuse_part), (Component::Specular, specular_part)];
+        for (component, part) in parts {
+            if let Some(part) = part {
+                light.colour.set_component(component, &part);
+            }
+        }
         Ok(())
     })?)
 }

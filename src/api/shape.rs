@@ -218,14 +218,14 @@ fn viz(part: &Part) -> Data {
     let mut mesh = Mesh::default();
     mesh.append(&part.mesh, &part.pose);
     let looks = &part.appearance;
-    let colours = [looks.ambient_diffuse, looks.specular, looks.emission].as_flattened().to_vec();
+    let colours = [looks.colour.ambient_diffuse, looks.colour.specular, looks.colour.emission].as_flattened().to_vec();
     Data::map([
         ("vertices", mesh.flat_vertices().into()),
         ("indices", mesh.flat_indices().into()),
         ("normals", mesh.flat_normals().into()),
         ("colors", colours.into_iter().map(f64::from).collect::<Vec<f64>>().into()),
         ("shadingAngle", looks.shading_angle.into()),
-        ("transparency", (1.0 - f64::from(looks.opacity)).into()),
+        ("transparency", (1.0 - f64::from(looks.colour.opacity)).into()),
         ("options", (i64::from(looks.culling) | i64::from(looks.wireframe) << 1).into()),
     ])
 }

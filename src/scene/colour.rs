@@ -1,7 +1,29 @@
 //! Colours of objects, as scripts read and write them (SPEC-shapes section 8). Nothing is drawn.
 
 use super::shape::{Appearance, Shape};
-use super::{Field, Handle, Kind, Scene, SceneError, SceneResult};
+use super::{Field, Handle, Kind, Object, Scene, SceneError, SceneResult};
+
+/// A colour, in 32 bits as the original keeps it. Values are not limited.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Colour {
+    pub ambient_diffuse: [f32; 3],
+    pub specular: [f32; 3],
+    pub emission: [f32; 3],
+    pub auxiliary: [f32; 3],
+    /// 1 is opaque.
+    pub opacity: f32,
+}
+
+/// Which colour of an object is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ColourSlot {
+    /// Of everything but shapes.
+    Body,
+    /// What a light sheds, or the ray of a proximity sensor.
+    Emitted,
+    /// Of one mesh of a shape.
+    Mesh(usize),
+}
 
 /// A part of a colour (`sim.colorcomponent_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,19 +79,14 @@ impl ColourName {
     }
 }
 
-impl Appearance {
-    fn slot(&mut self, component: Component) -> &mut [f32] {
-        match component {
-            Component::AmbientDiffuse => &mut self.ambient_diffuse,
-            Component::Specular => &mut self.specular,
-            Component::Emission => &mut self.emission,
-            Component::Auxiliary => &mut self.auxiliary,
-            Component::Transparency => std::slice::from_mut(&mut self.opacity),
-        }
+impl Colour {
+    /// An opaque colour with the usual gloss.
+    pub const fn new(ambient_diffuse: [f32; 3]) -> Self {
+        Self { ambient_diffuse, specular: [0.25; 3], emission: [0.0; 3], auxiliary: [0.5, 0.0, 0.0], opacity: 1.0 }
     }
 
     /// The numbers of one component.
-    pub fn colour(&self, component: Component) -> &[f32] {
+    pub fn component(&self, component: Component) -> &[f32] {
         match component {
             Component::AmbientDiffuse => &self.ambient_diffuse,
             Component::Specular => &self.specular,
@@ -80,13 +97,69 @@ impl Appearance {
     }
 
     /// Sets one component; longer values are cut.
-    fn set_colour(&mut self, component: Component, value: &[f64]) {
-        write(self.slot(component), value);
+    pub fn set_component(&mut self, component: Component, value: &[f64]) {
+        let slot: &mut [f32] = match component {
+            Component::AmbientDiffuse => &mut self.ambient_diffuse,
+            Component::Specular => &mut self.specular,
+            Component::Emission => &mut self.emission,
+            Component::Auxiliary => &mut self.auxiliary,
+            Component::Transparency => std::slice::from_mut(&mut self.opacity),
+        };
+        slot.iter_mut().zip(value).for_each(|(number, new)| *number = *new as f32);
     }
 }
 
-fn write(slot: &mut [f32], value: &[f64]) {
-    slot.iter_mut().zip(value).for_each(|(number, new)| *number = *new as f32);
+impl Kind {
+    /// The colour of a new object; shapes have theirs in their meshes. Values as files of the original hold them.
+    pub(super) fn default_colour(&self) -> Colour {
+        Colour::new(match self {
+            Self::Joint(_) => [1.0, 0.3, 0.1],
+            Self::Graph(_) => [0.15; 3],
+            Self::Camera(_) => [1.0, 0.294, 0.294],
+            Self::Dummy(_) => [1.0, 0.8, 0.55],
+            Self::ProximitySensor(_) => [1.0, 0.217, 0.665],
+            Self::VisionSensor(_) => [0.05, 0.42, 1.0],
+            Self::ForceSensor(_) => [1.0, 0.111, 0.111],
+            Self::Light(_) => [0.7075, 0.7075, 0.9925],
+            Self::Shape(_) | Self::OcTree(_) | Self::PointCloud(_) | Self::Script(_) => [1.0; 3],
+        })
+    }
+}
+
+impl Object {
+    /// A colour of the object, if it has that one.
+    pub fn colour(&self, slot: ColourSlot) -> Option<&Colour> {
+        match (&self.kind, slot) {
+            (Kind::Shape(shape), ColourSlot::Mesh(index)) => Some(&shape.parts.get(index)?.appearance.colour),
+            (Kind::Light(light), ColourSlot::Emitted) => Some(&light.colour),
+            (Kind::ProximitySensor(sensor), ColourSlot::Emitted) => Some(&sensor.ray_colour),
+            (Kind::Shape(_), _) => None,
+            (_, ColourSlot::Body) => Some(&self.colour),
+            _ => None,
+        }
+    }
+
+    fn colour_mut(&mut self, slot: ColourSlot) -> Option<&mut Colour> {
+        match (&mut self.kind, slot) {
+            (Kind::Shape(shape), ColourSlot::Mesh(index)) => Some(&mut shape.parts.get_mut(index)?.appearance.colour),
+            (Kind::Light(light), ColourSlot::Emitted) => Some(&mut light.colour),
+            (Kind::ProximitySensor(sensor), ColourSlot::Emitted) => Some(&mut sensor.ray_colour),
+            (Kind::Shape(_), _) => None,
+            (_, ColourSlot::Body) => Some(&mut self.colour),
+            _ => None,
+        }
+    }
+
+    /// The colour scripts give a number: meshes of shapes in order; otherwise 0 the body, 1 what it emits.
+    fn colour_slot(&self, index: usize) -> Option<ColourSlot> {
+        let slot = match (&self.kind, index) {
+            (Kind::Shape(_), _) => ColourSlot::Mesh(index),
+            (_, 0) => ColourSlot::Body,
+            (_, 1) => ColourSlot::Emitted,
+            _ => return None,
+        };
+        self.colour(slot).is_some().then_some(slot)
+    }
 }
 
 fn read(slot: &[f32]) -> Vec<f64> {
@@ -98,8 +171,8 @@ impl Shape {
     pub fn colour(&self, name: &ColourName, component: Component) -> Option<Vec<f64>> {
         let mut colours = self.parts.iter().map(|part| &part.appearance).filter(|a| name.covers(a));
         match name {
-            ColourName::Compound => Some(colours.flat_map(|a| read(a.colour(component))).collect()),
-            _ => colours.next().map(|a| read(a.colour(component))),
+            ColourName::Compound => Some(colours.flat_map(|a| read(a.colour.component(component))).collect()),
+            _ => colours.next().map(|a| read(a.colour.component(component))),
         }
     }
 
@@ -115,7 +188,7 @@ impl Shape {
             return Err(SceneError::InvalidArgument);
         }
         for (i, part) in self.parts.iter_mut().enumerate().filter(|(_, part)| name.covers(&part.appearance)) {
-            part.appearance.set_colour(component, &value[i * each..]);
+            part.appearance.colour.set_component(component, &value[i * each..]);
         }
         Ok(())
     }
@@ -136,15 +209,11 @@ impl Scene {
         self.try_modify(handle, Field::Appearance, |object| object.shape_mut()?.set_colour(name, component, value))
     }
 
-    /// A colour of any object; None when it has no such one. Shapes have one per mesh, `index` tells which.
+    /// A colour of any object; None when it has no such one. Shapes have one per mesh, lights and proximity sensors two.
     pub fn object_colour(&self, handle: Handle, index: usize, component: Component) -> SceneResult<Option<Vec<f64>>> {
-        Ok(match &self.object(handle)?.kind {
-            Kind::Shape(shape) => shape.parts.get(index).map(|part| read(part.appearance.colour(component))),
-            Kind::Dummy(dummy) if component == Component::AmbientDiffuse => Some(read(&dummy.colour)),
-            Kind::Light(light) if component == Component::AmbientDiffuse => Some(read(&light.diffuse)),
-            Kind::Light(light) if component == Component::Specular => Some(read(&light.specular)),
-            _ => None,
-        })
+        let object = self.object(handle)?;
+        let colour = object.colour_slot(index).and_then(|slot| object.colour(slot));
+        Ok(colour.map(|colour| read(colour.component(component))))
     }
 
     /// Sets a colour of any object; false when it has no such one.
@@ -155,15 +224,27 @@ impl Scene {
         component: Component,
         value: &[f64],
     ) -> SceneResult<bool> {
-        if self.object_colour(handle, index, component)?.is_none() {
+        match self.object(handle)?.colour_slot(index) {
+            Some(slot) => self.set_colour(handle, slot, component, value),
+            None => Ok(false),
+        }
+    }
+
+    /// Sets one component of a colour; false when the object has no such colour.
+    pub fn set_colour(
+        &mut self,
+        handle: Handle,
+        slot: ColourSlot,
+        component: Component,
+        value: &[f64],
+    ) -> SceneResult<bool> {
+        if self.object(handle)?.colour(slot).is_none() {
             return Ok(false);
         }
-        self.modify(handle, Field::Appearance, |object| match &mut object.kind {
-            Kind::Shape(shape) => shape.parts[index].appearance.set_colour(component, value),
-            Kind::Dummy(dummy) => write(&mut dummy.colour, value),
-            Kind::Light(light) if component == Component::Specular => write(&mut light.specular, value),
-            Kind::Light(light) => write(&mut light.diffuse, value),
-            _ => {}
+        self.modify(handle, Field::Appearance, |object| {
+            if let Some(colour) = object.colour_mut(slot) {
+                colour.set_component(component, value);
+            }
         })?;
         Ok(true)
     }

@@ -115,6 +115,7 @@ fn start_anew(object: &mut Object, options: CopyOptions) {
             (shape.force, shape.torque) = ([0.0; 3], [0.0; 3]);
         }
         Kind::ForceSensor(sensor) => (sensor.raw, sensor.filtered, sensor.error) = (None, None, None),
+        Kind::ProximitySensor(sensor) => sensor.detection = None,
         _ => {}
     }
     if options.has(CopyOptions::NO_CUSTOM_DATA) {

@@ -18,14 +18,16 @@ pub struct Dummy {
     /// The partner; a link is always mutual.
     pub link: Option<Handle>,
     pub link_type: LinkType,
-    pub colour: [f32; 3],
+    /// Which dummies of other models this one takes when models are assembled; `*` for any.
+    pub assembly_tag: String,
     /// Parameters of physics engines, as they were set.
     pub engine_values: Kept,
 }
 
 impl Dummy {
     pub fn new(size: f64) -> Self {
-        Self { size, link: None, link_type: LinkType::Default, colour: [0.0; 3], engine_values: Kept::default() }
+        let assembly_tag = "*".to_owned();
+        Self { size, link: None, link_type: LinkType::Default, assembly_tag, engine_values: Kept::default() }
     }
 }
 

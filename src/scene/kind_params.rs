@@ -13,7 +13,7 @@ impl Scene {
             Kind::Joint(joint) => joint.int_param(id),
             Kind::Shape(shape) => shape.int_param(id),
             Kind::Dummy(dummy) if id == 10000 => Some(dummy.link_type as i64),
-            _ => None,
+            _ => self.object(handle)?.display_int_param(id),
         })
     }
 
@@ -26,7 +26,7 @@ impl Scene {
                 Some(link_type) => self.set_link_type(handle, link_type).map(|()| true),
                 None => Ok(false),
             },
-            _ => Ok(false),
+            _ => self.set_display_int(handle, id, value),
         }
     }
 
@@ -37,7 +37,7 @@ impl Scene {
             Kind::Joint(joint) => joint.float_param(id),
             Kind::Shape(shape) => shape.float_param(id),
             Kind::Dummy(dummy) if id == 10003 => Some(dummy.size),
-            _ => None,
+            _ => self.object(handle)?.display_float_param(id),
         })
     }
 
@@ -50,11 +50,13 @@ impl Scene {
                 Ok(known)
             }
             Kind::Shape(_) => self.set_shape_param(handle, id, |shape| shape.set_float_param(id, value)),
-            Kind::Dummy(_) if id == 10003 && value.is_finite() => self.try_modify(handle, Field::Other, |object| {
-                object.dummy_mut()?.size = value;
-                Ok(true)
-            }),
-            _ => Ok(false),
+            Kind::Dummy(_) if id == 10003 && value.is_finite() => {
+                self.try_modify(handle, Field::Appearance, |object| {
+                    object.dummy_mut()?.size = value;
+                    Ok(true)
+                })
+            }
+            _ => self.set_display_float(handle, id, value),
         }
     }
 

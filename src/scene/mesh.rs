@@ -164,6 +164,13 @@ impl Mesh {
         self.normals = corners.collect();
     }
 
+    /// Turns the inside out.
+    pub fn flip(&mut self) {
+        self.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+        self.normals.iter_mut().for_each(|normal| *normal = normal.map(|c| -c));
+        self.normals.as_chunks_mut::<3>().0.iter_mut().for_each(|corners| corners.swap(1, 2));
+    }
+
     /// Moves the mesh: `pose` is where its frame goes.
     pub fn transform(&mut self, pose: &Pose) {
         self.vertices.iter_mut().for_each(|v| *v = moved(pose, v));

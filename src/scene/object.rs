@@ -1,5 +1,6 @@
 //! A scene object: what all objects have, and what its type adds.
 
+use super::colour::Colour;
 use super::dummy::Dummy;
 use super::force_sensor::ForceSensor;
 use super::joint::Joint;
@@ -7,7 +8,7 @@ use super::restore::InitialState;
 use super::script_object::ScriptObject;
 use super::sensors::{Camera, Graph, Light, OcTree, PointCloud, ProximitySensor, VisionSensor};
 use super::shape::Shape;
-use super::{CustomData, Handle, Kept, Pose, SceneError, SceneResult, Uid};
+use super::{CustomData, Handle, Kept, Movement, Pose, SceneError, SceneResult, Uid};
 
 /// The value of [`Object::model_property`] of an object that is no model base.
 pub const NOT_MODEL: i64 = 0xf000;
@@ -34,6 +35,18 @@ pub struct Object {
     /// `sim.modelproperty_*` bits; [`NOT_MODEL`] for objects that are no model base.
     pub model_property: i64,
     pub layer: i64,
+    /// Of the body; shapes have theirs in their meshes.
+    pub colour: Colour,
+    /// How a hand may move it.
+    pub movement: Movement,
+    /// Number of the colour in the tree, -1 for none. Kept for scripts.
+    pub hierarchy_colour: i64,
+    /// Members of one collection whose numbers differ by one do not collide with each other.
+    pub self_collision_indicator: i64,
+    /// Stays with the object when it is saved.
+    pub persistent_uid: String,
+    /// Shared with its copies.
+    pub dna: Vec<u8>,
     pub size_factor: f64,
     /// Order among siblings for scripts (`sim.scriptexecorder_*`).
     pub priority: i64,
@@ -148,6 +161,12 @@ impl Object {
             special_property: kind.default_special_property(),
             model_property: NOT_MODEL,
             layer: kind.default_layer(),
+            colour: kind.default_colour(),
+            movement: Movement::default(),
+            hierarchy_colour: -1,
+            self_collision_indicator: 0,
+            persistent_uid: String::new(),
+            dna: Vec::new(),
             size_factor: 1.0,
             priority: 1,
             custom_data: CustomData::default(),

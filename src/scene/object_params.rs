@@ -4,6 +4,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::mesh_box::BoundingBox;
 use super::object::DETECTABLE;
 use super::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
 
@@ -21,18 +22,22 @@ impl Scene {
         let object = self.object(handle)?;
         match id {
             10 => Ok(Some(object.layer)),
+            27 => Ok(Some(object.self_collision_indicator)),
             36 => Ok(Some(i64::from(self.is_visible(handle)?))),
             37 => Ok(Some(object.uid())),
+            38 => Ok(Some(object.hierarchy_colour)),
             _ => self.kind_int_param(handle, id),
         }
     }
 
     /// Sets an integer parameter; false when the object has no such parameter, or only one to read.
     pub fn set_int_param(&mut self, handle: Handle, id: i64, value: i64) -> SceneResult<bool> {
-        if id != 10 {
-            return self.set_kind_int_param(handle, id, value);
+        match id {
+            10 => self.modify(handle, Field::Layer, |object| object.layer = value & 0xffff)?,
+            27 => self.modify(handle, Field::Kept, |object| object.self_collision_indicator = value)?,
+            38 => self.modify(handle, Field::Kept, |object| object.hierarchy_colour = value)?,
+            _ => return self.set_kind_int_param(handle, id, value),
         }
-        self.modify(handle, Field::Layer, |object| object.layer = value & 0xffff)?;
         Ok(true)
     }
 
@@ -43,7 +48,7 @@ impl Scene {
         Ok(match id {
             11..=13 => Some(measured.linear[(id - 11) as usize]),
             14 => Some(Vector3::from(measured.angular).norm()),
-            15..=20 => object.extent().map(|extent| corner(extent, id - 15)),
+            15..=20 => Some(corner(object.extent(), id - 15)),
             21..=26 => self.model_extent(handle)?.map(|extent| corner(extent, id - 21)),
             34 => Some(object.size_factor),
             _ => return self.kind_float_param(handle, id),
@@ -72,8 +77,10 @@ impl Scene {
         for handle in self.subtree(base) {
             let object = self.object(handle)?;
             let left_out = handle != base && object.object_property & NOT_SHOWN_INSIDE_MODEL != 0;
-            let Some(own) = object.extent().filter(|_| !left_out) else { continue };
-            let (low, high) = transformed(own, &(into_base * self.world_pose(handle)?));
+            if left_out {
+                continue;
+            }
+            let (low, high) = transformed(object.extent(), &(into_base * self.world_pose(handle)?));
             total = Some(total.map_or((low, high), |(l, h)| (l.inf(&low), h.sup(&high))));
         }
         Ok(total)
@@ -81,24 +88,33 @@ impl Scene {
 }
 
 impl Object {
-    /// Box around the object in its own frame; None for types that have no body.
-    fn extent(&self) -> Option<Extent> {
-        match &self.kind {
-            Kind::Shape(shape) => {
-                let half = Vector3::from(shape.bounding_box.size) * 0.5;
-                Some(transformed((-half, half), &shape.bounding_box.pose))
-            }
-            Kind::Dummy(dummy) => {
-                let half = Vector3::repeat(dummy.size * 0.5);
-                Some((-half, half))
-            }
+    /// Box around the object in its own frame: around the meshes of a shape, otherwise around what stands for the object in displays.
+    pub fn bounding_box(&self) -> BoundingBox {
+        let size = match &self.kind {
+            Kind::Shape(shape) => return shape.bounding_box,
             Kind::Joint(joint) => {
                 let [length, diameter] = joint.size;
-                let half = Vector3::new(diameter, diameter, length) * 0.5;
-                Some((-half, half))
+                [diameter, diameter, length]
             }
-            _ => None,
-        }
+            Kind::Dummy(dummy) => [dummy.size; 3],
+            Kind::Graph(graph) => [graph.size; 3],
+            Kind::Camera(camera) => [camera.size; 3],
+            Kind::ProximitySensor(sensor) => [sensor.size; 3],
+            Kind::VisionSensor(sensor) => [sensor.size; 3],
+            Kind::ForceSensor(sensor) => [sensor.size; 3],
+            Kind::Light(light) => [light.size; 3],
+            Kind::Script(script) => [script.size; 3],
+            // They are empty so far.
+            Kind::OcTree(_) | Kind::PointCloud(_) => [0.0; 3],
+        };
+        BoundingBox { size, pose: Pose::identity() }
+    }
+
+    /// Smallest and largest coordinates of the box along the axes of the object.
+    fn extent(&self) -> Extent {
+        let bounding_box = self.bounding_box();
+        let half = Vector3::from(bounding_box.size) * 0.5;
+        transformed((-half, half), &bounding_box.pose)
     }
 }
 

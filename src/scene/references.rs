@@ -11,6 +11,7 @@ impl Object {
             Kind::Joint(joint) => joint.dependency.is_some(),
             Kind::Dummy(dummy) => dummy.link.is_some(),
             Kind::Camera(camera) => camera.tracked.is_some(),
+            Kind::ProximitySensor(sensor) => sensor.detection.is_some(),
             _ => false,
         };
         by_kind || !self.references.is_empty() || !self.original_references.is_empty()
@@ -27,6 +28,9 @@ impl Object {
             Kind::Joint(joint) if joint.dependency.is_some_and(|d| gone(d.master)) => joint.dependency = None,
             Kind::Dummy(dummy) if dummy.link.is_some_and(gone) => dummy.link = None,
             Kind::Camera(camera) if camera.tracked.is_some_and(gone) => camera.tracked = None,
+            Kind::ProximitySensor(sensor) if sensor.detection.is_some_and(|found| gone(found.object)) => {
+                sensor.detection = None;
+            }
             _ => {}
         }
         let lists = self.references.iter_mut().chain(self.original_references.iter_mut());

@@ -141,6 +141,7 @@ impl InitialState {
                 (sensor.raw, sensor.filtered, sensor.error) = (None, None, None);
                 sensor.violations = 0;
             }
+            (Kind::ProximitySensor(sensor), _) => sensor.detection = None,
             _ => {}
         }
     }

@@ -7,6 +7,8 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use super::joint::{Control, Joint, JointType};
 use super::mesh::Mesh;
 use super::primitive::PrimitiveKind;
+use super::sensor_volume::Volume;
+use super::sensors::View;
 use super::shape::{Part, Shape};
 use super::{Field, Handle, Kind, Object, Scene, SceneError, SceneResult};
 
@@ -71,19 +73,40 @@ impl Object {
                 sensor.torque_threshold *= factor.powi(4);
                 sensor.samples.clear();
             }
-            Kind::ProximitySensor(sensor) => sensor.size *= factor,
+            Kind::ProximitySensor(sensor) => {
+                sensor.size *= factor;
+                sensor.volume.scale(factor);
+            }
             Kind::VisionSensor(sensor) => {
                 sensor.size *= factor;
-                sensor.ortho_size *= factor;
-                sensor.clipping = sensor.clipping.map(|distance| distance * factor);
+                sensor.view.scale(factor);
             }
-            Kind::Camera(camera) => camera.size *= factor,
+            Kind::Camera(camera) => {
+                camera.size *= factor;
+                camera.view.scale(factor);
+            }
             Kind::Light(light) => light.size *= factor,
             Kind::Graph(graph) => graph.size *= factor,
             Kind::OcTree(octree) => octree.voxel_size *= factor,
             Kind::PointCloud(cloud) => cloud.max_cell_size *= factor,
             Kind::Script(script) => script.size *= factor,
         }
+    }
+}
+
+impl Volume {
+    fn scale(&mut self, factor: f64) {
+        let pairs = self.x_size.iter_mut().chain(&mut self.y_size).chain(&mut self.radius);
+        pairs.for_each(|length| *length *= factor);
+        (self.offset, self.range) = (self.offset * factor, self.range * factor);
+        self.close_threshold *= factor;
+    }
+}
+
+impl View {
+    fn scale(&mut self, factor: f64) {
+        self.ortho_size *= factor;
+        self.clipping = self.clipping.map(|distance| distance * factor);
     }
 }
 

@@ -1,10 +1,12 @@
 //! Making sensors from the numbers scripts give.
 
-use super::sensors::{ProximitySensor, VisionSensor};
+use super::colour::Colour;
+use super::sensor_volume::{CONE, CYLINDER, DISC, PYRAMID, RAY, Volume};
+use super::sensors::{ProximitySensor, View, VisionSensor};
 
-/// Smallest sizes, m.
-const SMALLEST: f64 = 1e-5;
 const DISPLAY_SIZE: f64 = 0.01;
+/// What a ray looks like, as files of the original hold it.
+const RAY_GLOW: [f32; 3] = [1.0, 1.0, 0.0];
 
 impl ProximitySensor {
     /// The integers of a sensor nobody gave any: faces, subdivisions, samples.
@@ -16,29 +18,52 @@ impl ProximitySensor {
         let usual = usual_volume(volume_type)?;
         let mut floats = floats.unwrap_or(usual);
         let sizes = [1, 2, 3, 4, 5, 12];
-        sizes.into_iter().for_each(|i| floats[i] = floats[i].max(SMALLEST));
+        sizes.into_iter().for_each(|i| floats[i] = floats[i].max(Volume::SMALLEST));
+        let option = |bit: i64| options & bit != 0;
+        let limit = |bit: i64, at: usize| if option(bit) && floats[at].is_finite() { floats[at].max(0.0) } else { 0.0 };
         Some(Self {
             volume_type,
-            explicit: options & 1 != 0,
+            volume: volume_of(&integers, &floats, limit(256, 11)),
+            explicit: option(1),
             size: floats[12],
-            integers: integers.to_vec(),
-            floats: floats.to_vec(),
-            front_faces: options & 8 == 0,
-            back_faces: options & 16 == 0,
-            exact: options & 32 == 0,
+            show_volume: !option(4),
+            front_faces: !option(8),
+            back_faces: !option(16),
+            exact: !option(32),
+            randomized: option(512) && volume_type == RAY,
+            samples: integers[4].max(1),
+            required_samples: integers[5].max(1),
+            angle_threshold: limit(64, 10),
             entity: -1,
+            ray_colour: Colour { emission: RAY_GLOW, ..Colour::new([0.0; 3]) },
+            detection: None,
         })
+    }
+}
+
+fn volume_of(integers: &[i64; 8], floats: &[f64; 15], close_threshold: f64) -> Volume {
+    Volume {
+        offset: floats[0],
+        range: floats[1],
+        x_size: [floats[2], floats[4]],
+        y_size: [floats[3], floats[5]],
+        radius: [floats[7], floats[8]],
+        angle: floats[9],
+        inside_gap: floats[6],
+        faces: [integers[0], integers[1]],
+        subdivisions: [integers[2], integers[3]],
+        close_threshold,
     }
 }
 
 /// The numbers of a volume nobody described.
 fn usual_volume(volume_type: i64) -> Option<[f64; 15]> {
     let [offset, range, x, y, far_x, far_y, radius, far_radius, angle] = match volume_type {
-        30 => [0.1, 0.2, 0.2, 0.1, 0.4, 0.2, 0.0, 0.0, 0.0],
-        31 => [0.1, 0.2, 0.0, 0.0, 0.0, 0.0, 0.1, 0.2, 0.0],
-        32 => [0.0, 0.2, 0.0, 0.05, 0.0, 0.0, 0.1, 0.0, std::f64::consts::FRAC_PI_2],
-        33 => [0.0, 0.2, 0.0, 0.0, 0.0, 0.0, 0.1, 0.0, std::f64::consts::FRAC_PI_2],
-        34 => [0.1, 0.4, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        PYRAMID => [0.1, 0.2, 0.2, 0.1, 0.4, 0.2, 0.0, 0.0, 0.0],
+        CYLINDER => [0.1, 0.2, 0.0, 0.0, 0.0, 0.0, 0.1, 0.2, 0.0],
+        DISC => [0.0, 0.2, 0.0, 0.05, 0.0, 0.0, 0.1, 0.0, std::f64::consts::FRAC_PI_2],
+        CONE => [0.0, 0.2, 0.0, 0.0, 0.0, 0.0, 0.1, 0.0, std::f64::consts::FRAC_PI_2],
+        RAY => [0.1, 0.4, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         _ => return None,
     };
     let size = DISPLAY_SIZE;
@@ -46,21 +71,37 @@ fn usual_volume(volume_type: i64) -> Option<[f64; 15]> {
 }
 
 impl VisionSensor {
-    /// A sensor of the given resolution. `floats`: near and far plane, angle (rad) or size (m), display size, background colour.
+    /// A sensor of the given resolution. `floats`: near and far plane, angle (rad) or size (m), display size, two spare, background
+    /// colour, two spare.
     pub fn new(options: i64, resolution: [i64; 2], floats: Option<[f64; 11]>) -> Self {
-        let perspective = options & 2 != 0;
-        let view = if perspective { 60f64.to_radians() } else { 0.1 };
-        let usual = [0.01, 10.0, view, DISPLAY_SIZE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        let [near, far, view, size, ..] = floats.unwrap_or(usual);
-        Self {
-            explicit: options & 1 != 0,
+        let option = |bit: i64| options & bit != 0;
+        let perspective = option(2);
+        let extent = if perspective { 60f64.to_radians() } else { 0.1 };
+        let usual = [0.01, 10.0, extent, DISPLAY_SIZE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let [near, far, extent, size, _, _, red, green, blue, ..] = floats.unwrap_or(usual);
+        let mut view = View {
             perspective,
-            resolution: resolution.map(|pixels| pixels.clamp(1, 4096) as u32),
+            resolution: [1; 2],
             clipping: [near, far],
-            view_angle: if perspective { view } else { 60f64.to_radians() },
-            ortho_size: if perspective { 0.1 } else { view },
+            angle: if perspective { extent } else { 60f64.to_radians() },
+            ortho_size: if perspective { 0.1 } else { extent },
+            show_frustum: !option(4),
+        };
+        view.set_resolution(resolution);
+        Self {
+            view,
+            explicit: option(1),
             size,
             entity: -1,
+            render_mode: 0,
+            background: [red, green, blue].map(|part| part as f32),
+            background_from_environment: !option(128),
+            external_image: option(16),
+            ignore_image: false,
+            ignore_depth: false,
+            omit_statistics: false,
+            image: Vec::new(),
+            depth: Vec::new(),
         }
     }
 }
@@ -73,6 +114,6 @@ mod tests {
     fn unknown_volumes_are_refused() {
         assert_eq!(ProximitySensor::new(35, 0, ProximitySensor::INTEGERS, None), None);
         let ray = ProximitySensor::new(34, 1 | 8, ProximitySensor::INTEGERS, None).unwrap();
-        assert!(ray.explicit && !ray.front_faces && ray.back_faces && ray.exact);
+        assert!(ray.explicit && !ray.front_faces && ray.back_faces && ray.exact && ray.show_volume);
     }
 }

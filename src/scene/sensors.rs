@@ -1,51 +1,131 @@
 //! Objects that exist as data until their behaviour is built: sensors, cameras, lights, graphs, voxels.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::Handle;
+use super::colour::Colour;
+use super::sensor_volume::Volume;
 
 /// What a proximity sensor sees with.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProximitySensor {
     /// `sim.proximitysensor_*` sub-type number.
     pub volume_type: i64,
+    pub volume: Volume,
     pub explicit: bool,
+    /// Of the point that shows it, metres.
     pub size: f64,
-    pub integers: Vec<i64>,
-    pub floats: Vec<f64>,
+    pub show_volume: bool,
     pub front_faces: bool,
     pub back_faces: bool,
     pub exact: bool,
+    /// Rays only: several random directions per reading.
+    pub randomized: bool,
+    pub samples: i64,
+    /// How many of the samples have to detect something.
+    pub required_samples: i64,
+    /// Largest angle between ray and surface normal, rad; 0 for any.
+    pub angle_threshold: f64,
     pub entity: i64,
+    pub ray_colour: Colour,
+    /// What it found when it was handled last.
+    pub detection: Option<Detection>,
 }
 
+/// What a proximity sensor found, in its own frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Detection {
+    pub object: Handle,
+    pub point: [f64; 3],
+    pub normal: [f64; 3],
+}
+
+/// What cameras and vision sensors share: how they project.
 #[derive(Debug, Clone, PartialEq)]
-pub struct VisionSensor {
-    pub explicit: bool,
+pub struct View {
     pub perspective: bool,
     /// Width, height in pixels.
     pub resolution: [u32; 2],
     /// Near, far in metres.
     pub clipping: [f64; 2],
-    /// Radians.
-    pub view_angle: f64,
+    /// Along the larger side, radians.
+    pub angle: f64,
+    /// Extent of an orthographic view along its larger side, metres.
     pub ortho_size: f64,
+    pub show_frustum: bool,
+}
+
+impl View {
+    /// Largest resolution along an axis, pixels.
+    pub const MAX_RESOLUTION: i64 = 4096;
+
+    /// Half width, half height and distance of the picture `distance` metres ahead.
+    pub fn frustum_corner(&self, distance: f64) -> [f64; 3] {
+        let large = if self.perspective { distance * (self.angle / 2.0).tan() } else { self.ortho_size / 2.0 };
+        let [width, height] = self.resolution.map(f64::from);
+        let larger = width.max(height);
+        [large * width / larger, large * height / larger, distance]
+    }
+
+    /// Sets the resolution, within 1 and [`View::MAX_RESOLUTION`].
+    pub fn set_resolution(&mut self, resolution: [i64; 2]) {
+        self.resolution = resolution.map(|pixels| pixels.clamp(1, Self::MAX_RESOLUTION) as u32);
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct VisionSensor {
+    pub view: View,
+    pub explicit: bool,
     pub size: f64,
     pub entity: i64,
+    pub render_mode: i64,
+    /// Of the picture where there is nothing.
+    pub background: [f32; 3],
+    pub background_from_environment: bool,
+    /// The picture comes from scripts.
+    pub external_image: bool,
+    pub ignore_image: bool,
+    pub ignore_depth: bool,
+    /// The first packet of results is not computed.
+    pub omit_statistics: bool,
+    /// Red, green, blue of each pixel, from the lowest row; empty before there was a picture.
+    pub image: Vec<u8>,
+    /// Depth of each pixel, 0 near to 1 far; empty before there was a picture.
+    pub depth: Vec<f32>,
+}
+
+impl VisionSensor {
+    /// How many bytes a picture has.
+    pub fn image_len(&self) -> usize {
+        self.view.resolution.iter().map(|&pixels| pixels as usize).product::<usize>() * 3
+    }
+
+    /// Changes the resolution; an earlier picture is gone.
+    pub fn set_resolution(&mut self, resolution: [i64; 2]) {
+        self.view.set_resolution(resolution);
+        (self.image, self.depth) = (Vec::new(), Vec::new());
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
-    pub perspective: bool,
-    pub clipping: [f64; 2],
-    pub view_angle: f64,
-    pub ortho_size: f64,
+    pub view: View,
     pub size: f64,
     pub tracked: Option<Handle>,
 }
 
 impl Default for Camera {
     fn default() -> Self {
-        let (clipping, view_angle) = ([0.1, 1000.0], 60f64.to_radians());
-        Self { perspective: true, clipping, view_angle, ortho_size: 2.0, size: 0.05, tracked: None }
+        let view = View {
+            perspective: true,
+            resolution: [256, 256],
+            clipping: [0.05, 30.0],
+            angle: 60f64.to_radians(),
+            ortho_size: 2.0,
+            show_frustum: false,
+        };
+        Self { view, size: 0.05, tracked: None }
     }
 }
 
@@ -54,27 +134,53 @@ pub struct Light {
     /// 1 omnidirectional, 2 spot, 3 directional.
     pub light_type: i64,
     pub enabled: bool,
-    pub diffuse: [f32; 3],
-    pub specular: [f32; 3],
+    /// What it sheds.
+    pub colour: Colour,
     pub size: f64,
+    pub spot_exponent: i64,
+    /// Half the opening of a spot, rad.
+    pub spot_cutoff: f64,
+    /// Constant, linear, quadratic.
+    pub attenuation: [f64; 3],
+    pub casts_shadows: bool,
 }
 
 impl Light {
     pub fn new(light_type: i64) -> Self {
-        Self { light_type, enabled: true, diffuse: [0.5; 3], specular: [0.25; 3], size: 0.1 }
+        Self {
+            light_type,
+            enabled: true,
+            colour: Colour::new([0.5; 3]),
+            size: 0.1,
+            spot_exponent: 5,
+            spot_cutoff: FRAC_PI_2,
+            attenuation: [0.5, 0.0, 0.25],
+            casts_shadows: true,
+        }
     }
 }
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Graph {
     pub explicit: bool,
-    pub buffer_size: usize,
+    /// Samples kept of each stream.
+    pub buffer_size: i64,
+    /// New samples replace the oldest.
+    pub cyclic: bool,
     pub size: f64,
+    pub background: [f32; 3],
+    pub foreground: [f32; 3],
+}
+
+impl Graph {
+    /// Largest number of samples kept.
+    pub const MAX_BUFFER_SIZE: i64 = 1_000_000;
 }
 
 impl Default for Graph {
     fn default() -> Self {
-        Self { explicit: false, buffer_size: 1000, size: 0.05 }
+        let (background, foreground) = ([0.1; 3], [0.8; 3]);
+        Self { explicit: false, buffer_size: 1000, cyclic: true, size: 0.1, background, foreground }
     }
 }
 
@@ -88,5 +194,25 @@ pub struct OcTree {
 pub struct PointCloud {
     pub max_cell_size: f64,
     pub max_points_in_cell: i64,
-    pub point_size: f64,
+    /// Pixels.
+    pub point_size: i64,
+    /// Points are kept in a tree of cells.
+    pub uses_octree: bool,
+    /// How many of the points are shown, 0 to 1.
+    pub display_fraction: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_angle_is_that_of_the_larger_side() {
+        let mut view = Camera::default().view;
+        (view.angle, view.resolution) = (FRAC_PI_2, [200, 100]);
+        let [x, y, z] = view.frustum_corner(2.0);
+        assert!((x - 2.0).abs() < 1e-12 && (y - 1.0).abs() < 1e-12 && z == 2.0);
+        view.perspective = false;
+        assert_eq!(view.frustum_corner(7.0), [1.0, 0.5, 7.0]);
+    }
 }

@@ -2,11 +2,12 @@
 
 use std::rc::Rc;
 
+use super::colour::Colour;
 use super::mass::MassProperties;
 use super::mesh::Mesh;
 use super::mesh_box::BoundingBox;
 use super::primitive::PrimitiveKind;
-use super::{Kept, Pose};
+use super::{Kept, Pose, Uid};
 
 /// Frictions of the presets that hold things, in the order of [`Material::of_frictions`].
 const GRIP: [f64; 5] = [1.0, 0.5, 1.0, 1.0, 1.0];
@@ -32,6 +33,8 @@ pub struct Shape {
 /// One mesh of a shape.
 #[derive(Debug, Clone)]
 pub struct Part {
+    /// Its identifier once it is in a scene, 0 before.
+    pub uid: Uid,
     /// In the frame `pose`; shared between copies.
     pub mesh: Rc<Mesh>,
     /// Frame of the part in the shape frame.
@@ -41,6 +44,8 @@ pub struct Part {
     pub convex: bool,
     pub mass: MassProperties,
     pub appearance: Appearance,
+    /// Settings of its texture: there are no textures.
+    pub kept: Kept,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -147,16 +152,11 @@ impl Default for Material {
     }
 }
 
-/// Colours in 32 bits as the original keeps them.
+/// What a mesh looks like.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Appearance {
     pub colour_name: String,
-    pub ambient_diffuse: [f32; 3],
-    pub specular: [f32; 3],
-    pub emission: [f32; 3],
-    pub auxiliary: [f32; 3],
-    /// 1 is opaque.
-    pub opacity: f32,
+    pub colour: Colour,
     pub culling: bool,
     pub wireframe: bool,
     pub edges: bool,
@@ -169,11 +169,7 @@ impl Appearance {
     pub fn new(ambient_diffuse: [f32; 3]) -> Self {
         Self {
             colour_name: String::new(),
-            ambient_diffuse,
-            specular: [0.25; 3],
-            emission: [0.0; 3],
-            auxiliary: [0.5, 0.0, 0.0],
-            opacity: 1.0,
+            colour: Colour::new(ambient_diffuse),
             culling: false,
             wireframe: false,
             edges: true,

@@ -8,7 +8,7 @@ use super::mesh::Mesh;
 use super::mesh_box::BoundingBox;
 use super::primitive::{PrimitiveKind, bounding_size, clamp_size, has_pure_size, heightfield, tessellate};
 use super::shape::{Appearance, HeightField, Material, Part, Primitive, Shape, ShapeDynamics, Velocity};
-use super::{SceneError, SceneResult};
+use super::{Kept, SceneError, SceneResult};
 
 /// Density of new primitives, kg/m3.
 const DENSITY: f64 = 500.0;
@@ -62,12 +62,14 @@ impl Shape {
         let pure = !options.plain_mesh && !open_ends && has_pure_size(kind, size);
         let analytic = [size[0], size[1], if flat { FLAT } else { size[2] }];
         let part = Part {
+            uid: 0,
             mesh: Rc::new(mesh),
             pose: Pose::identity(),
             primitive: pure.then_some(Primitive { kind, size: analytic, heights: None }),
             convex: kind.is_convex() && !open_ends,
             mass: MassProperties::of_primitive_at_creation(kind, size, DENSITY),
             appearance,
+            kept: Kept::default(),
         };
         let bounding_box = BoundingBox { size: bounding_size(kind, size), pose: Pose::identity() };
         let mut shape = Self::simple(part, bounding_box);
@@ -130,12 +132,14 @@ impl Shape {
 
 fn mesh_part(mesh: Mesh, appearance: Appearance) -> Part {
     Part {
+        uid: 0,
         convex: mesh.is_convex(),
         mesh: Rc::new(mesh),
         pose: Pose::identity(),
         primitive: None,
         mass: MassProperties::default(),
         appearance,
+        kept: Kept::default(),
     }
 }
 

@@ -11,6 +11,13 @@ use super::primitive::PrimitiveKind;
 use super::shape::{Part, Shape};
 use super::{Field, Handle, Pose, Scene, SceneError, SceneResult};
 
+impl Part {
+    /// Turns the mesh inside out; what physics takes for a solid is the same.
+    pub fn flip_faces(&mut self) {
+        Rc::make_mut(&mut self.mesh).flip();
+    }
+}
+
 impl Shape {
     /// All meshes as one, in the shape frame.
     pub fn mesh(&self) -> Mesh {

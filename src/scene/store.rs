@@ -3,7 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::object::{Kind, Object};
-use super::{Change, Changes, CustomData, Field, Handle, Kept, SceneError, SceneResult, Settings, Uid};
+use super::shape::Part;
+use super::{Change, Changes, CustomData, Field, Handle, Kept, SceneError, SceneResult, Settings, Uid, identity};
+
+/// Identifiers of meshes begin above all handles and their flags: both name targets of properties.
+pub const FIRST_MESH_UID: Uid = 100_000_000;
 
 /// A scene: its objects and its settings.
 #[derive(Debug, Default)]
@@ -13,6 +17,8 @@ pub struct Scene {
     next_handle: u32,
     by_uid: BTreeMap<Uid, Handle>,
     next_uid: Uid,
+    /// Which shape each mesh belongs to.
+    meshes: BTreeMap<Uid, Handle>,
     sensors: usize,
     pub(super) roots: Vec<Handle>,
     pub(super) selection: Vec<Handle>,
@@ -51,6 +57,11 @@ impl Scene {
         let handle = self.free_handle()?;
         (object.handle, object.uid, object.parent) = (handle, self.new_uid(), None);
         object.children.clear();
+        object.persistent_uid = identity::persistent_uid(object.uid);
+        if object.dna.is_empty() {
+            object.dna = identity::dna(object.uid);
+        }
+        self.name_meshes(&mut object);
         let index = handle.index();
         if index >= self.slots.len() {
             self.slots.resize_with(index + 1, || None);
@@ -65,6 +76,31 @@ impl Scene {
         self.roots.push(handle);
         self.changes.note(Change::Added(handle));
         Ok(handle)
+    }
+
+    /// Gives the meshes of a shape that comes into the scene their identifiers.
+    fn name_meshes(&mut self, object: &mut Object) {
+        let Kind::Shape(shape) = &mut object.kind else { return };
+        for part in &mut shape.parts {
+            part.uid = FIRST_MESH_UID + self.new_uid();
+            self.meshes.insert(part.uid, object.handle);
+        }
+    }
+
+    /// The shape a mesh belongs to, and which of its meshes it is.
+    pub fn mesh(&self, uid: Uid) -> Option<(Handle, usize)> {
+        let handle = *self.meshes.get(&uid)?;
+        let index = self.object(handle).ok()?.shape().ok()?.parts.iter().position(|part| part.uid == uid)?;
+        Some((handle, index))
+    }
+
+    /// Changes one mesh of a shape as `field` says; None when there is no such mesh.
+    pub fn modify_mesh<R>(&mut self, uid: Uid, field: Field, change: impl FnOnce(&mut Part) -> R) -> Option<R> {
+        let (handle, index) = self.mesh(uid)?;
+        let Kind::Shape(shape) = &mut self.object_mut(handle).ok()?.kind else { return None };
+        let result = change(shape.parts.get_mut(index)?);
+        self.note_modified(handle, field);
+        Some(result)
     }
 
     /// Handles rise and start over at the end of the range, so that a freed one is not met again soon.
@@ -133,6 +169,11 @@ impl Scene {
             self.live -= 1;
             self.sensors -= usize::from(is_sensor(&object.kind));
             self.by_uid.remove(&object.uid());
+            if let Kind::Shape(shape) = &object.kind {
+                for part in &shape.parts {
+                    self.meshes.remove(&part.uid);
+                }
+            }
             self.changes.note(Change::Removed(handle, object.uid()));
         }
     }

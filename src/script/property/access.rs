@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::Target;
-use crate::scene::{Data, Handle, SceneError};
+use crate::scene::{Data, Handle, SceneError, SceneResult};
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::instance::Script;
 use crate::script::sim::Sim;
@@ -21,6 +21,27 @@ pub(crate) struct Accessor {
     pub write: Option<fn(&Subject<'_>, Data) -> ApiResult<()>>,
 }
 
+/// What a change of a property says that cannot be made.
+pub(super) fn refused() -> SceneError {
+    SceneError::Refused(ApiError::PropertyNotWritable.to_string())
+}
+
+/// A number as it is; infinite ones and NaN are refused.
+pub(super) fn finite(value: f64) -> SceneResult<f64> {
+    if value.is_finite() { Ok(value) } else { Err(refused()) }
+}
+
+/// A length, at least 10 micrometres; infinite ones and NaN are refused.
+pub(super) fn length(value: f64) -> SceneResult<f64> {
+    Ok(finite(value)?.max(1e-5))
+}
+
+/// The first two numbers; fewer, infinite ones and NaN are refused.
+pub(super) fn pair(values: &[f64]) -> SceneResult<[f64; 2]> {
+    let &[first, second] = values.first_chunk().ok_or_else(refused)?;
+    Ok([finite(first)?, finite(second)?])
+}
+
 impl Subject<'_> {
     /// The object the properties belong to.
     pub(super) fn object(&self) -> ApiResult<Handle> {
@@ -35,7 +56,7 @@ impl Subject<'_> {
         match self.target {
             Target::Script(script) => Ok(Rc::clone(script)),
             Target::Object(handle) => self.sim.script(handle.raw()).ok_or(ApiError::NoSuchScript),
-            Target::App | Target::Scene => Err(ApiError::NoSuchScript),
+            Target::App | Target::Scene | Target::Mesh(_) => Err(ApiError::NoSuchScript),
         }
     }
 }

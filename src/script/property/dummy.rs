@@ -1,12 +1,14 @@
-//! Properties of dummies, and colours.
+//! Properties of dummies.
 
-use super::Color;
-use super::access::{Accessor, object_properties, placed_properties};
+use super::Text;
+use super::access::{Accessor, length, object_properties, placed_properties};
 use crate::scene::dummy::LinkType;
 use crate::scene::{Handle, SceneError};
 
 pub(super) const DUMMY: &[Accessor] = object_properties! {
-    "dummySize": f64, |o| o.dummy()?.size, Appearance |o, size| o.dummy_mut()?.size = size;
+    "dummySize": f64, |o| o.dummy()?.size, Appearance |o, size| o.dummy_mut()?.size = length(size)?;
+    "assemblyTag": Text, |o| Text(o.dummy()?.assembly_tag.clone().into_bytes()),
+        Other |o, tag| o.dummy_mut()?.assembly_tag = String::from_utf8_lossy(&tag.0).into_owned();
 };
 
 pub(super) const LINK: &[Accessor] = placed_properties! {
@@ -16,9 +18,4 @@ pub(super) const LINK: &[Accessor] = placed_properties! {
         let link_type = LinkType::from_code(code).ok_or(SceneError::InvalidData)?;
         s.set_link_type(h, link_type)?;
     };
-};
-
-pub(super) const COLOUR: &[Accessor] = object_properties! {
-    "color.diffuse": Color, |o| Color::from_f32(o.dummy()?.colour),
-        Appearance |o, colour| o.dummy_mut()?.colour = colour.to_f32();
 };

@@ -1,20 +1,27 @@
 //! Typed properties: named, typed values of the application, the scene, objects and scripts (SPEC-5 5.3 to 5.6).
 //!
-//! Static properties stand in one table; custom data, signals and named parameters are created by scripts. Meshes and collections
-//! are no targets yet.
+//! Static properties stand in one table; custom data, signals and named parameters are created by scripts. Collections are no
+//! targets.
 
 mod access;
 mod app;
+mod colour;
+mod display;
 mod dummy;
+mod force_sensor;
 mod joint;
 mod kept;
+mod mesh;
+mod model_hash;
 mod object;
+mod proximity_sensor;
 mod scene;
 mod script;
 mod shape;
 mod stored;
 mod table;
 mod value;
+mod view;
 
 use std::rc::Rc;
 
@@ -22,13 +29,13 @@ use super::error::{ApiError, ApiResult};
 use super::instance::Script;
 use super::sim::Sim;
 use crate::scene::script_object::ScriptType;
-use crate::scene::{Data, Handle, Namespace, ValueType, special};
+use crate::scene::{Data, FIRST_MESH_UID, Handle, Namespace, Uid, ValueType, special};
 use access::Subject;
 use table::Source;
 
 pub(crate) use app::AppData;
 pub(crate) use stored::SignalOwners;
-pub(crate) use table::{Class, Row, app_class, flags, object_class, scene_class, script_class};
+pub(crate) use table::{Class, Row, app_class, flags, mesh_class, object_class, scene_class, script_class};
 pub use value::{Color, IntPair, Long, PoseArray, PropertyValue, Quaternion, Text, Vector2, Vector3};
 
 /// What has properties.
@@ -37,6 +44,8 @@ pub(crate) enum Target {
     App,
     Scene,
     Object(Handle),
+    /// A mesh of a shape.
+    Mesh(Uid),
     /// A script that is no object.
     Script(Rc<Script>),
 }
@@ -68,8 +77,9 @@ impl Sim {
             special::MAIN_SCRIPT => self.detached(ScriptType::Main),
             special::SANDBOX => self.detached(ScriptType::Sandbox),
             _ => match Handle::from_raw(raw).filter(|&handle| self.scene.borrow().exists(handle)) {
-                Some(handle) => return Ok(Target::Object(handle)),
-                None => self.script(raw),
+                Some(handle) if raw < FIRST_MESH_UID => return Ok(Target::Object(handle)),
+                _ if self.scene.borrow().mesh(raw).is_some() => return Ok(Target::Mesh(raw)),
+                _ => self.script(raw),
             },
         };
         let script = script.ok_or(ApiError::NoSuchTarget)?;
@@ -123,6 +133,7 @@ impl Sim {
             return Err(ApiError::PropertyNotWritable);
         }
         match &row.source {
+            Source::Works(_) if has_nan(&value) => Err(ApiError::PropertyNotWritable),
             Source::Works(accessor) => {
                 let write = accessor.write.ok_or(ApiError::PropertyNotWritable)?;
                 write(&Subject { sim: self, target }, value)
@@ -190,8 +201,18 @@ impl Sim {
             Target::App => app_class(),
             Target::Scene => scene_class(),
             Target::Script(_) => script_class(),
+            Target::Mesh(_) => mesh_class(),
             Target::Object(handle) => object_class(&self.scene.borrow().object(*handle)?.kind),
         })
+    }
+}
+
+/// Nothing that works can work with what is no number.
+fn has_nan(value: &Data) -> bool {
+    match value {
+        Data::Float(number) => number.is_nan(),
+        Data::Array(items) => items.iter().any(has_nan),
+        _ => false,
     }
 }
 
@@ -204,7 +225,7 @@ fn row_of(class: &'static Class, name: &str, ty: ValueType) -> ApiResult<&'stati
 /// Takes a name apart; the class of the target may stand in front of it.
 fn parse_name<'a>(class: &Class, target: &Target, name: &'a str) -> Name<'a> {
     let name = class.without_words(name);
-    let stored = !matches!(target, Target::Script(_));
+    let stored = !matches!(target, Target::Script(_) | Target::Mesh(_));
     if let (true, Some(rest)) = (stored, name.strip_prefix("customData.")) {
         return Name::Stored(Namespace::CustomData, rest);
     }

@@ -1,10 +1,11 @@
 //! Properties all objects have.
 
-use super::access::{Accessor, object_properties, placed_properties};
+use super::access::{Accessor, object_properties, pair, placed_properties, refused};
 use super::table::object_class;
 use super::{Long, PoseArray, Text, Vector3};
 use crate::scene::pose::{pose_from_array, pose_to_array};
-use crate::scene::{Handle, NOT_MODEL, Object, Scene, clean_alias};
+use crate::scene::{Handle, Movement, NOT_MODEL, Object, Scene, SceneResult, clean_alias};
+use crate::script::Bytes;
 
 /// Bits of the special properties.
 mod special {
@@ -21,6 +22,15 @@ pub(super) const OWN: &[Accessor] = object_properties! {
     "objectUid": Long, |o| Long(o.uid());
     "parentHandle": i64, |o| o.parent().map_or(-1, Handle::raw);
     "calcLinearVelocity": Vector3, |o| Vector3(o.measured.linear);
+    "calcRotationAxis": Vector3, |o| Vector3(rotation(o).0);
+    "calcRotationVelocity": f64, |o| rotation(o).1;
+    "hierarchyColor": i64, |o| o.hierarchy_colour, Kept |o, colour| o.hierarchy_colour = colour;
+    "collectionSelfCollisionIndicator": i64, |o| o.self_collision_indicator,
+        Kept |o, indicator| o.self_collision_indicator = indicator;
+    "persistentUid": String, |o| o.persistent_uid.clone();
+    "dna": Bytes, |o| Bytes(o.dna.clone());
+    "bbPose": PoseArray, |o| PoseArray(pose_to_array(&o.bounding_box().pose));
+    "bbHSize": Vector3, |o| Vector3(o.bounding_box().size.map(|extent| extent / 2.0));
     "dynamicFlag": i64, |o| o.dynamic_flag;
     "objectType": String, |o| object_class(&o.kind).word.to_owned();
 };
@@ -36,6 +46,7 @@ pub(super) const PLACED: &[Accessor] = placed_properties! {
         Long(parent.map_or(Ok(-1), |parent| scene.object(parent).map(Object::uid))?)
     };
     "modelInvisible": bool, |scene, h| scene.calculated_model_property(h) & NOT_VISIBLE != 0;
+    "visible": bool, |scene, h| scene.is_visible(h)?;
     "selected": bool, |scene, h| scene.selection().contains(&h), |scene, h, on| select(&mut scene, h, on);
 };
 
@@ -67,6 +78,14 @@ pub(super) const FLAGS: &[Accessor] = bits! {
     "model.notVisible": model_property ModelProperty 0x100;
     "model.scriptsNotActive": model_property ModelProperty 0x200;
     "model.notInParentBB": model_property ModelProperty 0x400;
+    "modelNotCollidable": model_property ModelProperty 0x1;
+    "modelNotMeasurable": model_property ModelProperty 0x2;
+    "modelNotDetectable": model_property ModelProperty 0x8;
+    "modelNotDynamic": model_property ModelProperty 0x20;
+    "modelNotRespondable": model_property ModelProperty 0x40;
+    "modelNotVisible": model_property ModelProperty 0x100;
+    "modelScriptsNotActive": model_property ModelProperty 0x200;
+    "modelNotInParentBB": model_property ModelProperty 0x400;
 };
 
 pub(super) const FLAG_SETS: &[Accessor] = object_properties! {
@@ -79,6 +98,71 @@ pub(super) const FLAG_SETS: &[Accessor] = object_properties! {
         }
     };
 };
+
+/// Rows of how a hand may move the object, under two names each.
+macro_rules! movement {
+    ($($name:literal $old:literal: $ty:ty, $field:ident, |$v:ident| $set:expr, |$read:ident| $get:expr;)*) => { object_properties! { $(
+        $name: $ty, |o| { let $read = o.movement.$field; $get }, Kept |o, $v| o.movement.$field = $set;
+        $old: $ty, |o| { let $read = o.movement.$field; $get }, Kept |o, $v| o.movement.$field = $set;
+    )* } };
+}
+
+pub(super) const MOVEMENT: &[Accessor] = movement! {
+    "mov.optionsFlags" "movementOptionsFlags": i64, options, |bits| bits, |bits| bits;
+    "mov.stepSize" "movementStepSize": Vec<f64>, step, |steps| pair(&steps)?, |steps| steps.to_vec();
+    "mov.relativity" "movementRelativity": Vec<i64>, relativity, |frames| int_pair(&frames)?, |frames| frames.to_vec();
+    "mov.preferredAxesFlags" "movementPreferredAxesFlags": i64, preferred_axes, |bits| bits & 0x3f, |bits| bits;
+};
+
+/// Rows of properties that are a bit of the movement; `!` for bits that forbid what the property allows.
+macro_rules! movement_bits {
+    ($($name:literal: $flags:ident $(! $forbid:path)? $(= $allow:literal)?;)*) => { object_properties! { $(
+        $name: bool, |o| movement_bits!(@get o.movement.$flags, $(! $forbid)? $(= $allow)?),
+            Kept |o, on| movement_bits!(@set o.movement.$flags, on, $(! $forbid)? $(= $allow)?);
+    )* } };
+    (@get $flags:expr, ! $forbid:path) => { $flags & $forbid == 0 };
+    (@get $flags:expr, = $allow:literal) => { $flags & $allow != 0 };
+    (@set $flags:expr, $on:ident, ! $forbid:path) => { set_bits(&mut $flags, $forbid, !$on) };
+    (@set $flags:expr, $on:ident, = $allow:literal) => { set_bits(&mut $flags, $allow, $on) };
+}
+
+pub(super) const MOVEMENT_FLAGS: &[Accessor] = movement_bits! {
+    "mov.translNoSim": options !Movement::TRANSLATION_STOPPED;
+    "mov.translInSim": options !Movement::TRANSLATION_RUNNING;
+    "mov.rotNoSim": options !Movement::ROTATION_STOPPED;
+    "mov.rotInSim": options !Movement::ROTATION_RUNNING;
+    "mov.altTransl": options !Movement::OTHER_TRANSLATIONS;
+    "mov.altRot": options !Movement::OTHER_ROTATIONS;
+    "mov.prefTranslX": preferred_axes = 0x1;
+    "mov.prefTranslY": preferred_axes = 0x2;
+    "mov.prefTranslZ": preferred_axes = 0x4;
+    "mov.prefRotX": preferred_axes = 0x8;
+    "mov.prefRotY": preferred_axes = 0x10;
+    "mov.prefRotZ": preferred_axes = 0x20;
+    "movTranslNoSim": options !Movement::TRANSLATION_STOPPED;
+    "movTranslInSim": options !Movement::TRANSLATION_RUNNING;
+    "movRotNoSim": options !Movement::ROTATION_STOPPED;
+    "movRotInSim": options !Movement::ROTATION_RUNNING;
+    "movAltTransl": options !Movement::OTHER_TRANSLATIONS;
+    "movAltRot": options !Movement::OTHER_ROTATIONS;
+    "movPrefTranslX": preferred_axes = 0x1;
+    "movPrefTranslY": preferred_axes = 0x2;
+    "movPrefTranslZ": preferred_axes = 0x4;
+    "movPrefRotX": preferred_axes = 0x8;
+    "movPrefRotY": preferred_axes = 0x10;
+    "movPrefRotZ": preferred_axes = 0x20;
+};
+
+/// Axis and speed (rad/s) of the measured rotation, world axes; zeros for an object that does not turn.
+fn rotation(object: &Object) -> ([f64; 3], f64) {
+    let angular = nalgebra::Vector3::from(object.measured.angular);
+    let axis = angular.try_normalize(0.0).unwrap_or_default();
+    (axis.into(), angular.norm())
+}
+
+fn int_pair(values: &[i64]) -> SceneResult<[i64; 2]> {
+    values.first_chunk().copied().ok_or_else(refused)
+}
 
 fn set_bits(flags: &mut i64, bits: i64, on: bool) {
     if on { *flags |= bits } else { *flags &= !bits }

@@ -1,9 +1,10 @@
 //! Properties of shapes.
 
-use super::access::{Accessor, object_properties};
-use super::{PoseArray, Quaternion, Vector3};
-use crate::scene::SceneError;
-use crate::scene::pose::{pose_to_array, quaternion_to_array};
+use super::access::{Accessor, finite, object_properties, refused};
+use super::{Color, Quaternion, Vector3};
+use crate::scene::Field;
+use crate::scene::pose::quaternion_to_array;
+use crate::script::error::ApiError;
 
 pub(super) const SHAPE: &[Accessor] = object_properties! {
     "respondableMask": i64, |o| o.shape()?.dynamics.respondable_mask,
@@ -21,23 +22,58 @@ pub(super) const SHAPE: &[Accessor] = object_properties! {
         Dynamics |o, v| o.shape_mut()?.dynamics.initial_velocity.angular = v.0;
     "dynLinearVelocity": Vector3, |o| Vector3(o.shape()?.velocity.linear);
     "dynAngularVelocity": Vector3, |o| Vector3(o.shape()?.velocity.angular);
+    "meshes": Vec<i64>, |o| o.shape()?.parts.iter().map(|part| part.uid).collect();
     "convex": bool, |o| o.shape()?.is_convex();
     "primitive": bool, |o| o.shape()?.is_pure();
     "compound": bool, |o| o.shape()?.is_compound();
 };
 
-pub(super) const BOX: &[Accessor] = object_properties! {
-    "bbPose": PoseArray, |o| PoseArray(pose_to_array(&o.shape()?.bounding_box.pose));
-    "bbHSize": Vector3, |o| Vector3(o.shape()?.bounding_box.size.map(|extent| extent / 2.0));
+/// A row that changes every mesh of a shape and cannot be read.
+macro_rules! applied {
+    ($($name:literal: $ty:ty, $field:ident |$part:ident, $v:ident| $set:expr;)*) => { &[ $(
+        Accessor {
+            name: $name,
+            read: None,
+            write: Some(|subject, data| {
+                let $v = <$ty as super::PropertyValue>::from_data(data).ok_or(ApiError::PropertyType)?;
+                let handle = subject.object()?;
+                subject.sim.scene.borrow_mut().try_modify(handle, Field::$field, |object| {
+                    object.shape_mut()?.parts.iter_mut().for_each(|$part| $set);
+                    Ok(())
+                })?;
+                Ok(())
+            }),
+        },
+    )* ] };
+}
+
+pub(super) const APPLY: &[Accessor] = applied! {
+    "applyCulling": bool, Appearance |part, on| part.appearance.culling = on;
+    "applyShadingAngle": f64, Appearance |part, angle| part.appearance.shading_angle = angle;
+    "applyShowEdges": bool, Appearance |part, on| part.appearance.edges = on;
+    "applyColor.diffuse": Color, Appearance |part, rgb| part.appearance.colour.ambient_diffuse = rgb.to_f32();
+    "applyColor.specular": Color, Appearance |part, rgb| part.appearance.colour.specular = rgb.to_f32();
+    "applyColor.emission": Color, Appearance |part, rgb| part.appearance.colour.emission = rgb.to_f32();
+    "applyColor.transparency": f64, Appearance |part, transparency| {
+        part.appearance.colour.opacity = 1.0 - transparency as f32
+    };
+    "flipFaces": bool, Geometry |part, on| if on { part.flip_faces() };
 };
 
 pub(super) const MASS: &[Accessor] = object_properties! {
-    "mass": f64, |o| o.shape()?.mass.mass, Dynamics |o, mass| o.shape_mut()?.mass.set_mass(mass);
-    "centerOfMass": Vector3, |o| Vector3(o.shape()?.mass.com), Dynamics |o, com| o.shape_mut()?.mass.com = com.0;
-    "inertia": Vec<f64>, |o| o.shape()?.mass.absolute_inertia().to_vec(), Dynamics |o, tensor| {
+    "mass": f64, |o| o.shape()?.mass.mass, Geometry |o, mass| {
+        o.shape_mut()?.mass.set_mass(finite(mass)?);
+        o.dynamics_reset = true;
+    };
+    "centerOfMass": Vector3, |o| Vector3(o.shape()?.mass.com), Geometry |o, com| {
+        o.shape_mut()?.mass.com = com.0;
+        o.dynamics_reset = true;
+    };
+    "inertia": Vec<f64>, |o| o.shape()?.mass.absolute_inertia().to_vec(), Geometry |o, tensor| {
         let mass = &mut o.shape_mut()?.mass;
-        let tensor: &[f64; 9] = tensor.first_chunk().ok_or(SceneError::InvalidData)?;
+        let tensor: &[f64; 9] = tensor.first_chunk().ok_or_else(refused)?;
         mass.set_absolute_inertia(tensor, &mass.com_matrix());
+        o.dynamics_reset = true;
     };
     "principalMomentOfInertia": Vec<f64>, |o| o.shape()?.mass.principal_axes().1.to_vec();
     "pmiQuaternion": Quaternion, |o| Quaternion(quaternion_to_array(&o.shape()?.mass.principal_axes().0));

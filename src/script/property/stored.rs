@@ -23,7 +23,7 @@ impl Target {
             Self::App => Some(Holder::App),
             Self::Scene => Some(Holder::Scene),
             Self::Object(handle) => Some(Holder::Object(*handle)),
-            Self::Script(_) => None,
+            Self::Script(_) | Self::Mesh(_) => None,
         }
     }
 }

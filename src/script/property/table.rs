@@ -5,7 +5,10 @@ use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use super::access::Accessor;
-use super::{app, dummy, joint, object, scene, script, shape};
+use super::{
+    app, colour, display, dummy, force_sensor, joint, mesh, model_hash, object, proximity_sensor, scene, script, shape,
+    view,
+};
 use crate::scene::engine_params::{EngineOwner, EngineParam, engine_params};
 use crate::scene::{Data, Kind, ValueType};
 
@@ -86,13 +89,14 @@ type ClassSpec =
 const APP: usize = 0;
 const SCENE: usize = 1;
 const SCRIPT: usize = 2;
+const MESH: usize = 15;
 
 /// The path of the part all objects have.
 const OBJECT_PATH: &str = "app.scene.object";
 const OBJECT: &[&str] = &["scene", "object"];
 
 #[rustfmt::skip]
-const CLASSES: [ClassSpec; 15] = [
+const CLASSES: [ClassSpec; 16] = [
     ("app", "app", &[], &["app"], &[]),
     ("scene", "app.scene", &["app"], &["dynamics", "simulation", "environment", "container"], &[]),
     ("script", "app.script", &["scene"], &["script"], &[]),
@@ -105,9 +109,10 @@ const CLASSES: [ClassSpec; 15] = [
     ("visionSensor", "app.scene.object.visionSensor", OBJECT, &["object"], &["colour", "viewable", "visionSensor"]),
     ("forceSensor", "app.scene.object.forceSensor", OBJECT, &["object"], &["colour", "forceSensor"]),
     ("light", "app.scene.object.light", OBJECT, &["object"], &["colour", "lightColour", "light"]),
-    ("ocTree", "app.scene.object.ocTree", OBJECT, &["object"], &["colour", "ocTree"]),
+    ("octree", "app.scene.object.octree", OBJECT, &["object"], &["colour", "ocTree"]),
     ("pointCloud", "app.scene.object.pointCloud", OBJECT, &["object"], &["colour", "pointCloud"]),
     ("script", "app.scene.object.script", OBJECT, &["object"], &["colour", "script", "scriptObject"]),
+    ("mesh", "app.scene.mesh", &["scene"], &["colour", "mesh"], &[]),
 ];
 
 pub(crate) fn app_class() -> &'static Class {
@@ -121,6 +126,11 @@ pub(crate) fn scene_class() -> &'static Class {
 /// The class of scripts that are no objects.
 pub(crate) fn script_class() -> &'static Class {
     class(SCRIPT)
+}
+
+/// The class of the meshes of shapes.
+pub(crate) fn mesh_class() -> &'static Class {
+    class(MESH)
 }
 
 /// The class of objects of that kind.
@@ -216,13 +226,30 @@ fn accessors() -> Accessors {
         ("object", object::PLACED),
         ("object", object::FLAGS),
         ("object", object::FLAG_SETS),
+        ("object", object::MOVEMENT),
+        ("object", object::MOVEMENT_FLAGS),
+        ("object", model_hash::MODEL_HASH),
         ("script", script::SCRIPT),
         ("scriptObject", script::SCRIPT_OBJECT),
         ("dummy", dummy::DUMMY),
         ("dummy", dummy::LINK),
-        ("colour", dummy::COLOUR),
+        ("colour", colour::COLOUR),
+        ("rayColour", colour::RAY_COLOUR),
+        ("lightColour", colour::LIGHT_COLOUR),
+        ("mesh", mesh::MESH),
+        ("proximitySensor", proximity_sensor::PROXIMITY_SENSOR),
+        ("volume", proximity_sensor::VOLUME),
+        ("viewable", view::VIEWABLE),
+        ("visionSensor", view::VISION_SENSOR),
+        ("camera", view::CAMERA),
+        ("camera", view::TRACKED),
+        ("forceSensor", force_sensor::FORCE_SENSOR),
+        ("light", display::LIGHT),
+        ("graph", display::GRAPH),
+        ("ocTree", display::OCTREE),
+        ("pointCloud", display::POINT_CLOUD),
         ("shape", shape::SHAPE),
-        ("object", shape::BOX),
+        ("shape", shape::APPLY),
         ("mass", shape::MASS),
         ("joint", joint::JOINT),
         ("joint", joint::CONTROL),
