@@ -217,6 +217,7 @@ impl Drop for Simulator {
     fn drop(&mut self) {
         self.sim.end_detached();
         self.sim.close_all();
+        self.sim.save_app_storage();
     }
 }
 

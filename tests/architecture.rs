@@ -19,6 +19,8 @@ const LAYERS: &[&[&str]] = &[
 const OWNERS: &[(&str, &str)] = &[
     ("rapier3d", "src/dynamics"),
     ("mlua_sys", "src/script/lua"),
+    ("directories", "src/script/app_storage"),
+    ("fs4", "src/script/app_storage"),
     ("clap", "src/cli"),
     ("indicatif", "src/cli"),
     ("ctrlc", "src/cli"),

@@ -15,7 +15,7 @@ fn run(code: &str, args: &[&str]) -> String {
     fs::write(&scene, code).expect("our own folder is writable");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
     // Functions that write files do so where nobody minds.
-    command.current_dir(folder.path()).arg("run").arg(&scene).args(args);
+    command.current_dir(folder.path()).arg("run").arg(&scene).args(["--data-dir", "."]).args(args);
     let output = run_bounded(&mut command).unwrap_or_else(|error| panic!("{error}\nof {code}"));
     assert!(!output.contains("panicked"), "{output}");
     output

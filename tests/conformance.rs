@@ -95,8 +95,14 @@ fn run_all(cases: &[PathBuf]) -> BTreeMap<String, String> {
 fn run_case(case: &Path) -> Option<String> {
     let text = fs::read_to_string(case).expect("a case is readable text");
     let header = |key: &str| text.lines().find_map(|l| l.strip_prefix(&format!("-- {key}: "))).map(str::trim);
+    let data = tempfile::tempdir().expect("a temporary folder can be made");
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.arg("run").arg(case).args(["--as", header("as").unwrap_or("sandbox"), "--empty", "--quiet"]);
+    command.arg("run").arg(case).arg("--data-dir").arg(data.path()).args([
+        "--as",
+        header("as").unwrap_or("sandbox"),
+        "--empty",
+        "--quiet",
+    ]);
     match header("passes").unwrap_or("0") {
         "0" => command.args(["--no-start", "--loops", header("loops").unwrap_or("20")]),
         passes => command.args(["--steps", passes]),

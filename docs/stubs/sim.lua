@@ -1753,7 +1753,7 @@ function sim.persistentDataRead(dataTag) end
 ---@deprecated properties
 ---@param dataTag string its name
 ---@param dataValue string|table empty: removes the tag
----@param options? integer 1: keep it in a file too, which is not built
+---@param options? integer 1: keep it in a file too, for other runs of the program
 function sim.persistentDataWrite(dataTag, dataValue, options) end
 
 --- Matrix of a pose.
@@ -1800,12 +1800,12 @@ function sim.readCustomDataBlockEx(handle, tag, options) end
 function sim.readCustomDataBlockTags(handle) end
 
 --- Tags of custom data in the order of their creation. Those of typed properties have a mark in front.
----@param objectHandle integer object, sim.handle_scene or sim.handle_app
+---@param objectHandle integer object, sim.handle_scene, sim.handle_app or sim.handle_appstorage
 ---@return string[] tags
 function sim.readCustomDataTags(objectHandle) end
 
 --- Custom data as a string.
----@param objectHandle integer object, sim.handle_scene or sim.handle_app
+---@param objectHandle integer object, sim.handle_scene, sim.handle_app or sim.handle_appstorage
 ---@param tagName string its name
 ---@return any data nil if there is none
 function sim.readCustomStringData(objectHandle, tagName) end
@@ -2848,7 +2848,7 @@ function sim.writeCustomDataBlock(handle, tag, data) end
 function sim.writeCustomDataBlockEx(handle, tag, data, options) end
 
 --- Writes custom data.
----@param objectHandle integer object, sim.handle_scene or sim.handle_app
+---@param objectHandle integer object, sim.handle_scene, sim.handle_app or sim.handle_appstorage
 ---@param tagName string its name; tags that begin or end with `@tmp` are not saved; an empty one removes all tags
 ---@param data? string|table empty or nil: removes the tag
 function sim.writeCustomStringData(objectHandle, tagName, data) end

@@ -1,13 +1,13 @@
-//! `sim.*`: custom data as bytes under a tag.
+//! `sim.*`: custom data as bytes under a tag, and data that outlives the program.
 //!
-//! The same store holds the properties below `customData.`: a buffer property and the tag of its name are one. The table and buffer
-//! forms are written in Lua.
+//! On objects and the scene the same store holds the properties below `customData.`: a buffer property and the tag of its name are one.
+//! The table and buffer forms are written in Lua.
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Edit, Namespace, SceneError, special};
-use crate::script::{Bytes, Number, Target};
+use super::{ApiFn, Cx, Result, functions};
+use crate::scene::{CustomData, Data, Edit, Namespace, SceneError, special};
+use crate::script::{Bytes, Number, Section, Target};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     write_custom_string_data,
@@ -18,17 +18,26 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_persistent_data_tags,
 ];
 
-/// Data of the application that outlives the program.
-const APP_STORAGE: i64 = -15;
+/// Option of `sim.persistentDataWrite`: the file too.
+const IN_FILE: i64 = 1;
 
-/// What custom data belongs to: an object, the scene or the application.
-fn owner(cx: &Cx, raw: i64) -> Result<Target> {
+/// What raw custom data belongs to.
+enum Owner {
+    /// An object or the scene.
+    Scene(Target),
+    /// The application, until the program ends.
+    App,
+    /// The application, beyond the end of the program.
+    AppStorage,
+}
+
+fn owner(cx: &Cx, raw: i64) -> Result<Owner> {
     match raw {
-        APP_STORAGE => Err(ApiError::NotImplemented("custom data of sim.handle_appstorage".into())),
-        special::APP => Ok(Target::App),
-        special::SCENE => Ok(Target::Scene),
+        special::APP_STORAGE => Ok(Owner::AppStorage),
+        special::APP => Ok(Owner::App),
+        special::SCENE => Ok(Owner::Scene(Target::Scene)),
         _ => match cx.sim().property_target(raw, cx.script()) {
-            Ok(target @ Target::Object(_)) => Ok(target),
+            Ok(target @ Target::Object(_)) => Ok(Owner::Scene(target)),
             _ => Err(SceneError::NoSuchObject.into()),
         },
     }
@@ -36,7 +45,7 @@ fn owner(cx: &Cx, raw: i64) -> Result<Target> {
 
 /// Writes custom data.
 ///
-/// @param objectHandle object, sim.handle_scene or sim.handle_app
+/// @param objectHandle object, sim.handle_scene, sim.handle_app or sim.handle_appstorage
 /// @param tagName its name; tags that begin or end with `@tmp` are not saved; an empty one removes all tags
 /// @param data empty or nil: removes the tag
 #[api("sim.writeCustomStringData")]
@@ -46,42 +55,70 @@ fn write_custom_string_data(
     tag_name: String,
     #[default(None)] data: Option<Bytes>,
 ) -> Result<()> {
-    let target = owner(cx, object_handle.0)?;
+    let owner = owner(cx, object_handle.0)?;
     let bytes = data.map(|data| data.0).filter(|bytes| !bytes.is_empty());
+    if matches!(owner, Owner::AppStorage) {
+        write_app_storage(cx, &tag_name, bytes);
+        return Ok(());
+    }
     let edit = if tag_name.is_empty() { Edit::Clear } else { Edit::Tag(&tag_name, bytes.map(Data::Buffer)) };
-    cx.sim().edit_named_values(&target, Namespace::CustomData, edit)?;
+    match owner {
+        Owner::Scene(target) => drop(cx.sim().edit_named_values(&target, Namespace::CustomData, edit)?),
+        Owner::App | Owner::AppStorage => drop(cx.sim().app.borrow_mut().raw_data.edit(edit)),
+    }
     Ok(())
+}
+
+fn write_app_storage(cx: &Cx, tag: &str, bytes: Option<Vec<u8>>) {
+    cx.sim().with_app_storage(|storage| {
+        if !tag.is_empty() {
+            return storage.set_block(Section::Tags, tag, bytes);
+        }
+        let tags: Vec<String> = storage.blocks(Section::Tags).keys().cloned().collect();
+        tags.iter().for_each(|tag| storage.set_block(Section::Tags, tag, None));
+    });
 }
 
 /// Custom data as a string.
 ///
-/// @param objectHandle object, sim.handle_scene or sim.handle_app
+/// @param objectHandle object, sim.handle_scene, sim.handle_app or sim.handle_appstorage
 /// @param tagName its name
 /// @return data nil if there is none
 #[api("sim.readCustomStringData")]
 fn read_custom_string_data(cx: &Cx, object_handle: Number, tag_name: String) -> Result<Data> {
-    let target = owner(cx, object_handle.0)?;
-    cx.sim().with_named_values(&target, Namespace::CustomData, |values| match values.get(&tag_name) {
-        Some(Data::Buffer(bytes)) => Data::Text(bytes.clone()),
-        _ => Data::Nil,
-    })
+    let read = |values: &CustomData| match values.get(&tag_name) {
+        Some(Data::Buffer(bytes)) => Some(bytes.clone()),
+        _ => None,
+    };
+    let bytes = match owner(cx, object_handle.0)? {
+        Owner::Scene(target) => cx.sim().with_named_values(&target, Namespace::CustomData, read)?,
+        Owner::App => read(&cx.sim().app.borrow().raw_data),
+        Owner::AppStorage => cx.sim().with_app_storage(|storage| storage.blocks(Section::Tags).get(&tag_name).cloned()),
+    };
+    Ok(bytes.map_or(Data::Nil, Data::Text))
 }
 
 /// Tags of custom data in the order of their creation. Those of typed properties have a mark in front.
 ///
-/// @param objectHandle object, sim.handle_scene or sim.handle_app
+/// @param objectHandle object, sim.handle_scene, sim.handle_app or sim.handle_appstorage
 /// @return tags
 #[api("sim.readCustomDataTags")]
 fn read_custom_data_tags(cx: &Cx, object_handle: Number) -> Result<Vec<String>> {
-    let target = owner(cx, object_handle.0)?;
-    cx.sim().with_named_values(&target, Namespace::CustomData, |values| values.tags().map(str::to_owned).collect())
+    let tags = |values: &CustomData| values.tags().map(str::to_owned).collect();
+    match owner(cx, object_handle.0)? {
+        Owner::Scene(target) => cx.sim().with_named_values(&target, Namespace::CustomData, tags),
+        Owner::App => Ok(tags(&cx.sim().app.borrow().raw_data)),
+        Owner::AppStorage => {
+            Ok(cx.sim().with_app_storage(|storage| storage.blocks(Section::Tags).keys().cloned().collect()))
+        }
+    }
 }
 
 /// Keeps data with the application, whatever scene is open.
 ///
 /// @param dataTag its name
 /// @param dataValue empty: removes the tag
-/// @param options 1: keep it in a file too, which is not built
+/// @param options 1: keep it in a file too, for other runs of the program
 #[api("sim.persistentDataWrite")]
 fn persistent_data_write(
     cx: &mut Cx,
@@ -89,15 +126,13 @@ fn persistent_data_write(
     data_value: Bytes,
     #[default(0)] options: Number,
 ) -> Result<()> {
-    if options.0 & 1 != 0 {
-        return Err(ApiError::NotImplemented("persistent data in a file".into()));
+    let value = Some(data_value.0).filter(|bytes| !bytes.is_empty());
+    if options.0 & IN_FILE == 0 {
+        cx.sim().app.borrow_mut().persistent_data.insert(data_tag, value);
+        return Ok(());
     }
-    let mut app = cx.sim().app.borrow_mut();
-    if data_value.0.is_empty() {
-        app.persistent_data.remove(&data_tag);
-    } else {
-        app.persistent_data.insert(data_tag, data_value.0);
-    }
+    cx.sim().app.borrow_mut().persistent_data.remove(&data_tag);
+    cx.sim().with_app_storage(|storage| storage.set_block(Section::Persistent, &data_tag, value));
     Ok(())
 }
 
@@ -107,7 +142,9 @@ fn persistent_data_write(
 /// @return dataValue nothing if there is none
 #[api("sim.persistentDataRead")]
 fn persistent_data_read(cx: &Cx, data_tag: String) -> Result<Option<Bytes>> {
-    Ok(cx.sim().app.borrow().persistent_data.get(&data_tag).cloned().map(Bytes))
+    let until_the_end = cx.sim().app.borrow().persistent_data.get(&data_tag).cloned();
+    let in_file = || cx.sim().with_app_storage(|storage| storage.blocks(Section::Persistent).get(&data_tag).cloned());
+    Ok(until_the_end.unwrap_or_else(in_file).map(Bytes))
 }
 
 /// Names of the data kept with the application.
@@ -115,5 +152,12 @@ fn persistent_data_read(cx: &Cx, data_tag: String) -> Result<Option<Bytes>> {
 /// @return tags in alphabetical order
 #[api("sim.getPersistentDataTags")]
 fn get_persistent_data_tags(cx: &Cx) -> Result<Vec<String>> {
-    Ok(cx.sim().app.borrow().persistent_data.keys().cloned().collect())
+    let mut tags = cx.sim().with_app_storage(|storage| storage.blocks(Section::Persistent).clone());
+    for (tag, value) in &cx.sim().app.borrow().persistent_data {
+        match value {
+            Some(bytes) => drop(tags.insert(tag.clone(), bytes.clone())),
+            None => drop(tags.remove(tag)),
+        }
+    }
+    Ok(tags.into_keys().collect())
 }

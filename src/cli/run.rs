@@ -57,6 +57,9 @@ pub(super) struct Args {
     /// A named parameter scripts can read (sim.getNamedStringParam); may be repeated
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = named_param)]
     define: Vec<(String, String)>,
+    /// Folder of the data scripts keep beyond a run [default: where the system keeps the user's]
+    #[arg(long, value_name = "FOLDER")]
+    data_dir: Option<PathBuf>,
     /// A Lua file to load as an add-on first; may be repeated
     #[arg(long, value_name = "FILE")]
     addon: Vec<PathBuf>,
@@ -149,6 +152,7 @@ impl Args {
     fn options(&self) -> Options {
         let mut options = Options {
             named_params: self.define.iter().cloned().collect(),
+            data_dir: self.data_dir.clone(),
             package_dirs: vec![folder_of(&self.scene)],
             ..Options::default()
         };

@@ -44,6 +44,7 @@ pub mod special {
     pub const APP: i64 = -13;
     pub const INVERSE: i64 = -14;
     pub const SCENE_OBJECT: i64 = -16;
+    pub const APP_STORAGE: i64 = -15;
     pub const SANDBOX: i64 = -17;
     pub const MESH: i64 = -18;
 }

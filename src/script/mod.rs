@@ -2,6 +2,7 @@
 //!
 //! What scripts can call stands in `crate::api`; this module knows how functions are bound, not which there are.
 
+mod app_storage;
 mod args;
 mod binding;
 mod callback;
@@ -50,6 +51,7 @@ pub use returns::{IntoScript, Nil, Results};
 pub use sim::Options;
 pub use threads::LevelChange;
 
+pub(crate) use app_storage::Section;
 pub(crate) use binding::{Bound, Member, Registry};
 pub(crate) use embedded::{Embedded, FILES};
 pub(crate) use env::Hook;

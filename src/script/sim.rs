@@ -29,6 +29,8 @@ pub struct Options {
     pub verbosity: i64,
     /// Named parameters scripts read.
     pub named_params: BTreeMap<String, String>,
+    /// Folder of the data scripts keep beyond the life of the program; None: where the system keeps the user's.
+    pub data_dir: Option<std::path::PathBuf>,
     /// Folders `require` looks into first.
     pub package_dirs: Vec<std::path::PathBuf>,
     /// Lua instructions a thread may run per millisecond of its time slice.
@@ -41,6 +43,7 @@ impl Default for Options {
             seed: Random::DEFAULT_SEED,
             verbosity: verbosity::SCRIPT_INFOS,
             named_params: BTreeMap::new(),
+            data_dir: None,
             package_dirs: Vec::new(),
             instructions_per_ms: 100_000,
         }
@@ -83,7 +86,7 @@ impl Sim {
     pub(crate) fn new(options: Options, registry: &'static Registry, console: Box<dyn Console>) -> Rc<Self> {
         Rc::new(Self {
             verbosity: Cell::new(options.verbosity),
-            app: RefCell::new(AppData::new(&options.named_params)),
+            app: RefCell::new(AppData::new(&options)),
             options,
             registry,
             scene: RefCell::new(Scene::new()),

@@ -33,6 +33,7 @@ impl Sim {
             }
         }
         self.remove_delayed();
+        self.save_app_storage();
     }
 
     /// Always, except in real-time mode.

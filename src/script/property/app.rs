@@ -3,19 +3,24 @@
 use std::collections::BTreeMap;
 
 use super::access::{Accessor, subject_properties};
-use crate::scene::{CustomData, Kept, Namespace};
+use crate::scene::{CustomData, Kept};
+use crate::script::app_storage::AppStorage;
 use crate::script::error::ApiError;
 use crate::script::events::Protocol;
+use crate::script::sim::Options;
 
 /// What scripts keep with the application.
 #[derive(Default)]
 pub(crate) struct AppData {
-    pub custom_data: CustomData,
+    /// What outlives the program, its custom data among it.
+    pub storage: AppStorage,
+    /// Raw custom data: it ends with the program.
+    pub raw_data: CustomData,
     pub signals: CustomData,
     /// Parameters of the command line, and what scripts added.
     pub named_params: BTreeMap<String, Vec<u8>>,
-    /// What scripts keep beyond the life of a scene.
-    pub persistent_data: BTreeMap<String, Vec<u8>>,
+    /// Persistent data that is not meant for the file; None hides what the file has.
+    pub persistent_data: BTreeMap<String, Option<Vec<u8>>>,
     /// Values that have no effect here, as scripts set them.
     pub kept: Kept,
     /// Numbered switches, numbers and texts that have no effect here, as scripts set them.
@@ -33,23 +38,10 @@ pub(crate) struct IdleParams {
 }
 
 impl AppData {
-    pub(crate) fn new(params: &BTreeMap<String, String>) -> Self {
-        let named_params = params.iter().map(|(name, value)| (name.clone(), value.as_bytes().to_vec())).collect();
-        Self { named_params, ..Self::default() }
-    }
-
-    pub(crate) fn named_values(&self, namespace: Namespace) -> &CustomData {
-        match namespace {
-            Namespace::CustomData => &self.custom_data,
-            Namespace::Signal => &self.signals,
-        }
-    }
-
-    pub(crate) fn named_values_mut(&mut self, namespace: Namespace) -> &mut CustomData {
-        match namespace {
-            Namespace::CustomData => &mut self.custom_data,
-            Namespace::Signal => &mut self.signals,
-        }
+    pub(crate) fn new(options: &Options) -> Self {
+        let params = options.named_params.iter();
+        let named_params = params.map(|(name, value)| (name.clone(), value.as_bytes().to_vec())).collect();
+        Self { named_params, storage: AppStorage::new(options.data_dir.as_deref()), ..Self::default() }
     }
 }
 

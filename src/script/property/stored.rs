@@ -41,7 +41,10 @@ impl Sim {
         read: impl FnOnce(&CustomData) -> R,
     ) -> ApiResult<R> {
         if holder == Holder::App {
-            return Ok(read(self.app.borrow().named_values(namespace)));
+            return Ok(match namespace {
+                Namespace::CustomData => self.with_app_storage(|storage| read(storage.custom_data())),
+                Namespace::Signal => read(&self.app.borrow().signals),
+            });
         }
         let scene = self.scene.borrow();
         Ok(read(scene.named_values(object_of(holder), namespace)?))
@@ -52,7 +55,10 @@ impl Sim {
         if holder != Holder::App {
             return Ok(self.scene.borrow_mut().edit_named_values(object_of(holder), namespace, edit)?);
         }
-        let edited = self.app.borrow_mut().named_values_mut(namespace).edit(edit);
+        let edited = match namespace {
+            Namespace::CustomData => self.with_app_storage(|storage| storage.edit_custom_data(edit)),
+            Namespace::Signal => self.app.borrow_mut().signals.edit(edit),
+        };
         self.scene.borrow_mut().changes_mut().note_stored(holder, namespace, &edited);
         Ok(edited.any())
     }
