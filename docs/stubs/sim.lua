@@ -980,18 +980,18 @@ function sim.getObjectSizeFactor(objectHandle) end
 ---@return integer property sim.objectspecialproperty_* bits
 function sim.getObjectSpecialProperty(objectHandle) end
 
---- Text parameter of an object. No object has one.
+--- Text parameter of an object.
 ---@param objectHandle integer the object
----@param ParameterId integer
----@return string|table parameter nothing
-function sim.getObjectStringParam(objectHandle, ParameterId) end
+---@param parameterId integer
+---@return string parameter nothing if the object has no such parameter
+function sim.getObjectStringParam(objectHandle, parameterId) end
 
---- Text parameter of an object. No object has one.
+--- Text parameter of an object.
 ---@deprecated properties
 ---@param objectHandle integer the object
----@param ParameterId integer
----@return string|table parameter nothing
-function sim.getObjectStringParameter(objectHandle, ParameterId) end
+---@param parameterId integer
+---@return string parameter nothing if the object has no such parameter
+function sim.getObjectStringParameter(objectHandle, parameterId) end
 
 --- Type of an object.
 ---@param objectHandle integer the object
@@ -2487,18 +2487,18 @@ function sim.setObjectSelection(objectHandles) end
 ---@param property integer sim.objectspecialproperty_* bits
 function sim.setObjectSpecialProperty(objectHandle, property) end
 
---- Sets a text parameter of an object. No object has one, so this does nothing.
+--- Sets a text parameter of an object. One it does not have, or that can only be read, is left alone.
 ---@param objectHandle integer the object
----@param ParameterId integer
----@param Parameter string|table
-function sim.setObjectStringParam(objectHandle, ParameterId, Parameter) end
+---@param parameterId integer
+---@param parameter string|table the text
+function sim.setObjectStringParam(objectHandle, parameterId, parameter) end
 
---- Sets a text parameter of an object. No object has one, so this does nothing.
+--- Sets a text parameter of an object. One it does not have, or that can only be read, is left alone.
 ---@deprecated properties
 ---@param objectHandle integer the object
----@param ParameterId integer
----@param Parameter string|table
-function sim.setObjectStringParameter(objectHandle, ParameterId, Parameter) end
+---@param parameterId integer
+---@param parameter string|table the text
+function sim.setObjectStringParameter(objectHandle, parameterId, parameter) end
 
 --- Sets a property; names below `customData.` and `signal.` are created.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self

@@ -6,7 +6,7 @@ use api_macro::api;
 
 use super::{ApiFn, Cx, Result, functions};
 use crate::scene::Handle;
-use crate::script::{Bytes, Number};
+use crate::script::{Bytes, Number, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_object_int32_param,
@@ -88,24 +88,23 @@ fn set_object_float_array_param(
     Ok(())
 }
 
-/// Text parameter of an object. No object has one.
+/// Text parameter of an object.
 ///
 /// @param objectHandle the object
-/// @param parameterID sim.objstringparam_*
-/// @return parameter nothing
+/// @param parameterID sim.objstringparam_*, sim.dummystringparam_*, sim.shapestringparam_*
+/// @return parameter nothing if the object has no such parameter
 #[api("sim.getObjectStringParam")]
-fn get_object_string_param(cx: &Cx, object_handle: Handle, _parameter_id: Number) -> Result<Option<Bytes>> {
-    cx.scene().object(object_handle)?;
-    Ok(None)
+fn get_object_string_param(cx: &Cx, object_handle: Handle, parameter_id: Number) -> Result<Option<Text>> {
+    Ok(cx.scene().string_param(object_handle, parameter_id.0)?.map(Text))
 }
 
-/// Sets a text parameter of an object. No object has one, so this does nothing.
+/// Sets a text parameter of an object. One it does not have, or that can only be read, is left alone.
 ///
 /// @param objectHandle the object
-/// @param parameterID sim.objstringparam_*
+/// @param parameterID sim.dummystringparam_*, sim.shapestringparam_*
 /// @param parameter the text
 #[api("sim.setObjectStringParam")]
-fn set_object_string_param(cx: &mut Cx, object_handle: Handle, _parameter_id: Number, _parameter: Bytes) -> Result<()> {
-    cx.scene().object(object_handle)?;
+fn set_object_string_param(cx: &mut Cx, object_handle: Handle, parameter_id: Number, parameter: Bytes) -> Result<()> {
+    cx.scene_mut().set_string_param(object_handle, parameter_id.0, &parameter.0)?;
     Ok(())
 }

@@ -3,7 +3,7 @@
 use api_macro::api;
 
 use super::{ApiFn, Cx, Result, functions};
-use crate::scene::{Field, Handle, Kind, NOT_MODEL, Object, SceneError};
+use crate::scene::{Field, Handle, Kind, Object, SceneError};
 use crate::script::{Handles, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -72,8 +72,8 @@ fn get_model_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
 /// @param property sim.modelproperty_* bits
 #[api("sim.setModelProperty")]
 fn set_model_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<()> {
-    let property = if property.0 & NOT_MODEL == NOT_MODEL { NOT_MODEL } else { property.0 };
-    Ok(cx.scene_mut().modify(object_handle, Field::ModelProperty, |object| object.model_property = property)?)
+    let change = |object: &mut Object| object.set_model_property(property.0);
+    Ok(cx.scene_mut().modify(object_handle, Field::ModelProperty, change)?)
 }
 
 fn explicit_flag(object: &mut Object) -> std::result::Result<&mut bool, SceneError> {

@@ -263,4 +263,17 @@ mod tests {
         assert_eq!(colour, Some(vec![2.0, -1.0, f64::from(0.2f32)]));
         assert_eq!(shape.colour(&ColourName::Named("nope".into()), Component::AmbientDiffuse), None);
     }
+
+    #[test]
+    fn a_light_has_two_colours() {
+        let mut scene = Scene::new();
+        let light = Kind::Light(Box::new(crate::scene::sensors::Light::new(3)));
+        let light = scene.add("l", light).unwrap();
+        assert_eq!(scene.set_object_colour(light, 1, Component::Specular, &[1.0, 0.0, 0.0]), Ok(true));
+        assert_eq!(scene.object_colour(light, 1, Component::Specular), Ok(Some(vec![1.0, 0.0, 0.0])));
+        assert_eq!(scene.object_colour(light, 0, Component::Specular), Ok(Some(vec![0.25; 3])));
+        assert_eq!(scene.object_colour(light, 2, Component::Specular), Ok(None));
+        let dummy = scene.add("d", Kind::Dummy(crate::scene::dummy::Dummy::new(0.1))).unwrap();
+        assert_eq!(scene.set_object_colour(dummy, 1, Component::Specular, &[0.0; 3]), Ok(false));
+    }
 }

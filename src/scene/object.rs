@@ -222,6 +222,11 @@ impl Object {
         self.model_property & NOT_MODEL != NOT_MODEL
     }
 
+    /// Makes it a model base with these flags, or with all of [`NOT_MODEL`] no model base.
+    pub fn set_model_property(&mut self, flags: i64) {
+        self.model_property = if flags & NOT_MODEL == NOT_MODEL { NOT_MODEL } else { flags };
+    }
+
     /// From the object's frame to the frame its children live in.
     pub fn intrinsic_pose(&self) -> Option<Pose> {
         match &self.kind {

@@ -1,6 +1,6 @@
 //! Numbered parameters that all objects have (`sim.objintparam_*`, `sim.objfloatparam_*`), visibility and boxes.
 //!
-//! What a type adds stands in `kind_params`; numbers of functionality that is gone (roles, permissions, DNA) are not known.
+//! What a type adds stands in `kind_params`; numbers of functionality that is gone (roles, permissions) are not known.
 
 use nalgebra::{Point3, Vector3};
 
@@ -12,6 +12,11 @@ use super::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
 const NOT_VISIBLE: i64 = 0x100;
 /// `sim.objectproperty_dontshowasinsidemodel`.
 const NOT_SHOWN_INSIDE_MODEL: i64 = 0x100;
+
+/// `sim.dummystringparam_assemblytag`.
+const ASSEMBLY_TAG: i64 = 10004;
+/// `sim.shapestringparam_colorname`.
+const COLOUR_NAME: i64 = 3032;
 
 /// Smallest and largest coordinates.
 type Extent = (Vector3<f64>, Vector3<f64>);
@@ -53,6 +58,38 @@ impl Scene {
             34 => Some(object.size_factor),
             _ => return self.kind_float_param(handle, id),
         })
+    }
+
+    /// The value of a text parameter; None when the object has no such parameter.
+    pub fn string_param(&self, handle: Handle, id: i64) -> SceneResult<Option<Vec<u8>>> {
+        let object = self.object(handle)?;
+        Ok(match (&object.kind, id) {
+            (_, 33) => Some(object.dna.clone()),
+            (_, 35) => Some(object.persistent_uid.clone().into_bytes()),
+            (Kind::Dummy(dummy), ASSEMBLY_TAG) => Some(dummy.assembly_tag.clone().into_bytes()),
+            (Kind::Shape(shape), COLOUR_NAME) => {
+                shape.parts.first().map(|part| part.appearance.colour_name.clone().into_bytes())
+            }
+            _ => None,
+        })
+    }
+
+    /// Sets a text parameter; false when the object has no such parameter, or only one to read.
+    pub fn set_string_param(&mut self, handle: Handle, id: i64, value: &[u8]) -> SceneResult<bool> {
+        let text = String::from_utf8_lossy(value).into_owned();
+        let field = match (&self.object(handle)?.kind, id) {
+            (Kind::Dummy(_), ASSEMBLY_TAG) => Field::Kept,
+            (Kind::Shape(_), COLOUR_NAME) => Field::Appearance,
+            _ => return Ok(false),
+        };
+        self.modify(handle, field, |object| match &mut object.kind {
+            Kind::Dummy(dummy) => dummy.assembly_tag = text,
+            Kind::Shape(shape) => {
+                shape.parts.iter_mut().for_each(|part| part.appearance.colour_name.clone_from(&text));
+            }
+            _ => {}
+        })?;
+        Ok(true)
     }
 
     /// Sets what an object can be to sensors and checks; any of the five detectable bits stands for all.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Field, Handle, Kind, Object, Scene, SceneResult};
+use super::{Change, Field, Handle, Kind, Object, Scene, SceneResult};
 
 impl Object {
     /// Whether other objects' handles are kept here, apart from parent and children.
@@ -61,7 +61,11 @@ impl Scene {
 
     /// Drops what other objects know of the doomed: links, dependencies, selection, collections, referenced handles.
     pub(super) fn forget_references(&mut self, doomed: &BTreeSet<Handle>) {
+        let selected = self.selection.len();
         self.selection.retain(|h| !doomed.contains(h));
+        if self.selection.len() < selected {
+            self.changes_mut().note(Change::Selection);
+        }
         for collection in self.collections.values_mut() {
             collection.items.retain(|item| item.base.is_none_or(|base| !doomed.contains(&base)));
         }

@@ -46,6 +46,18 @@ impl Scene {
                 let stored = !kept.contains(&handle);
                 object.initial = stored.then(|| Box::new(InitialState::of(object, parent, world)));
             }
+            self.hide_for_simulation(handle);
+        }
+    }
+
+    /// Takes objects off all layers that do not want to be seen while a simulation runs.
+    fn hide_for_simulation(&mut self, handle: Handle) {
+        let hidden = self.object(handle).is_ok_and(|object| {
+            object.object_property & HIDDEN_FOR_SIMULATION != 0 && object.layer != 0 && object.initial.is_some()
+        });
+        if hidden {
+            // The handle was just read.
+            let _ = self.modify(handle, Field::Layer, |object| object.layer = 0);
         }
     }
 
@@ -108,12 +120,11 @@ impl Scene {
         if self.object(handle)?.model_property != initial.model_property {
             self.modify(handle, Field::ModelProperty, |object| object.model_property = initial.model_property)?;
         }
-        self.modify(handle, Field::Other, |object| {
-            if object.object_property & HIDDEN_FOR_SIMULATION != 0 {
-                object.layer = initial.layer;
-            }
-            initial.restore_kind(&mut object.kind);
-        })
+        let object = self.object(handle)?;
+        if object.object_property & HIDDEN_FOR_SIMULATION != 0 && object.layer != initial.layer {
+            self.modify(handle, Field::Layer, |object| object.layer = initial.layer)?;
+        }
+        self.modify(handle, Field::Other, |object| initial.restore_kind(&mut object.kind))
     }
 }
 

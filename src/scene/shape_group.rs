@@ -85,6 +85,8 @@ impl Scene {
             object.model_property = source.model_property;
             object.layer = source.layer;
             object.size_factor = source.size_factor;
+            object.movement = source.movement;
+            object.kept = source.kept;
             object.custom_data = source.custom_data;
         })?;
         Ok(new)

@@ -18,7 +18,7 @@ mod special {
 const NOT_VISIBLE: i64 = 0x100;
 
 pub(super) const OWN: &[Accessor] = object_properties! {
-    "layer": i64, |o| o.layer, Layer |o, layer| o.layer = layer;
+    "layer": i64, |o| o.layer, Layer |o, layer| o.layer = layer & 0xffff;
     "objectUid": Long, |o| Long(o.uid());
     "parentHandle": i64, |o| o.parent().map_or(-1, Handle::raw);
     "calcLinearVelocity": Vector3, |o| Vector3(o.measured.linear);
@@ -90,8 +90,8 @@ pub(super) const FLAGS: &[Accessor] = bits! {
 
 pub(super) const FLAG_SETS: &[Accessor] = object_properties! {
     "objectPropertyFlags": i64, |o| o.object_property, ObjectProperty |o, flags| o.object_property = flags;
-    "model.propertyFlags": i64, |o| o.model_property, ModelProperty |o, flags| o.model_property = flags;
-    "modelPropertyFlags": i64, |o| o.model_property, ModelProperty |o, flags| o.model_property = flags;
+    "model.propertyFlags": i64, |o| o.model_property, ModelProperty |o, flags| o.set_model_property(flags);
+    "modelPropertyFlags": i64, |o| o.model_property, ModelProperty |o, flags| o.set_model_property(flags);
     "modelBase": bool, |o| o.is_model(), ModelProperty |o, on| {
         if on != o.is_model() {
             o.model_property = if on { 0 } else { NOT_MODEL };
