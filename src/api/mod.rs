@@ -16,6 +16,7 @@ mod global;
 mod joint;
 mod joint_motion;
 mod joint_shape_old;
+mod lfs;
 mod object_copy;
 mod object_param;
 mod object_pose;
@@ -43,7 +44,7 @@ mod user_param;
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use crate::script::{Bound, Embedded, FILES, Member, Registry, cbor};
+use crate::script::{Bound, Embedded, FILES, Member, Registry, cbor, file_lock};
 
 pub(crate) use crate::script::{ApiError, ApiResult as Result};
 pub use crate::script::{ApiFn, Args, Cx, FromScript, IntoScript, Param};
@@ -95,7 +96,14 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
 ];
 
 /// Native functions of Lua modules: `module.function` each. A Lua file of the module's name gets them as its second argument.
-const LIBRARIES: &[(&str, &[ApiFn])] = &[("org.conman.cbor", cbor::TREES), ("org.conman.cbor_c", cbor::HEADS)];
+const LIBRARIES: &[(&str, &[ApiFn])] = &[
+    ("org.conman.cbor", cbor::TREES),
+    ("org.conman.cbor_c", cbor::HEADS),
+    ("simCBOR", cbor::TREES),
+    ("lfs", lfs::FUNCTIONS),
+    ("lfs", file_lock::FUNCTIONS),
+    ("lfsx", lfs::FUNCTIONS),
+];
 
 /// `name<TAB>value` of every constant of `sim`.
 pub(crate) const CONSTANTS: &str = include_str!("constants.tsv");
@@ -164,7 +172,11 @@ fn embedded_modules() -> HashMap<&'static str, Embedded> {
 
 fn libraries() -> HashMap<&'static str, Vec<Bound>> {
     let bound = |function: &'static ApiFn| Bound { name: function.name, function, deprecation: None };
-    LIBRARIES.iter().map(|&(module, functions)| (module, functions.iter().map(bound).collect())).collect()
+    let mut libraries = HashMap::<_, Vec<_>>::new();
+    for &(module, functions) in LIBRARIES {
+        libraries.entry(module).or_default().extend(functions.iter().map(bound));
+    }
+    libraries
 }
 
 fn add_missing(registry: &mut Registry) {
@@ -180,9 +192,14 @@ fn add_constants(registry: &mut Registry) {
     }
 }
 
+/// Module name and text of all embedded Lua files.
+pub(crate) fn embedded_files() -> impl Iterator<Item = (&'static str, &'static str)> {
+    FILES.iter().copied()
+}
+
 /// Module name and text of the files in `lua/sim`.
 pub(crate) fn lua_files() -> impl Iterator<Item = (&'static str, &'static str)> {
-    FILES.iter().copied().filter(|(module, _)| module.starts_with("sim/"))
+    embedded_files().filter(|(module, _)| module.starts_with("sim/"))
 }
 
 /// Functions of the files in `lua/sim`: each is a line `function M.name(`.

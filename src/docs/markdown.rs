@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use super::modules;
 use super::row::Function;
 
 /// The pages of `docs/api`.
@@ -30,6 +31,8 @@ fn index(categories: &BTreeMap<&str, Vec<&Function>>) -> String {
         let links = functions.iter().map(|f| format!("[{}]({}.md#{})", f.name, slug(category), anchor(&f.name)));
         let _ = writeln!(out, "{}", links.collect::<Vec<_>>().join(" · "));
     }
+    let links = modules::names().map(|name| format!("[{name}](modules.md#{})", anchor(&name)));
+    let _ = write!(out, "\n## [Modules](modules.md)\n\n{}\n", links.collect::<Vec<_>>().join(" · "));
     out
 }
 

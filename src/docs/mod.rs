@@ -6,6 +6,7 @@
 mod coverage;
 mod lua_comments;
 mod markdown;
+mod modules;
 mod row;
 mod stubs;
 
@@ -48,6 +49,7 @@ pub fn functions() -> Vec<Function> {
 pub fn files() -> Vec<(String, String)> {
     let functions = functions();
     let mut files = markdown::pages(&functions);
+    files.push(("docs/api/modules.md".to_owned(), modules::page()));
     files.push((STUBS.to_owned(), stubs::text(&functions)));
     files.push(("docs/COVERAGE.md".to_owned(), coverage::text(&functions)));
     files

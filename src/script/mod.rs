@@ -19,6 +19,7 @@ mod embedded;
 mod env;
 mod error;
 mod events;
+pub(crate) mod file_lock;
 mod instance;
 mod joint_motion;
 mod lifecycle;

@@ -38,6 +38,9 @@ fn seed_random(stack: Stack<'_>, seed: u32) {
     stack.pop(1);
 }
 
+/// Modules that CoppeliaSim has not, or no longer: a script's own file of that name goes first.
+const LAST: &[&str] = &["cbor", "class", "json"];
+
 /// Puts the scene's folders first into `package.path`, and the embedded library into `package.searchers`.
 fn install_package(sim: &Sim, stack: Stack<'_>) {
     stack.push_global("package");
@@ -59,19 +62,35 @@ fn install_package(sim: &Sim, stack: Stack<'_>) {
     }
     push_callback(stack, search_embedded, std::ptr::null());
     stack.raw_set_index(-2, 2);
+    push_callback(stack, search_last, std::ptr::null());
+    stack.raw_set_index(-2, last + 2);
     stack.pop(2);
 }
 
-/// Finds the modules that come with the simulator.
+/// Finds the modules that come with the simulator and go before a script's own files.
 fn search_embedded(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
     let name = String::from_utf8_lossy(&stack.text(1).unwrap_or_default()).into_owned();
+    if LAST.contains(&&*name) {
+        return Ok(0);
+    }
     if name == "sim" || name == "sim-1" {
         push_callback(stack, return_sim, std::ptr::null());
         return Ok(1);
     }
+    find_module(stack, &name)
+}
+
+/// Finds the others.
+fn search_last(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+    let name = String::from_utf8_lossy(&stack.text(1).unwrap_or_default()).into_owned();
+    if LAST.contains(&&*name) { find_module(stack, &name) } else { Ok(0) }
+}
+
+/// Pushes the loader of a module, and the native functions for its file; or why there is none.
+fn find_module(stack: Stack<'_>, name: &str) -> Result<c_int, String> {
     let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
     let file = name.replace('.', "/");
-    let native = sim.registry.libraries.get(name.as_str());
+    let native = sim.registry.libraries.get(name);
     match native {
         _ if sim.registry.modules.contains_key(file.as_str()) && !file.starts_with("sim/") => {
             load_module(stack, &sim, &file).map_err(|error| error.text)?;

@@ -13,6 +13,9 @@ Only the first argument is needed. conv has functions by type: {BIN = function(v
 encoded by its __tocbor(value, sref, stref), else as an array (__len) or a map (__pairs). With a table as sref, a table met twice is
 written once; with one as stref, a string.
 
+Below it lies org.conman.cbor_c: encode(type, n, x) makes the head of an item (x: a float), decode(packet, pos) reads one and gives
+major type, info, number and next position.
+
 Plain values are encoded and decoded natively; the functions here are for all that needs Lua.
 ]]
 

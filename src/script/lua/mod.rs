@@ -14,6 +14,7 @@
 mod callback;
 mod calls;
 mod coroutine;
+mod file;
 mod stack;
 mod state;
 mod tables;
@@ -21,6 +22,7 @@ mod tables;
 pub(crate) use callback::{Callback, push_callback};
 pub(crate) use calls::{LuaError, MULTIPLE};
 pub(crate) use coroutine::{HOOK_INTERVAL, install_coroutine_hooks, set_count_hook};
+pub(crate) use file::FileLock;
 pub(crate) use stack::{Stack, Type};
 pub(crate) use state::State;
 pub(crate) use tables::FunctionRef;

@@ -25,9 +25,8 @@ print(pcall(cbor.decode, '\x01', -1))
 print(pcall(cbor.decode, '\x01', math.mininteger))
 for _, nonsense in ipairs{{}, true, print, 7} do print((pcall(cbor.decode, nonsense))) end
 print((pcall(cbor.decode)), (pcall(cbor.decode, '\x01', 'x')))
-local big = ('x'):rep(100000000)
+local big = ('\xff'):rep(100000000)
 print(#cbor.encode(big), #cbor.decode(cbor.encode(big)))
-print(select(4, cbor.pdecode('\x9a\x01\x31\x2d\x00' .. ('\xf6'):rep(20000000))))
 local holes = {1}
 for i = 1, 62 do holes[1 << i] = 1 end
 print((pcall(cbor.encode, holes)))

@@ -1,0 +1,5 @@
+--[[
+The name some scripts load middleclass by.
+]]
+
+return require 'middleclass'

@@ -1,0 +1,79 @@
+//! The page of the Lua modules: what stands at the head of each file, and the functions in it that have a comment.
+
+use std::fmt::Write as _;
+
+use crate::api;
+
+/// Files of the library for its own use.
+const INNER: &[&str] = &[
+    "base",
+    "console",
+    "deprecate",
+    "display",
+    "json_scanner",
+    "main",
+    "modload",
+    "org/conman/cbor_tags",
+    "quaternion",
+    "trajectory",
+];
+
+/// `docs/api/modules.md`.
+pub(super) fn page() -> String {
+    let mut out = "# Modules\n\n[All categories](README.md)\n\nWhat `require` finds beside `sim`. Generated from the heads of the files in \
+                   `lua`.\n"
+        .to_owned();
+    for (name, source) in public() {
+        let _ = write!(out, "\n## {}\n\n{}", name.replace('/', "."), section(source));
+    }
+    out
+}
+
+/// The names of the modules.
+pub(super) fn names() -> impl Iterator<Item = String> {
+    public().map(|(name, _)| name.replace('/', "."))
+}
+
+fn public() -> impl Iterator<Item = (&'static str, &'static str)> {
+    api::embedded_files().filter(|(name, _)| !name.starts_with("sim/") && !INNER.contains(name))
+}
+
+/// The first paragraph of the head as text, the rest as it stands, and the list of functions.
+fn section(source: &str) -> String {
+    let head = source.strip_prefix("--[[").and_then(|rest| rest.split_once("]]")).map_or("", |(head, _)| head).trim();
+    let (summary, rest) = head.split_once("\n\n").unwrap_or((head, ""));
+    let mut out = format!("{summary}\n");
+    if !rest.is_empty() {
+        let _ = write!(out, "\n```text\n{rest}\n```\n");
+    }
+    let functions: String = functions(source).collect();
+    if !functions.is_empty() {
+        let _ = write!(out, "\n{functions}");
+    }
+    out
+}
+
+/// A line for each function below a comment of three dashes.
+fn functions(source: &str) -> impl Iterator<Item = String> {
+    let lines: Vec<&str> = source.lines().collect();
+    let starts: Vec<usize> =
+        (0..lines.len()).filter(|&i| lines[i].starts_with("---") && !lines[i].starts_with("----")).collect();
+    starts.into_iter().filter_map(move |start| {
+        let end = (start..lines.len()).find(|&i| !lines[i].starts_with("--"))?;
+        let declaration = lines[end].strip_prefix("function ")?.split_once(')')?.0;
+        let text: Vec<&str> = lines[start..end].iter().map(|line| line.trim_start_matches('-').trim()).collect();
+        let name = declaration.split_once(['.', ':']).map_or(declaration, |(_, name)| name);
+        Some(format!("- `{name})`: {}\n", text.join(" ")))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::section;
+
+    #[test]
+    fn heads_and_comments_make_a_section() {
+        let source = "--[[\nAdds.\n\nNot more.\n]]\nlocal M = {}\n\n--- The sum\n-- of both.\nfunction M.add(a, b) return a + b end\n";
+        assert_eq!(section(source), "Adds.\n\n```text\nNot more.\n```\n\n- `add(a, b)`: The sum of both.\n");
+    }
+}

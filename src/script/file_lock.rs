@@ -1,0 +1,44 @@
+//! Locks on files that scripts have opened with `io.open`, for the Lua module `lfs`.
+//!
+//! They are advisory, hold for the whole file, and end when it is closed.
+
+use std::ffi::c_int;
+
+use super::args::Args;
+use super::binding::{ApiFn, Param};
+use super::error::{ApiError, ApiResult};
+use super::lua::FileLock;
+
+pub(crate) const FUNCTIONS: &[ApiFn] = &[ApiFn {
+    name: "lfs.lock",
+    doc: "Locks an open file (`r`: shared, `w`: alone) or releases it (`u`), without waiting.",
+    params: &[Param { name: "file", ty: "any", default: None }, Param { name: "mode", ty: "string", default: None }],
+    returns: &[],
+    mutates: false,
+    call: lock,
+}];
+
+fn lock(args: &mut Args<'_>) -> ApiResult<c_int> {
+    args.require(2)?;
+    let stack = args.stack();
+    let lock = match stack.bytes(2) {
+        Some([b'r', ..]) => FileLock::Shared,
+        Some([b'w', ..]) => FileLock::Exclusive,
+        Some([b'u', ..]) => FileLock::Released,
+        _ => return Err(ApiError::Other("invalid mode.".into())),
+    };
+    let result = stack.lock_file(1, lock).ok_or_else(|| ApiError::Other("not an open file.".into()))?;
+    match result {
+        Ok(()) => {
+            stack.push_bool(true);
+            Ok(1)
+        }
+        Err(error) => {
+            let text = error.to_string();
+            stack.push_nil();
+            stack.push_bytes(text.split(" (os error").next().unwrap_or_default().as_bytes());
+            stack.push_int(error.raw_os_error().unwrap_or_default().into());
+            Ok(3)
+        }
+    }
+}
