@@ -24,6 +24,7 @@ mod object_property;
 mod object_tree;
 mod packing;
 mod param;
+mod param_property;
 mod pose_maths;
 mod property;
 mod ruckig;

@@ -2,11 +2,15 @@
 //!
 //! Parameters of the user interface are kept and read back, and have no other effect. Numbers nobody knows are refused.
 
+use std::ffi::OsStr;
+use std::path::Path;
+
 use api_macro::api;
 
+use super::param_property::{self, FLOATS, INTEGERS, LEVELS, LIGHT, SWITCHES, TEXTS};
 use super::{ApiFn, Cx, Result, functions};
 use crate::scene::{SceneError, pose};
-use crate::script::{Bytes, Number, PropertyValue, Target, Text, verbosity};
+use crate::script::{Bytes, Color, Number, PropertyValue, Target, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_int32_param,
@@ -24,33 +28,24 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     handle_ext_calls,
 ];
 
-/// `sim.intparam_*` with a meaning here.
+/// `sim.intparam_*` that are no property.
 mod int {
     pub const PROGRAM_VERSION: i64 = 1;
     pub const DYNAMIC_ENGINE: i64 = 8;
-    pub const VISIBLE_LAYERS: i64 = 11;
     pub const EDIT_MODE_TYPE: i64 = 14;
-    pub const PLATFORM: i64 = 19;
     pub const PROGRAM_REVISION: i64 = 30;
-    pub const PROGRAM_FULL_VERSION: i64 = 39;
-    pub const VERBOSITY: i64 = 40;
-    pub const STATUSBAR_VERBOSITY: i64 = 41;
-    pub const PROCESS_ID: i64 = 52;
     pub const LAST: i64 = 53;
 }
 
 /// The release whose behaviour scripts meet: 4.10.0 rev. 0.
 const PROGRAM_VERSION: i64 = 41_000;
 
-/// `sim.boolparam_*` with a meaning here, and those that read true.
+/// `sim.boolparam_*` that are no property and have a meaning here, or read true.
 mod switch {
     pub const HANDLING: std::ops::RangeInclusive<i64> = 2..=5;
-    pub const DYNAMICS_HANDLING: i64 = 6;
     pub const SENSOR_HANDLING: std::ops::RangeInclusive<i64> = 9..=10;
-    pub const REALTIME: i64 = 25;
     pub const HEADLESS: i64 = 34;
     pub const EXIT_REQUEST: i64 = 41;
-    pub const CAN_SAVE: i64 = 60;
     pub const USING_SCRIPT_OBJECTS: i64 = 61;
     pub const LAST: i64 = 61;
 }
@@ -58,35 +53,27 @@ mod switch {
 /// `sim.floatparam_*`.
 mod float {
     pub const RANDOM: i64 = 0;
-    pub const TIME_STEP: i64 = 1;
-    pub const DYNAMIC_STEP: i64 = 3;
-    pub const PHYSICS_STEP: i64 = 5;
     pub const LAST: i64 = 7;
 }
 
 /// `sim.arrayparam_*`.
 mod array {
     pub const GRAVITY: i64 = 0;
+    pub const AMBIENT_LIGHT: i64 = 5;
     pub const RANDOM_EULER: i64 = 6;
     pub const LAST: i64 = 8;
 }
 
 /// `sim.stringparam_*`.
 mod string {
+    /// Folder of the scene's file, and its name with extension.
+    pub const SCENE_FOLDER: i64 = 14;
+    pub const SCENE_NAME: i64 = 15;
     pub const LAST: i64 = 144;
 }
 
 fn known(number: i64, last: i64) -> Result<i64> {
     if (0..=last).contains(&number) { Ok(number) } else { Err(SceneError::InvalidArgument.into()) }
-}
-
-/// `sim.platform_*`: 0 Windows, 1 macOS, 2 Linux.
-fn platform() -> i64 {
-    match std::env::consts::OS {
-        "windows" => 0,
-        "macos" => 1,
-        _ => 2,
-    }
 }
 
 /// An integer parameter.
@@ -95,15 +82,13 @@ fn platform() -> i64 {
 /// @return parameterValue
 #[api("sim.getInt32Param")]
 fn get_int32_param(cx: &Cx, parameter: Number) -> Result<i64> {
+    if let Some(value) = param_property::read(cx, INTEGERS, parameter.0)? {
+        return Ok(value);
+    }
     Ok(match parameter.0 {
         int::PROGRAM_VERSION => PROGRAM_VERSION,
-        int::PROGRAM_FULL_VERSION => PROGRAM_VERSION * 100,
         int::PROGRAM_REVISION | int::EDIT_MODE_TYPE => 0,
-        int::PLATFORM => platform(),
-        int::PROCESS_ID => i64::from(std::process::id()),
         int::DYNAMIC_ENGINE => cx.scene().settings().dynamics.engine[0],
-        int::VISIBLE_LAYERS => cx.scene().settings().visibility_layers,
-        int::VERBOSITY | int::STATUSBAR_VERBOSITY => cx.sim().verbosity.get(),
         other => {
             let number = known(other, int::LAST)?;
             cx.sim().app.borrow().idle_params.integers.get(&number).copied().unwrap_or_default()
@@ -118,10 +103,11 @@ fn get_int32_param(cx: &Cx, parameter: Number) -> Result<i64> {
 #[api("sim.setInt32Param")]
 fn set_int32_param(cx: &mut Cx, parameter: Number, parameter_value: Number) -> Result<()> {
     let value = parameter_value.0;
+    if param_property::write(cx, INTEGERS, parameter.0, value)? {
+        return Ok(());
+    }
     match parameter.0 {
-        int::DYNAMIC_ENGINE => cx.scene_mut().modify_settings(|settings| settings.dynamics.engine[0] = value),
-        int::VISIBLE_LAYERS => cx.scene_mut().modify_settings(|settings| settings.visibility_layers = value & 0xffff),
-        int::VERBOSITY => cx.sim().verbosity.set(value),
+        int::DYNAMIC_ENGINE => cx.sim().set_engine([value, 0])?,
         other => {
             let number = known(other, int::LAST)?;
             cx.sim().app.borrow_mut().idle_params.integers.insert(number, value);
@@ -136,11 +122,12 @@ fn set_int32_param(cx: &mut Cx, parameter: Number, parameter_value: Number) -> R
 /// @return boolState
 #[api("sim.getBoolParam")]
 fn get_bool_param(cx: &Cx, parameter: Number) -> Result<bool> {
+    if let Some(value) = param_property::read(cx, SWITCHES, parameter.0)? {
+        return Ok(value);
+    }
     Ok(match parameter.0 {
-        switch::DYNAMICS_HANDLING => cx.scene().settings().dynamics.enabled,
-        switch::REALTIME => cx.scene().settings().real_time,
         switch::EXIT_REQUEST => cx.sim().quit.get(),
-        switch::HEADLESS | switch::USING_SCRIPT_OBJECTS | switch::CAN_SAVE => true,
+        switch::HEADLESS | switch::USING_SCRIPT_OBJECTS => true,
         other => {
             let number = known(other, switch::LAST)?;
             let initially = switch::HANDLING.contains(&number) || switch::SENSOR_HANDLING.contains(&number);
@@ -155,11 +142,10 @@ fn get_bool_param(cx: &Cx, parameter: Number) -> Result<bool> {
 /// @param boolState the new state
 #[api("sim.setBoolParam")]
 fn set_bool_param(cx: &mut Cx, parameter: Number, bool_state: bool) -> Result<()> {
+    if param_property::write(cx, SWITCHES, parameter.0, bool_state)? {
+        return Ok(());
+    }
     match parameter.0 {
-        switch::DYNAMICS_HANDLING => {
-            cx.scene_mut().modify_settings(|settings| settings.dynamics.enabled = bool_state);
-        }
-        switch::REALTIME => cx.sim().set_real_time(bool_state),
         switch::EXIT_REQUEST => cx.sim().quit.set(bool_state),
         other => {
             let number = known(other, switch::LAST)?;
@@ -175,10 +161,11 @@ fn set_bool_param(cx: &mut Cx, parameter: Number, bool_state: bool) -> Result<()
 /// @return parameterValue
 #[api("sim.getFloatParam")]
 fn get_float_param(cx: &Cx, parameter: Number) -> Result<f64> {
+    if let Some(value) = param_property::read(cx, FLOATS, parameter.0)? {
+        return Ok(value);
+    }
     Ok(match parameter.0 {
         float::RANDOM => cx.env().random.borrow_mut().next(),
-        float::TIME_STEP => cx.scene().settings().time_step,
-        float::DYNAMIC_STEP | float::PHYSICS_STEP => cx.scene().settings().dynamics.step,
         other => {
             let number = known(other, float::LAST)?;
             cx.sim().app.borrow().idle_params.floats.get(&number).copied().unwrap_or_default()
@@ -192,13 +179,9 @@ fn get_float_param(cx: &Cx, parameter: Number) -> Result<f64> {
 /// @param parameterValue the new value
 #[api("sim.setFloatParam")]
 fn set_float_param(cx: &mut Cx, parameter: Number, parameter_value: f64) -> Result<()> {
-    match parameter.0 {
-        float::TIME_STEP => cx.sim().set_time_step(parameter_value),
-        float::DYNAMIC_STEP | float::PHYSICS_STEP => cx.sim().set_physics_step(parameter_value),
-        other => {
-            let number = known(other, float::LAST)?;
-            cx.sim().app.borrow_mut().idle_params.floats.insert(number, parameter_value);
-        }
+    if !param_property::write(cx, FLOATS, parameter.0, parameter_value)? {
+        let number = known(parameter.0, float::LAST)?;
+        cx.sim().app.borrow_mut().idle_params.floats.insert(number, parameter_value);
     }
     Ok(())
 }
@@ -211,6 +194,9 @@ fn set_float_param(cx: &mut Cx, parameter: Number, parameter_value: f64) -> Resu
 fn get_array_param(cx: &Cx, parameter: Number) -> Result<[f64; 3]> {
     Ok(match parameter.0 {
         array::GRAVITY => cx.scene().settings().dynamics.gravity.map(f64::from),
+        array::AMBIENT_LIGHT => {
+            param_property::read(cx, LIGHT, array::AMBIENT_LIGHT)?.map_or([0.0; 3], |light: Color| light.0)
+        }
         array::RANDOM_EULER => pose::rotation_to_euler(&cx.env().random.borrow_mut().rotation()),
         other => {
             let number = known(other, array::LAST)?;
@@ -226,6 +212,9 @@ fn get_array_param(cx: &Cx, parameter: Number) -> Result<[f64; 3]> {
 #[api("sim.setArrayParam")]
 fn set_array_param(cx: &mut Cx, parameter: Number, parameter_values: [f64; 3]) -> Result<()> {
     match parameter.0 {
+        array::AMBIENT_LIGHT => {
+            param_property::write(cx, LIGHT, array::AMBIENT_LIGHT, Color(parameter_values))?;
+        }
         array::GRAVITY => {
             let gravity = parameter_values.map(|value| value as f32);
             cx.scene_mut().modify_settings(|settings| settings.dynamics.gravity = gravity);
@@ -238,17 +227,24 @@ fn set_array_param(cx: &mut Cx, parameter: Number, parameter_values: [f64; 3]) -
     Ok(())
 }
 
-/// The levels of the log that may be set by name.
-const VERBOSITIES: std::ops::RangeInclusive<i64> = 121..=122;
-
 /// A string parameter; empty where Swanilda has nothing to tell.
 ///
 /// @param parameter sim.stringparam_*
 /// @return parameterValue
 #[api("sim.getStringParam")]
 fn get_string_param(cx: &Cx, parameter: Number) -> Result<Text> {
+    if let Some(value) = param_property::read(cx, TEXTS, parameter.0)? {
+        return Ok(value);
+    }
     let number = known(parameter.0, string::LAST)?;
-    Ok(Text(cx.sim().app.borrow().idle_params.texts.get(&number).cloned().unwrap_or_default()))
+    let path = |part: fn(&Path) -> Option<&OsStr>| {
+        part(Path::new(&cx.scene().settings().path)).map(|part| Text(part.as_encoded_bytes().to_vec()))
+    };
+    Ok(match number {
+        string::SCENE_FOLDER => path(|path| path.parent().map(Path::as_os_str)).unwrap_or(Text(Vec::new())),
+        string::SCENE_NAME => path(Path::file_name).unwrap_or(Text(Vec::new())),
+        _ => Text(cx.sim().app.borrow().idle_params.texts.get(&number).cloned().unwrap_or_default()),
+    })
 }
 
 /// Sets a string parameter.
@@ -258,11 +254,10 @@ fn get_string_param(cx: &Cx, parameter: Number) -> Result<Text> {
 #[api("sim.setStringParam")]
 fn set_string_param(cx: &mut Cx, parameter: Number, parameter_value: Bytes) -> Result<()> {
     let number = known(parameter.0, string::LAST)?;
-    if VERBOSITIES.contains(&number) {
-        let name = String::from_utf8_lossy(&parameter_value.0).into_owned();
-        let level = verbosity::from_name(&name).ok_or(SceneError::InvalidArgument)?;
-        cx.sim().verbosity.set(level);
+    if param_property::write(cx, TEXTS, number, Text(parameter_value.0.clone()))? {
+        return Ok(());
     }
+    param_property::write(cx, LEVELS, number, Text(parameter_value.0.clone()))?;
     cx.sim().app.borrow_mut().idle_params.texts.insert(number, parameter_value.0);
     Ok(())
 }

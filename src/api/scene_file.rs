@@ -18,7 +18,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, close_scene];
 fn load_scene(cx: &mut Cx, filename: String) -> Result<i64> {
     let code = if filename.is_empty() { None } else { Some(read_lua(&filename)?) };
     let caller = Rc::clone(cx.script());
-    Rc::clone(cx.sim()).switch_scene(&caller, code)?;
+    Rc::clone(cx.sim()).switch_scene(&caller, code.map(|code| (absolute(&filename), code)))?;
     Ok(1)
 }
 
@@ -31,6 +31,11 @@ fn read_lua(filename: &str) -> Result<Vec<u8>> {
         Some(format) => Err(ApiError::NotImplemented(format!("reading scenes in the format .{format}"))),
         None => Err(ApiError::Other(format!("'{filename}' has no extension that tells its format."))),
     }
+}
+
+/// The path as scripts read it as the scene's.
+fn absolute(filename: &str) -> String {
+    std::path::absolute(filename).map_or_else(|_| filename.to_owned(), |path| path.to_string_lossy().into_owned())
 }
 
 /// Closes the scene: the default scene takes its place. For add-ons and the sandbox, while the simulation is stopped.

@@ -175,6 +175,7 @@ impl Args {
         sim.scene_mut().modify_settings(|settings| {
             settings.time_step = self.dt.unwrap_or(settings.time_step);
             settings.real_time |= self.realtime;
+            settings.path = std::path::absolute(&self.scene).unwrap_or_default().to_string_lossy().into_owned();
         });
         if !self.empty {
             // An add-on that fills the scene leaves no room for more: nothing is missing then.

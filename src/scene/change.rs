@@ -63,10 +63,30 @@ pub struct Changes {
     tree_revision: u64,
     dynamics_revision: u64,
     changed_data: BTreeMap<(Handle, Namespace), ChangedNames>,
+    counters: Counters,
+}
+
+/// How often the tree changed, ever.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counters {
+    pub creations: i64,
+    pub destructions: i64,
+    /// Objects that came, went, or got another parent or place.
+    pub hierarchy: i64,
+}
+
+impl Counters {
+    fn count(&mut self, change: &Change) {
+        self.creations += i64::from(matches!(change, Change::Added(_)));
+        self.destructions += i64::from(matches!(change, Change::Removed(..)));
+        let of_tree = matches!(change, Change::Added(_) | Change::Removed(..) | Change::Modified(_, Field::Parent));
+        self.hierarchy += i64::from(of_tree);
+    }
 }
 
 impl Changes {
     pub(super) fn note(&mut self, change: Change) {
+        self.counters.count(&change);
         match change {
             Change::Modified(_, Field::Pose | Field::Velocity | Field::JointPosition | Field::JointControl) => {}
             Change::Modified(_, Field::Alias | Field::Appearance | Field::Kept) => {}
@@ -127,6 +147,10 @@ impl Changes {
     /// The changes since the last call.
     pub fn take(&mut self) -> Vec<Change> {
         std::mem::take(&mut self.pending)
+    }
+
+    pub fn counters(&self) -> Counters {
+        self.counters
     }
 
     /// Grows with every change that can alter the order of scripts.

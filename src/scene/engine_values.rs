@@ -35,11 +35,7 @@ impl Scene {
             return Ok(());
         }
         let handle = object.ok_or(SceneError::InvalidArgument)?;
-        let field = match param.owner {
-            EngineOwner::Joint if param.works => Field::JointControl,
-            _ if param.works => Field::Dynamics,
-            _ => Field::Kept,
-        };
+        let field = if param.works { Field::Dynamics } else { Field::Kept };
         self.try_modify(handle, field, |object| set_in(object, param, value))
     }
 

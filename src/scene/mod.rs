@@ -56,7 +56,7 @@ mod store;
 mod tree;
 mod value_type;
 
-pub use change::{Change, Changes, Field};
+pub use change::{Change, Changes, Counters, Field};
 pub use collection::{Collection, CollectionItem};
 pub use copy::CopyOptions;
 pub use custom_data::{CustomData, Edit, Edited, Holder, Namespace, ValueType};

@@ -15,6 +15,10 @@ pub struct Settings {
     pub time_to_pause: f64,
     pub dynamics: DynamicsSettings,
     pub visibility_layers: i64,
+    /// Where the file of the scene is; empty without a file.
+    pub path: String,
+    /// Simulation steps per drawn image. Kept for scripts: nothing is drawn.
+    pub steps_per_rendering: i64,
     pub acknowledgment: String,
 }
 
@@ -45,6 +49,8 @@ impl Default for Settings {
             time_to_pause: 3600.0,
             dynamics: DynamicsSettings::default(),
             visibility_layers: 0x00ff,
+            path: String::new(),
+            steps_per_rendering: 1,
             acknowledgment: String::new(),
         }
     }

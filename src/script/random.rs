@@ -10,6 +10,12 @@ pub(crate) struct Random {
     generator: Mt,
 }
 
+impl Default for Random {
+    fn default() -> Self {
+        Self::new(Self::DEFAULT_SEED)
+    }
+}
+
 impl Random {
     /// The seed every script starts with.
     pub const DEFAULT_SEED: u32 = 123_456;
@@ -26,6 +32,12 @@ impl Random {
     /// The next number in [0, 1).
     pub(crate) fn next(&mut self) -> f64 {
         f64::from(self.generator.next_u32()) / 4_294_967_296.0
+    }
+
+    /// A word of letters and digits.
+    pub(crate) fn word(&mut self, length: usize) -> String {
+        const LETTERS: &[u8; 62] = b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+        (0..length).map(|_| char::from(LETTERS[(self.next() * 62.0) as usize])).collect()
     }
 
     /// A rotation, all being equally likely (K. Shoemake, Uniform random rotations, Graphics Gems III).

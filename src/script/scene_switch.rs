@@ -7,14 +7,15 @@ use super::error::{ApiError, ApiResult};
 use super::instance::Script;
 use super::sim::Sim;
 use crate::scene::script_object::{ScriptObject, ScriptType};
-use crate::scene::{Edit, Kind, Namespace, Settings};
+use crate::scene::{Edit, Kept, Kind, Namespace, Settings};
 
 impl Sim {
-    /// Puts the default scene in place of the present one on behalf of `caller`, and adds the script `code` if there is one.
+    /// Puts the default scene in place of the present one on behalf of `caller`, and adds the script in `file`, path and code, if there is
+    /// one.
     ///
     /// # Errors
     /// When the simulation is not stopped, or the caller is a script of the scene: it would remove itself while running.
-    pub(crate) fn switch_scene(self: &Rc<Self>, caller: &Script, code: Option<Vec<u8>>) -> ApiResult<()> {
+    pub(crate) fn switch_scene(self: &Rc<Self>, caller: &Script, file: Option<(String, Vec<u8>)>) -> ApiResult<()> {
         if !self.is_stopped() {
             return Err(ApiError::Other("simulation is not stopped.".into()));
         }
@@ -24,7 +25,8 @@ impl Sim {
         self.broadcast(SysCall::BeforeInstanceSwitch, &[]);
         self.clear_scene()?;
         self.scene.borrow_mut().add_default_objects()?;
-        if let Some(code) = code {
+        if let Some((path, code)) = file {
+            self.scene.borrow_mut().modify_settings(|settings| settings.path = path);
             self.add_scene_script(code)?;
         }
         self.note_new_scene();
@@ -37,7 +39,9 @@ impl Sim {
         if !everything.is_empty() {
             self.remove_objects(&everything)?;
         }
+        self.app.borrow_mut().closed_scenes += 1;
         let mut scene = self.scene.borrow_mut();
+        scene.kept = Kept::default();
         scene.modify_settings(|settings| *settings = Settings::default());
         for namespace in [Namespace::CustomData, Namespace::Signal] {
             scene.edit_named_values(None, namespace, Edit::Clear)?;

@@ -46,6 +46,8 @@ pub fn from_name(name: &str) -> Option<i64> {
         "infos" => INFOS,
         "debug" => 600,
         "trace" => 700,
+        "tracelua" => 800,
+        "traceall" => 900,
         _ => return None,
     };
     Some(level)

@@ -1,13 +1,18 @@
 //! Properties of the application.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
-use super::access::{Accessor, subject_properties};
-use crate::scene::{CustomData, Kept};
+use super::access::{Accessor, Subject, subject_properties};
+use super::{PropertyValue, Quaternion};
+use crate::scene::pose::quaternion_to_array;
+use crate::scene::{CustomData, Data, Kept};
 use crate::script::app_storage::AppStorage;
-use crate::script::error::ApiError;
+use crate::script::error::{ApiError, ApiResult};
 use crate::script::events::Protocol;
-use crate::script::sim::Options;
+use crate::script::random::Random;
+use crate::script::sim::{Options, Sim};
+use crate::script::verbosity;
 
 /// What scripts keep with the application.
 #[derive(Default)]
@@ -23,6 +28,10 @@ pub(crate) struct AppData {
     pub persistent_data: BTreeMap<String, Option<Vec<u8>>>,
     /// Values that have no effect here, as scripts set them.
     pub kept: Kept,
+    /// Random numbers read as properties.
+    pub random: Random,
+    /// How many scenes were closed.
+    pub closed_scenes: i64,
     /// Numbered switches, numbers and texts that have no effect here, as scripts set them.
     pub idle_params: IdleParams,
 }
@@ -41,16 +50,95 @@ impl AppData {
     pub(crate) fn new(options: &Options) -> Self {
         let params = options.named_params.iter();
         let named_params = params.map(|(name, value)| (name.clone(), value.as_bytes().to_vec())).collect();
-        Self { named_params, storage: AppStorage::new(options.data_dir.as_deref()), ..Self::default() }
+        Self {
+            named_params,
+            storage: AppStorage::new(options.data_dir.as_deref()),
+            random: Random::new(options.seed),
+            ..Self::default()
+        }
     }
 }
 
 pub(super) const APP: &[Accessor] = subject_properties! {
-    "consoleVerbosity": i64, |s| s.sim.verbosity.get(), |s, level| s.sim.verbosity.set(level);
+    "sessionId": String, |s| s.sim.session_id();
+    "platform": i64, |_s| platform();
     "protocolVersion": i64, |s| s.sim.events.protocol.get() as i64, |s, number| {
         let protocol = Protocol::from_number(number).ok_or(ApiError::PropertyNotWritable)?;
         s.sim.set_event_protocol(protocol);
     };
     "processId": i64, |_s| i64::from(std::process::id());
-    "canSave": bool, |_s| true;
+    "consoleVerbosity": i64, |s| s.sim.verbosity.get(), |s, level| s.sim.verbosity.set(level);
 };
+
+/// Levels by their name, to be written only.
+pub(super) const VERBOSITY_WORDS: &[Accessor] = &[
+    Accessor { name: "consoleVerbosityStr", read: None, write: Some(set_console_level) },
+    Accessor {
+        name: "statusbarVerbosityStr",
+        read: None,
+        write: Some(|s, word| set_level(s, "statusbarVerbosity", word)),
+    },
+    Accessor { name: "dialogVerbosityStr", read: None, write: Some(|s, word| set_level(s, "dialogVerbosity", word)) },
+];
+
+/// Folders this program has. Those of CoppeliaSim's installation are empty: what they hold is part of the program.
+pub(super) const PATHS: &[Accessor] = subject_properties! {
+    "appPath": String, |_s| program_folder();
+    "tempPath": String, |_s| temporary_folder();
+    "sceneTempPath": String, |_s| temporary_folder();
+    "settingsPath": String, |s| text_of(s.sim.options.data_dir.as_deref());
+};
+
+/// Each reading gives another value, from the generator of the application.
+pub(super) const RANDOM: &[Accessor] = subject_properties! {
+    "randomQuaternion": Quaternion, |s| Quaternion(quaternion_to_array(&s.sim.app.borrow_mut().random.rotation()));
+    "randomFloat": f64, |s| s.sim.app.borrow_mut().random.next();
+    "randomString": String, |s| s.sim.app.borrow_mut().random.word(RANDOM_LETTERS);
+};
+
+/// Letters and digits of a random string.
+const RANDOM_LETTERS: usize = 16;
+
+/// `sim.platform_*`: 0 Windows, 1 macOS, 2 Linux.
+fn platform() -> i64 {
+    match std::env::consts::OS {
+        "windows" => 0,
+        "macos" => 1,
+        _ => 2,
+    }
+}
+
+fn level_of(word: Data) -> ApiResult<i64> {
+    let word = String::from_data(word).ok_or(ApiError::PropertyType)?;
+    verbosity::from_name(&word).ok_or(ApiError::PropertyNotWritable)
+}
+
+fn set_console_level(subject: &Subject<'_>, word: Data) -> ApiResult<()> {
+    subject.sim.verbosity.set(level_of(word)?);
+    Ok(())
+}
+
+fn set_level(subject: &Subject<'_>, property: &'static str, word: Data) -> ApiResult<()> {
+    subject.sim.app.borrow_mut().kept.set(property, level_of(word)?.into());
+    Ok(())
+}
+
+fn program_folder() -> String {
+    text_of(std::env::current_exe().unwrap_or_default().parent())
+}
+
+fn temporary_folder() -> String {
+    text_of(Some(&std::env::temp_dir()))
+}
+
+/// Empty for none.
+fn text_of(path: Option<&Path>) -> String {
+    path.map_or_else(String::new, |path| path.to_string_lossy().into_owned())
+}
+
+impl Sim {
+    /// Tells this run of this simulator from others.
+    fn session_id(&self) -> String {
+        format!("{:x}-{:x}", std::process::id(), std::ptr::from_ref(self).addr())
+    }
+}

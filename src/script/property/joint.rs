@@ -24,13 +24,13 @@ pub(super) const CONTROL: &[Accessor] = object_properties! {
     "averageJointForce": f64, |o| o.joint()?.force.unwrap_or_default();
     "maxVelAccelJerk": Vec<f64>, |o| { let joint = o.joint()?; vec![joint.max_vel, joint.max_accel, joint.max_jerk] },
         Joint |o, limits| {
+            let [vel, accel, jerk, ..] = limits[..] else { return Err(SceneError::InvalidData) };
             let joint = o.joint_mut()?;
-            if let [vel, accel, jerk, ..] = limits[..] {
-                (joint.max_vel, joint.max_accel, joint.max_jerk) = (vel, accel, jerk);
-            }
+            (joint.max_vel, joint.max_accel, joint.max_jerk) = (vel, accel, jerk);
         };
     "springDamperParams": Vec<f64>, |o| o.joint()?.spring.to_vec(),
-        Joint |o, spring| if let [stiffness, damping, ..] = spring[..] {
+        Joint |o, spring| {
+            let [stiffness, damping, ..] = spring[..] else { return Err(SceneError::InvalidData) };
             o.joint_mut()?.spring = [stiffness, damping];
         };
 };

@@ -8,6 +8,7 @@ mod app;
 mod colour;
 mod display;
 mod dummy;
+mod engine;
 mod force_sensor;
 mod joint;
 mod kept;
@@ -104,7 +105,7 @@ impl Sim {
         match &row.source {
             Source::Works(accessor) => {
                 let read = accessor.read.ok_or(ApiError::PropertyNotReadable)?;
-                read(&Subject { sim: self, target })
+                read(&Subject { sim: self, target }).map_err(|error| refusal(error, ApiError::PropertyNotReadable))
             }
             Source::Kept(default) => Ok(self.read_kept(target, row.name)?.unwrap_or_else(|| default.clone())),
             Source::Constant(value) => Ok(value.clone()),
@@ -129,14 +130,14 @@ impl Sim {
     }
 
     fn write_row(self: &Rc<Self>, target: &Target, row: &Row, value: Data) -> ApiResult<()> {
-        if row.flags & flags::NOT_WRITABLE != 0 {
+        if row.flags & flags::NOT_WRITABLE != 0 || has_nan(&value) {
             return Err(ApiError::PropertyNotWritable);
         }
         match &row.source {
-            Source::Works(_) if has_nan(&value) => Err(ApiError::PropertyNotWritable),
             Source::Works(accessor) => {
                 let write = accessor.write.ok_or(ApiError::PropertyNotWritable)?;
                 write(&Subject { sim: self, target }, value)
+                    .map_err(|error| refusal(error, ApiError::PropertyNotWritable))
             }
             Source::Kept(default) => {
                 let value = row.ty.accept(default, value).ok_or(ApiError::PropertyNotWritable)?;
@@ -207,7 +208,12 @@ impl Sim {
     }
 }
 
-/// Nothing that works can work with what is no number.
+/// What a script is told when the scene refused: CoppeliaSim does not tell why.
+fn refusal(error: ApiError, words: ApiError) -> ApiError {
+    if matches!(error, ApiError::Scene(_)) { words } else { error }
+}
+
+/// No static property can be what is no number.
 fn has_nan(value: &Data) -> bool {
     match value {
         Data::Float(number) => number.is_nan(),

@@ -2,9 +2,15 @@
 
 use super::access::{Accessor, subject_properties};
 use super::{Color, Vector3};
-use crate::scene::Handle;
+use crate::scene::engine_params::ENGINES;
+use crate::scene::{Counters, Handle, SceneError};
 use crate::script::clock::SimulationState;
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::random::Random;
 use crate::script::sim::Sim;
+
+/// Letters and digits of the text that tells scenes apart.
+const SCENE_UID_LETTERS: usize = 16;
 
 impl Sim {
     pub(crate) fn is_stopped(&self) -> bool {
@@ -28,6 +34,41 @@ impl Sim {
         }
     }
 
+    /// Chooses the engine whose parameters count, and its version. Without effect while the simulation is not stopped.
+    ///
+    /// # Errors
+    /// When there is no such engine.
+    pub(crate) fn set_engine(&self, engine: [i64; 2]) -> ApiResult<()> {
+        if !(0..ENGINES.len() as i64).contains(&engine[0]) {
+            return Err(SceneError::InvalidArgument.into());
+        }
+        if self.is_stopped() {
+            self.scene.borrow_mut().modify_settings(|settings| settings.dynamics.engine = engine);
+        }
+        Ok(())
+    }
+
+    /// Sets how many simulation steps there are to an image. Without effect while the simulation is not stopped.
+    fn set_steps_per_rendering(&self, steps: i64) {
+        if self.is_stopped() {
+            self.scene.borrow_mut().modify_settings(|settings| settings.steps_per_rendering = steps.max(1));
+        }
+    }
+
+    fn counters(&self) -> Counters {
+        self.scene.borrow().changes().counters()
+    }
+
+    /// Tells this scene from those there were before.
+    fn scene_uid(&self) -> i64 {
+        self.app.borrow().closed_scenes + 1
+    }
+
+    /// Tells this scene from those of other simulators with other seeds, too.
+    fn scene_uid_text(&self) -> String {
+        Random::new(self.options.seed.wrapping_add(self.scene_uid() as u32)).word(SCENE_UID_LETTERS)
+    }
+
     /// Turns real-time mode on or off. Without effect while the simulation is not stopped.
     pub(crate) fn set_real_time(&self, on: bool) {
         if self.is_stopped() {
@@ -49,6 +90,8 @@ macro_rules! settings {
 
 pub(super) const SIMULATION: &[Accessor] = subject_properties! {
     "realtimeSimulation": bool, |s| s.sim.scene.borrow().settings().real_time, |s, on| s.sim.set_real_time(on);
+    "stepsPerRendering": i64, |s| s.sim.scene.borrow().settings().steps_per_rendering,
+        |s, steps| s.sim.set_steps_per_rendering(steps);
     "simulationTime": f64, |s| s.sim.clock.time.get();
     "timeStep": f64, |s| s.sim.scene.borrow().settings().time_step, |s, step| s.sim.set_time_step(step);
     "stepCount": i64, |s| s.sim.clock.steps.get() as i64;
@@ -65,14 +108,28 @@ pub(super) const SIMULATION_SETTINGS: &[Accessor] = settings! {
 
 pub(super) const ENVIRONMENT: &[Accessor] = settings! {
     "visibilityLayers": i64, |s| s.visibility_layers, |s, layers| s.visibility_layers = layers & 0xffff;
+    "scenePath": String, |s| s.path.clone(), |s, path| s.path = path;
     "acknowledgment": String, |s| s.acknowledgment.clone(), |s, text| s.acknowledgment = text;
 };
 
-pub(super) const PHYSICS_STEP: &[Accessor] = subject_properties! {
+pub(super) const IDENTITY: &[Accessor] = subject_properties! {
+    "sceneUid": i64, |s| s.sim.scene_uid();
+    "sceneUidString": String, |s| s.sim.scene_uid_text();
+};
+
+/// Settings of the physics that change only while the simulation is stopped.
+pub(super) const PHYSICS: &[Accessor] = subject_properties! {
+    "dynamicsEngine": Vec<i64>, |s| s.sim.scene.borrow().settings().dynamics.engine.to_vec(), |s, engine| {
+        let [kind, version, ..] = engine[..] else { return Err(ApiError::PropertyNotWritable) };
+        s.sim.set_engine([kind, version])?;
+    };
     "dynamicsStepSize": f64, |s| s.sim.scene.borrow().settings().dynamics.step, |s, step| s.sim.set_physics_step(step);
 };
 
 pub(super) const CONTAINER: &[Accessor] = subject_properties! {
+    "objectCreationCounter": i64, |s| s.sim.counters().creations;
+    "objectDestructionCounter": i64, |s| s.sim.counters().destructions;
+    "hierarchyChangeCounter": i64, |s| s.sim.counters().hierarchy;
     "objectHandles": Vec<i64>, |s| s.sim.scene.borrow().objects().map(|object| object.handle().raw()).collect();
     "orphanHandles": Vec<i64>, |s| raw(s.sim.scene.borrow().roots());
     "selectionHandles": Vec<i64>, |s| raw(s.sim.scene.borrow().selection()),
@@ -85,9 +142,6 @@ pub(super) const CONTAINER: &[Accessor] = subject_properties! {
 pub(super) const DYNAMICS: &[Accessor] = settings! {
     "dynamicsEnabled": bool, |s| s.dynamics.enabled, |s, on| s.dynamics.enabled = on;
     "showContactPoints": bool, |s| s.dynamics.show_contact_points, |s, on| s.dynamics.show_contact_points = on;
-    "dynamicsEngine": Vec<i64>, |s| s.dynamics.engine.to_vec(), |s, engine| if let [kind, version, ..] = engine[..] {
-        s.dynamics.engine = [kind, version];
-    };
     "gravity": Vector3, |s| Vector3(Color::from_f32(s.dynamics.gravity).0),
         |s, gravity| s.dynamics.gravity = gravity.0.map(|g| g as f32);
 };

@@ -6,16 +6,16 @@ use std::sync::LazyLock;
 
 use super::access::Accessor;
 use super::{
-    app, colour, display, dummy, force_sensor, joint, mesh, model_hash, object, proximity_sensor, scene, script, shape,
-    view,
+    app, colour, display, dummy, engine, force_sensor, joint, mesh, model_hash, object, proximity_sensor, scene,
+    script, shape, view,
 };
 use crate::scene::engine_params::{EngineOwner, EngineParam, engine_params};
 use crate::scene::{Data, Kind, ValueType};
 
 /// `part<TAB>name<TAB>type<TAB>flags<TAB>state<TAB>default`, in the order of enumeration within a part.
 ///
-/// The state is `works` (an accessor below), `kept` (stored and read back, no effect) or `constant` (always the default). An empty
-/// default is false, 0, no text, an empty list, the origin or no rotation; numbers in lists are separated by spaces. A list that has a
+/// The state is `works`, `kept` (stored and read back, no effect) or `constant` (always the default); what works has an accessor, and
+/// what needs more than storage may have one. An empty default is false, 0, no text, an empty list, the origin or no rotation; numbers in lists are separated by spaces. A list that has a
 /// default keeps its length.
 const STATIC: &str = include_str!("static.tsv");
 
@@ -185,11 +185,11 @@ fn parts() -> Parts {
         let ty = ValueType::from_word(ty).expect("static.tsv holds known types");
         let flags = flags.parse().expect("static.tsv holds flags as integers");
         let default = ty.parse(default).expect("static.tsv holds defaults of the row's type");
-        let source = match state {
-            "works" => Source::Works(accessors[&(part, name)]),
-            "kept" => Source::Kept(default),
-            "constant" => Source::Constant(default),
-            _ => panic!("a state in static.tsv is works, kept or constant: {line}"),
+        let source = match (accessors.get(&(part, name)), state) {
+            (Some(accessor), "works" | "kept" | "constant") => Source::Works(accessor),
+            (None, "kept") => Source::Kept(default),
+            (None, "constant") => Source::Constant(default),
+            _ => panic!("a state in static.tsv is works (with an accessor), kept or constant: {line}"),
         };
         parts.entry(part).or_default().push(Row { name, ty, flags, source, class: "" });
     }
@@ -216,12 +216,20 @@ type Accessors = HashMap<(&'static str, &'static str), &'static Accessor>;
 fn accessors() -> Accessors {
     let files: &[(&'static str, &'static [Accessor])] = &[
         ("app", app::APP),
+        ("app", app::VERBOSITY_WORDS),
+        ("app", app::PATHS),
+        ("app", app::RANDOM),
+        ("dynamics", engine::SCENE),
+        ("material", engine::MATERIAL),
+        ("joint", engine::JOINT),
+        ("dummy", engine::DUMMY),
         ("simulation", scene::SIMULATION),
         ("simulation", scene::SIMULATION_SETTINGS),
         ("environment", scene::ENVIRONMENT),
         ("container", scene::CONTAINER),
+        ("environment", scene::IDENTITY),
         ("dynamics", scene::DYNAMICS),
-        ("dynamics", scene::PHYSICS_STEP),
+        ("dynamics", scene::PHYSICS),
         ("object", object::OWN),
         ("object", object::PLACED),
         ("object", object::FLAGS),

@@ -1,0 +1,104 @@
+//! Numbered parameters of the simulator that are properties by another name: the property is where the value is.
+
+use super::{Cx, Result};
+use crate::scene::special::{APP, SCENE};
+use crate::script::{PropertyValue, Target};
+
+/// A number, whose property it is, and the property's name.
+type Twin = (i64, i64, &'static str);
+
+/// `sim.intparam_*`.
+pub(super) const INTEGERS: &[Twin] = &[
+    (11, SCENE, "visibilityLayers"),
+    (16, APP, "qtVersion"),
+    (19, APP, "platform"),
+    (20, SCENE, "sceneUid"),
+    (26, APP, "idleFps"),
+    (36, SCENE, "speedModifier"),
+    (39, APP, "productVersionNb"),
+    (40, APP, "consoleVerbosity"),
+    (41, APP, "statusbarVerbosity"),
+    (42, APP, "dialogVerbosity"),
+    (48, SCENE, "objectCreationCounter"),
+    (49, SCENE, "objectDestructionCounter"),
+    (50, SCENE, "hierarchyChangeCounter"),
+    (51, APP, "notifyDeprecated"),
+    (52, APP, "processId"),
+    (53, APP, "processCnt"),
+];
+
+/// `sim.boolparam_*`.
+pub(super) const SWITCHES: &[Twin] = &[
+    (0, APP, "hierarchyEnabled"),
+    (6, SCENE, "dynamicsEnabled"),
+    (12, APP, "browserEnabled"),
+    (16, APP, "displayEnabled"),
+    (25, SCENE, "realtimeSimulation"),
+    (58, APP, "execUnsafe"),
+    (59, APP, "execUnsafeExt"),
+    (60, APP, "canSave"),
+];
+
+/// `sim.floatparam_*`.
+pub(super) const FLOATS: &[Twin] =
+    &[(1, SCENE, "timeStep"), (3, SCENE, "dynamicsStepSize"), (5, SCENE, "dynamicsStepSize")];
+
+/// `sim.arrayparam_*` that are colours.
+pub(super) const LIGHT: &[Twin] = &[(5, SCENE, "ambientLight")];
+
+/// `sim.stringparam_*`.
+pub(super) const TEXTS: &[Twin] = &[
+    (0, APP, "appPath"),
+    (2, APP, "appArg1"),
+    (3, APP, "appArg2"),
+    (4, APP, "appArg3"),
+    (5, APP, "appArg4"),
+    (6, APP, "appArg5"),
+    (7, APP, "appArg6"),
+    (8, APP, "appArg7"),
+    (9, APP, "appArg8"),
+    (10, APP, "appArg9"),
+    (13, SCENE, "scenePath"),
+    (118, SCENE, "sceneUidString"),
+    (119, APP, "machineId"),
+    (120, APP, "legacyMachineId"),
+    (126, APP, "randomString"),
+    (127, APP, "tempPath"),
+    (128, APP, "sceneTempPath"),
+    (129, APP, "settingsPath"),
+    (130, APP, "importExportPath"),
+    (131, APP, "addOnPath"),
+    (132, APP, "scenePath"),
+    (133, APP, "modelPath"),
+    (134, APP, "defaultPython"),
+    (136, APP, "luaPath"),
+    (137, APP, "pythonPath"),
+    (138, APP, "mujocoPath"),
+    (139, APP, "settingsPath"),
+    (140, APP, "systemPath"),
+    (141, APP, "resourcePath"),
+    (143, APP, "addOnPath"),
+    (144, APP, "sandboxLang"),
+];
+
+/// Texts that set a level by its name.
+pub(super) const LEVELS: &[Twin] =
+    &[(121, APP, "consoleVerbosityStr"), (122, APP, "statusbarVerbosityStr"), (123, APP, "dialogVerbosityStr")];
+
+fn twin(twins: &[Twin], number: i64) -> Option<(Target, &'static str)> {
+    let &(_, target, name) = twins.iter().find(|(known, ..)| *known == number)?;
+    Some((if target == APP { Target::App } else { Target::Scene }, name))
+}
+
+/// The value of the property that `number` is; None when it is none.
+pub(super) fn read<T: PropertyValue>(cx: &Cx, twins: &[Twin], number: i64) -> Result<Option<T>> {
+    let Some((target, name)) = twin(twins, number) else { return Ok(None) };
+    Ok(T::from_data(cx.sim().read_property(&target, name, T::TYPE)?))
+}
+
+/// Sets the property that `number` is; tells whether it is one.
+pub(super) fn write<T: PropertyValue>(cx: &Cx, twins: &[Twin], number: i64, value: T) -> Result<bool> {
+    let Some((target, name)) = twin(twins, number) else { return Ok(false) };
+    cx.sim().write_property(&target, name, (T::TYPE, value.into_data()), cx.script())?;
+    Ok(true)
+}
