@@ -98,6 +98,7 @@ impl Scene {
         self.set_parent(copy, parent, false)?;
         let pose = if direct { local } else { self.parent_frame(copy)?.inverse() * world };
         self.object_mut(copy)?.pose = pose;
+        self.store_state_of_new(copy)?;
         Ok(copy)
     }
 }

@@ -34,6 +34,7 @@ impl Scene {
     /// Every object remembers its state, for the end of the run; those whose model does not want to be reset do not. Models forget
     /// that wish: it holds for one run.
     pub fn store_initial_state(&mut self) {
+        self.in_run = true;
         let objects = self.all_breadth_first();
         let kept = self.not_reset(&objects);
         for handle in objects {
@@ -48,6 +49,17 @@ impl Scene {
             }
             self.hide_for_simulation(handle);
         }
+    }
+
+    /// An object that comes during a run remembers the state it comes with, in case it survives the end.
+    pub(super) fn store_state_of_new(&mut self, handle: Handle) -> SceneResult<()> {
+        if !self.in_run {
+            return Ok(());
+        }
+        let (world, parent) = (self.world_pose(handle)?, self.uid_of_parent(handle));
+        let object = self.object_mut(handle)?;
+        object.initial = Some(Box::new(InitialState::of(object, parent, world)));
+        Ok(())
     }
 
     /// Takes objects off all layers that do not want to be seen while a simulation runs.
@@ -71,9 +83,10 @@ impl Scene {
         self.object(parent).ok().map(Object::uid)
     }
 
-    /// Every object goes back to the state it had at the start of the run, unless its model does not want to. Objects that were not
-    /// there then stay as they are.
+    /// Every object goes back to the state it had at the start of the run, unless its model does not want to. Objects that came later go
+    /// back to the state they came with.
     pub fn restore_initial_state(&mut self) {
+        self.in_run = false;
         let objects = self.all_breadth_first();
         let kept = self.not_reset(&objects);
         let mut restored = Vec::with_capacity(objects.len());

@@ -28,6 +28,8 @@ pub struct Scene {
     /// Collections ever made.
     pub(super) collections_made: i64,
     pub(super) followers: super::joint_dependency::Followers,
+    /// A simulation runs: new objects remember their state.
+    pub(super) in_run: bool,
     settings: Settings,
     changes: Changes,
     /// Custom data of the scene itself (`sim.handle_scene`).
@@ -75,6 +77,7 @@ impl Scene {
         self.live += 1;
         self.roots.push(handle);
         self.changes.note(Change::Added(handle));
+        self.store_state_of_new(handle)?;
         Ok(handle)
     }
 
