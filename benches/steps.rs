@@ -25,10 +25,27 @@ for i = 0, 99 do
 end
 ";
 
-fn running(scene: &str) -> Simulator {
+/// 1000 objects that move in every step, and nobody, one or one choosy listener.
+const MOVING: &str = "
+sim = require 'sim'
+local objects = {}
+for i = 1, 1000 do objects[i] = sim.createDummy(0.01) end
+local x = 0
+function sysCall_actuation()
+    x = x + 0.001
+    for i = 1, 1000 do sim.setObjectPosition(objects[i], {x, i, 0}) end
+end
+";
+const LISTENER: &str = "function sysCall_event(events) received = (received or 0) + #events end";
+const FILTERED: &str = "
+sim.setEventFilters({[sim.handle_sceneobject] = {'pose'}})
+function sysCall_event(events) received = (received or 0) + #events end
+";
+
+fn running(kind: ScriptKind, scene: &str) -> Simulator {
     let mut sim = Simulator::new(Options::default());
     sim.scene_mut().add_default_objects().expect("an empty scene has room");
-    sim.add_script(ScriptKind::Sandbox, "bench", scene.as_bytes()).expect("the scene loads");
+    sim.add_script(kind, "bench", scene.as_bytes()).expect("the scene loads");
     sim.step(2);
     sim
 }
@@ -37,7 +54,7 @@ fn child_scripts(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("child scripts");
     group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
     for count in [0, 1, 100, 1000] {
-        let mut sim = running(&CHILDREN.replace("COUNT", &count.to_string()));
+        let mut sim = running(ScriptKind::Sandbox, &CHILDREN.replace("COUNT", &count.to_string()));
         group.bench_function(count.to_string(), |bencher| bencher.iter(|| sim.pass()));
     }
     group.finish();
@@ -47,10 +64,24 @@ fn pile(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("pile");
     group.throughput(Throughput::Elements(200)).sampling_mode(SamplingMode::Flat).sample_size(10);
     group.bench_function("100 cuboids, 200 steps", |bencher| {
-        bencher.iter_batched(|| running(PILE), |mut sim| sim.step(200), criterion::BatchSize::PerIteration);
+        bencher.iter_batched(
+            || running(ScriptKind::Sandbox, PILE),
+            |mut sim| sim.step(200),
+            criterion::BatchSize::PerIteration,
+        );
     });
     group.finish();
 }
 
-criterion_group!(benches, child_scripts, pile);
+fn events(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("1000 moving objects");
+    group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
+    for (name, listener) in [("no listener", ""), ("filtered listener", FILTERED), ("listener", LISTENER)] {
+        let mut sim = running(ScriptKind::Customization, &format!("{MOVING}{listener}"));
+        group.bench_function(name, |bencher| bencher.iter(|| sim.pass()));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, child_scripts, pile, events);
 criterion_main!(benches);

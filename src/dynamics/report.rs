@@ -82,7 +82,7 @@ impl Dynamics {
             .collect();
         for (handle, flag) in changes {
             // The flag follows from what takes part; it does not change it.
-            let _ = scene.modify(handle, Field::Pose, |object| object.dynamic_flag = flag);
+            let _ = scene.modify(handle, Field::Measured, |object| object.dynamic_flag = flag);
         }
     }
 
@@ -143,7 +143,7 @@ fn read(scene: &mut Scene, handle: Handle, link: &Link) -> Option<Trigger> {
         LinkKind::Sensor => {
             let load = mean(&link.loads)?;
             let latest = *link.loads.last()?;
-            let fired = scene.try_modify(handle, Field::JointPosition, |object| {
+            let fired = scene.try_modify(handle, Field::Measured, |object| {
                 let sensor = object.force_sensor_mut()?;
                 sensor.raw = Some(latest);
                 Ok(take_sample(sensor, load))

@@ -14,8 +14,8 @@ pub enum Field {
     Alias,
     Parent,
     Pose,
-    /// The velocity measured from step to step.
-    Velocity,
+    /// What was measured or what the physics reports: velocities, readings, flags.
+    Measured,
     Layer,
     ObjectProperty,
     SpecialProperty,
@@ -88,7 +88,7 @@ impl Changes {
     pub(super) fn note(&mut self, change: Change) {
         self.counters.count(&change);
         match change {
-            Change::Modified(_, Field::Pose | Field::Velocity | Field::JointPosition | Field::JointControl) => {}
+            Change::Modified(_, Field::Pose | Field::Measured | Field::JointPosition | Field::JointControl) => {}
             Change::Modified(_, Field::Alias | Field::Appearance | Field::Kept) => {}
             Change::Selection | Change::Settings | Change::Stored { .. } => {}
             Change::Modified(_, Field::Script | Field::Priority) => self.tree_revision += 1,

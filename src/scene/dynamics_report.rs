@@ -3,7 +3,7 @@
 use nalgebra::UnitQuaternion;
 
 use super::shape::Velocity;
-use super::{Field, Handle, Pose, Scene, SceneResult};
+use super::{Change, Field, Handle, Pose, Scene, SceneResult};
 
 /// The state of a dynamic joint after a sub-step.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,8 +29,12 @@ impl Scene {
         self.try_modify(shape, Field::Pose, |object| {
             object.pose = local;
             object.shape_mut()?.velocity = velocity;
-            Ok(local)
-        })
+            Ok(())
+        })?;
+        if self.changes().is_listening() {
+            self.changes_mut().note(Change::Modified(shape, Field::Measured));
+        }
+        Ok(local)
     }
 
     /// Takes over where the engine has a joint. What the ideal joint cannot express is kept as its error.

@@ -180,7 +180,7 @@ impl Scene {
             let now = measured(object.measured.previous, now, dt);
             let before = std::mem::replace(&mut object.measured, now);
             if listening && !object.measured.same_velocity(&before) {
-                self.changes_mut().note(Change::Modified(handle, Field::Velocity));
+                self.changes_mut().note(Change::Modified(handle, Field::Measured));
             }
         }
     }

@@ -1,6 +1,6 @@
 //! From the scene's record of changes to events.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
 
 use super::encode;
@@ -30,7 +30,7 @@ impl Sim {
         }
         let mut guard = self.events.watch.borrow_mut();
         let Some(watch) = guard.as_mut() else { return };
-        for change in changes {
+        for change in latest_of_each(changes) {
             self.collect(watch, change);
         }
     }
@@ -273,5 +273,22 @@ impl Sim {
                 }
             }
         }
+    }
+}
+
+/// Leaves out changes of a field of an object that are followed by another one: the physics reports after every sub-step.
+fn latest_of_each(mut changes: Vec<Change>) -> Vec<Change> {
+    if changes.len() > 1 {
+        let mut seen = HashSet::new();
+        let mut latest: Vec<bool> = changes.iter().rev().map(|change| is_first(&mut seen, change)).collect();
+        changes.retain(|_| latest.pop().expect("one flag per change"));
+    }
+    changes
+}
+
+fn is_first(seen: &mut HashSet<(Handle, Field)>, change: &Change) -> bool {
+    match change {
+        Change::Modified(handle, field) => seen.insert((*handle, *field)),
+        _ => true,
     }
 }

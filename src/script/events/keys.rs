@@ -47,8 +47,19 @@ const PAIRS: &[[&str; 2]] = &[["bbPose", "bbHSize"], ["parentUid", "parentHandle
 const FREQUENT: &[(Field, &[&str])] = &[
     (Field::Pose, &["pose"]),
     (
-        Field::Velocity,
-        &["calcLinearVelocity", "calcRotationAxis", "calcRotationVelocity", "dynLinearVelocity", "dynAngularVelocity"],
+        Field::Measured,
+        &[
+            "calcLinearVelocity",
+            "calcRotationAxis",
+            "calcRotationVelocity",
+            "dynamicFlag",
+            "dynLinearVelocity",
+            "dynAngularVelocity",
+            "sensorForce",
+            "sensorTorque",
+            "filterSensorForce",
+            "filterSensorTorque",
+        ],
     ),
     (
         Field::JointPosition,
