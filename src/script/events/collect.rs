@@ -122,12 +122,34 @@ impl Sim {
         }
         if let Some(watched) = watch.objects.get_mut(&handle) {
             self.collect_differences(watched, Some(field));
-            for mesh in &mut watched.meshes {
-                self.collect_differences(mesh, Some(field));
-            }
+            watched.meshes.iter_mut().for_each(|mesh| self.collect_differences(mesh, Some(field)));
+        }
+        if field == Field::Geometry {
+            self.collect_meshes(watch, handle);
         }
         if field == Field::Alias {
             self.collect_orders(watch, parent);
+        }
+    }
+
+    /// A shape has another geometry: meshes went, came, or look different.
+    fn collect_meshes(self: &Rc<Self>, watch: &mut Watch, handle: Handle) {
+        let Some(watched) = watch.objects.get_mut(&handle) else { return };
+        let Ok(now) = self.scene.borrow().object(handle).map(|o| Watched::meshes(o, &watch.audience)) else { return };
+        let before = std::mem::take(&mut watched.meshes);
+        let in_list = |list: &[Watched], uid| list.iter().any(|mesh| mesh.source.uid == uid);
+        for gone in before.iter().filter(|mesh| !in_list(&now, mesh.source.uid)) {
+            self.push_event(Event::new("objectRemoved", gone.source, Vec::new()));
+        }
+        watched.meshes = now;
+        for mesh in &mut watched.meshes {
+            if in_list(&before, mesh.source.uid) {
+                mesh.geometry(self).into_iter().for_each(|event| self.push_event(event));
+                mesh.refresh(self);
+            } else {
+                let entries = mesh.describe(self);
+                self.push_event(Event::new("objectAdded", mesh.source, entries));
+            }
         }
     }
 

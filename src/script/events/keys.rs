@@ -40,6 +40,9 @@ const SILENT: &[&str] = &[
     "selectionHandles",
 ];
 
+/// Too large to remember what was told of them: they are told when the geometry changes.
+const LARGE: &[&str] = &["vertices", "indices", "normals", "textureCoordinates", "rawTexture"];
+
 /// Properties that are told in one event.
 const PAIRS: &[[&str; 2]] = &[["bbPose", "bbHSize"], ["parentUid", "parentHandle"]];
 
@@ -85,6 +88,8 @@ pub(super) struct Told {
     pub row: &'static Row,
     /// Index of the one told in the same event.
     pub partner: Option<usize>,
+    /// Not remembered, told when the geometry changes.
+    pub large: bool,
     /// Name and meaning in protocol 4.
     pub renamed: (&'static str, Meaning),
 }
@@ -112,8 +117,12 @@ impl Keys {
             let pair = PAIRS.iter().find(|pair| pair.contains(&name))?;
             index(pair.iter().find(|other| **other != name)?)
         };
-        let told =
-            rows.iter().map(|row| Told { row, partner: partner(row.name), renamed: renamed(row.class, row.name) });
+        let told = rows.iter().map(|row| Told {
+            row,
+            partner: partner(row.name),
+            large: LARGE.contains(&row.name),
+            renamed: renamed(row.class, row.name),
+        });
         let told = told.collect();
         let indices = |names: &[&str]| names.iter().filter_map(|name| index(name)).collect();
         let frequent = FREQUENT.iter().map(|(field, names)| (*field, indices(names))).collect();

@@ -18,7 +18,6 @@ pub(crate) enum Class {
     App,
     Scene,
     Object,
-    #[allow(dead_code, reason = "meshes become targets with their properties")]
     Mesh,
     Main,
     Sandbox,

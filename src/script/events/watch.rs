@@ -11,7 +11,7 @@ use super::queue::{Class, Entry, Event, Source};
 use crate::scene::script_object::ScriptType;
 use crate::scene::{Data, Handle, Namespace, Object, ValueType};
 use crate::script::instance::Script;
-use crate::script::property::{Class as PropertyClass, Target, app_class, object_class, scene_class, script_class};
+use crate::script::property::{Class as PropertyClass, Target, app_class, mesh_class, object_class, scene_class, script_class};
 use crate::script::sim::Sim;
 
 /// Those who listen, and how they are spoken to.
@@ -68,7 +68,18 @@ impl Watched {
         let handle = object.handle();
         let source = Source::object(handle, object.uid());
         let watched = Self::new(Target::Object(handle), source, object_class(&object.kind), audience);
-        Self { parent: object.parent(), ..watched }
+        Self { parent: object.parent(), meshes: Self::meshes(object, audience), ..watched }
+    }
+
+    /// The meshes of a shape.
+    pub(super) fn meshes(object: &Object, audience: &Audience) -> Vec<Self> {
+        let Ok(shape) = object.shape() else { return Vec::new() };
+        let uids = shape.parts.iter().map(|part| part.uid);
+        uids.map(|uid| {
+            let source = Source { class: Class::Mesh, handle: uid, uid };
+            Self::new(Target::Mesh(uid), source, mesh_class(), audience)
+        })
+        .collect()
     }
 
     fn new(target: Target, source: Source, class: &'static PropertyClass, audience: &Audience) -> Self {
@@ -81,10 +92,15 @@ impl Watched {
     /// Takes the present values as told.
     pub(super) fn refresh(&mut self, sim: &Rc<Sim>) {
         for index in 0..self.told.len() {
-            if self.wanted[index] {
+            if self.remembers(index) {
                 self.told[index] = self.read(sim, index).unwrap_or(Data::Nil);
             }
         }
+        self.meshes.iter_mut().for_each(|mesh| mesh.refresh(sim));
+    }
+
+    fn remembers(&self, index: usize) -> bool {
+        self.wanted[index] && !self.keys.told[index].large
     }
 
     /// Everything about the target, which counts as told from now on.
@@ -93,11 +109,19 @@ impl Watched {
         for index in 0..self.told.len() {
             let Some(value) = self.read(sim, index) else { continue };
             entries.push(self.entry(index, &value));
-            if self.wanted[index] {
+            if self.remembers(index) {
                 self.told[index] = value;
             }
         }
         entries
+    }
+
+    /// What is not remembered, as it is now: one event each.
+    pub(super) fn geometry(&self, sim: &Rc<Sim>) -> Vec<Event> {
+        let large = (0..self.told.len()).filter(|&index| self.wanted[index] && self.keys.told[index].large);
+        let values = large.filter_map(|index| Some((index, self.read(sim, index)?)));
+        let entries = values.filter(|(_, value)| !is_empty(value)).map(|(index, value)| self.entry(index, &value));
+        entries.map(|entry| Event::changed(self.source, vec![entry])).collect()
     }
 
     /// One event for each of these properties that is not as it was told; pairs are told in one.
@@ -121,7 +145,7 @@ impl Watched {
 
     /// Reads a property anew; tells whether it is different from what was told.
     pub(super) fn take_difference(&mut self, sim: &Rc<Sim>, index: usize) -> bool {
-        if !self.wanted[index] {
+        if !self.remembers(index) {
             return false;
         }
         let Some(value) = self.read(sim, index) else { return false };
@@ -132,7 +156,7 @@ impl Watched {
 
     /// Whether the property is not wanted, or was told with this value.
     pub(super) fn was_told(&self, name: &str, value: &Data) -> bool {
-        self.keys.index_of(name).is_none_or(|index| !self.wanted[index] || self.told[index] == *value)
+        self.keys.index_of(name).is_none_or(|index| !self.remembers(index) || self.told[index] == *value)
     }
 
     pub(super) fn keys(&self) -> &'static Keys {
@@ -163,6 +187,10 @@ impl Watched {
         });
         entries.unwrap_or_default()
     }
+}
+
+fn is_empty(value: &Data) -> bool {
+    matches!(value, Data::Array(items) if items.is_empty()) || matches!(value, Data::Buffer(bytes) if bytes.is_empty())
 }
 
 pub(super) fn stored_entry(
