@@ -7,11 +7,12 @@ sim = require 'sim'
 cbor = require 'org.conman.cbor'
 
 local path = sim.getNamedStringParam('csv') -- nil: standard output
-local out = path and assert(io.open(path, 'w')) or io.stdout
+local file = path and assert(io.open(path, 'w'))
 local lines = 0
 
 local function write(...)
-    out:write(table.concat({...}, ','), '\n')
+    local line = table.concat({...}, ',')
+    if file then file:write(line, '\n') else print(line) end
     lines = lines + 1
 end
 
@@ -58,6 +59,6 @@ function sysCall_event(batch)
 end
 
 function sysCall_afterSimulation()
-    out:flush()
+    if file then file:flush() end
     sim.addLog(sim.verbosity_scriptinfos, string.format('%d lines in %s', lines, path or 'standard output'))
 end

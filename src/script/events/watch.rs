@@ -11,7 +11,9 @@ use super::queue::{Class, Entry, Event, Source};
 use crate::scene::script_object::ScriptType;
 use crate::scene::{Data, Handle, Namespace, Object, ValueType};
 use crate::script::instance::Script;
-use crate::script::property::{Class as PropertyClass, Target, app_class, mesh_class, object_class, scene_class, script_class};
+use crate::script::property::{
+    Class as PropertyClass, Target, app_class, mesh_class, object_class, scene_class, script_class,
+};
 use crate::script::sim::Sim;
 
 /// Those who listen, and how they are spoken to.
