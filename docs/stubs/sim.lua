@@ -1155,13 +1155,13 @@ function sim.getRandom(seed) end
 function sim.getReferencedHandle(objectHandle, tag) end
 
 --- Handles an object refers to.
----@param objectHandle integer the object
+---@param objectHandle integer the object; with sim.handleflag_keeporiginal: what its copies refer to, too
 ---@param tag? string name of the list
 ---@return integer[] referencedHandles -1 for objects that are gone
 function sim.getReferencedHandles(objectHandle, tag) end
 
 --- Names of the lists of handles an object refers to.
----@param objectHandle integer the object
+---@param objectHandle integer the object; with sim.handleflag_keeporiginal: the lists that copies keep
 ---@return string[] tags in the order they were made
 function sim.getReferencedHandlesTags(objectHandle) end
 
@@ -2527,7 +2527,7 @@ function sim.setProperty(target, name, value, type) end
 function sim.setQuaternionProperty(target, propertyName, propertyState, options) end
 
 --- Makes an object refer to others; copies then refer to the copies.
----@param objectHandle integer the object
+---@param objectHandle integer the object; with sim.handleflag_keeporiginal: its copies refer to the same objects
 ---@param referencedHandles integer[] empty to remove the list
 ---@param tag? string name of the list
 function sim.setReferencedHandles(objectHandle, referencedHandles, tag) end

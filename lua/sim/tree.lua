@@ -84,8 +84,8 @@ function M.removeReferencedObjects(objectHandle, tag, delayed)
         if not seen[handle] and sim.isHandle(handle) then valid[#valid + 1] = handle end
         seen[handle] = true
     end
+    sim.setReferencedHandles(objectHandle, {}, tag or '') -- first: the object may be among those it refers to
     if #valid > 0 then sim.removeObjects(valid, delayed or false) end
-    sim.setReferencedHandles(objectHandle, {}, tag or '')
 end
 
 ---------------------------------------------------------------- relative names

@@ -104,7 +104,7 @@ fn read_custom_string_data(cx: &Cx, object_handle: Number, tag_name: String) -> 
 /// @return tags
 #[api("sim.readCustomDataTags")]
 fn read_custom_data_tags(cx: &Cx, object_handle: Number) -> Result<Vec<String>> {
-    let tags = |values: &CustomData| values.tags().map(str::to_owned).collect();
+    let tags = |values: &CustomData| values.tags().collect();
     match owner(cx, object_handle.0)? {
         Owner::Scene(target) => cx.sim().with_named_values(&target, Namespace::CustomData, tags),
         Owner::App => Ok(tags(&cx.sim().app.borrow().raw_data)),

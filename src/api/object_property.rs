@@ -3,8 +3,8 @@
 use api_macro::api;
 
 use super::{ApiFn, Cx, Result, functions};
-use crate::scene::{Field, Handle, Kind, Object, SceneError};
-use crate::script::{Handles, Number};
+use crate::scene::{Field, Handle, Kind, Object, References, SceneError, flag};
+use crate::script::{Handles, Number, ObjectRef};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_object_property,
@@ -124,34 +124,41 @@ fn get_object_size_factor(cx: &Cx, object_handle: Handle) -> Result<f64> {
 
 /// Handles an object refers to.
 ///
-/// @param objectHandle the object
+/// @param objectHandle the object; with sim.handleflag_keeporiginal: what its copies refer to, too
 /// @param tag name of the list
 /// @return referencedHandles -1 for objects that are gone
 #[api("sim.getReferencedHandles")]
-fn get_referenced_handles(cx: &Cx, object_handle: Handle, #[default("")] tag: String) -> Result<Vec<i64>> {
-    Ok(cx.scene().object(object_handle)?.referenced(&tag).to_vec())
+fn get_referenced_handles(cx: &Cx, object_handle: ObjectRef, #[default("")] tag: String) -> Result<Vec<i64>> {
+    Ok(cx.scene().object(object_handle.handle)?.referenced(references(object_handle), &tag).to_vec())
 }
 
 /// Makes an object refer to others; copies then refer to the copies.
 ///
-/// @param objectHandle the object
+/// @param objectHandle the object; with sim.handleflag_keeporiginal: its copies refer to the same objects
 /// @param referencedHandles empty to remove the list
 /// @param tag name of the list
 #[api("sim.setReferencedHandles")]
 fn set_referenced_handles(
     cx: &mut Cx,
-    object_handle: Handle,
+    object_handle: ObjectRef,
     referenced_handles: Handles,
     #[default("")] tag: String,
 ) -> Result<()> {
-    Ok(cx.scene_mut().set_references(object_handle, &tag, &referenced_handles.0)?)
+    let kind = references(object_handle);
+    Ok(cx.scene_mut().set_references(object_handle.handle, kind, &tag, &referenced_handles.0)?)
 }
 
 /// Names of the lists of handles an object refers to.
 ///
-/// @param objectHandle the object
+/// @param objectHandle the object; with sim.handleflag_keeporiginal: the lists that copies keep
 /// @return tags in the order they were made
 #[api("sim.getReferencedHandlesTags")]
-fn get_referenced_handles_tags(cx: &Cx, object_handle: Handle) -> Result<Vec<String>> {
-    Ok(cx.scene().object(object_handle)?.references.iter().map(|(tag, _)| tag.clone()).collect())
+fn get_referenced_handles_tags(cx: &Cx, object_handle: ObjectRef) -> Result<Vec<String>> {
+    let scene = cx.scene();
+    let lists = scene.object(object_handle.handle)?.reference_lists(references(object_handle));
+    Ok(lists.iter().map(|(tag, _)| tag.clone()).collect())
+}
+
+fn references(object: ObjectRef) -> References {
+    if object.has(flag::KEEP_ORIGINAL) { References::Original } else { References::Following }
 }

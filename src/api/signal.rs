@@ -5,7 +5,7 @@
 use api_macro::api;
 
 use super::{ApiFn, Cx, Result, functions};
-use crate::scene::{Namespace, ValueType};
+use crate::scene::Namespace;
 use crate::script::{Bytes, Number, PropertyValue, Target, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -57,7 +57,7 @@ fn clear(cx: &Cx, kind: &str, name: Option<&str>) -> i64 {
 fn names_of(cx: &Cx, kind: &str) -> Vec<String> {
     let scene = cx.scene();
     let Ok(signals) = scene.named_values(None, Namespace::Signal) else { return Vec::new() };
-    let names = signals.tags().filter_map(|tag| ValueType::split_tag(tag).1.strip_prefix(kind));
+    let names = signals.names().filter_map(|name| name.strip_prefix(kind));
     let mut names: Vec<String> = names.map(str::to_owned).collect();
     names.sort();
     names
@@ -100,7 +100,7 @@ macro_rules! signals {
 
 signals! {
     INT32: set_int32_signal "sim.setInt32Signal", get_int32_signal "sim.getInt32Signal",
-        clear_int32_signal "sim.clearInt32Signal", Number, i64, |v| v.0, |s| s;
+        clear_int32_signal "sim.clearInt32Signal", Number, i64, |v| i64::from(v.0 as i32), |s| s;
     FLOAT: set_float_signal "sim.setFloatSignal", get_float_signal "sim.getFloatSignal",
         clear_float_signal "sim.clearFloatSignal", f64, f64, |v| v, |s| s;
     DOUBLE: set_double_signal "sim.setDoubleSignal", get_double_signal "sim.getDoubleSignal",

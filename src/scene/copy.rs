@@ -131,7 +131,7 @@ fn start_anew(object: &mut Object, options: CopyOptions) {
     }
 }
 
-/// References to copied objects follow the copies, others end.
+/// References to copied objects follow the copies, others end. Those kept for originals stay.
 fn redirect(object: &mut Object, copies: &BTreeMap<Handle, Handle>) {
     let copy_of = |handle: Handle| copies.get(&handle).copied();
     match &mut object.kind {
@@ -145,8 +145,7 @@ fn redirect(object: &mut Object, copies: &BTreeMap<Handle, Handle>) {
         Kind::VisionSensor(sensor) => sensor.entity = redirected_entity(sensor.entity, copies),
         _ => {}
     }
-    let lists = object.references.iter_mut().chain(object.original_references.iter_mut());
-    for handle in lists.flat_map(|(_, list)| list.iter_mut()) {
+    for handle in object.references.iter_mut().flat_map(|(_, list)| list.iter_mut()) {
         *handle = Handle::from_raw(*handle).and_then(copy_of).map_or(-1, Handle::raw);
     }
 }

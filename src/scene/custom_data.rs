@@ -88,70 +88,83 @@ impl Edited<'_> {
 /// Values of one owner, in the order they were created.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CustomData {
-    entries: Vec<(String, Data)>,
+    entries: Vec<Entry>,
+}
+
+/// One value. The tag it is stored under is the mark of its type and its name.
+#[derive(Debug, Clone, PartialEq)]
+struct Entry {
+    ty: ValueType,
+    name: String,
+    value: Data,
+}
+
+impl Entry {
+    fn is(&self, ty: ValueType, name: &str) -> bool {
+        self.ty == ty && self.name == name
+    }
 }
 
 impl CustomData {
     /// The value with that tag.
     pub fn get(&self, tag: &str) -> Option<&Data> {
-        self.entries.iter().find(|(t, _)| t == tag).map(|(_, value)| value)
+        let (ty, name) = ValueType::split_tag(tag);
+        self.entries.iter().find(|entry| entry.is(ty, name)).map(|entry| &entry.value)
+    }
+
+    /// The value `name` of whatever type.
+    pub fn typed(&self, name: &str) -> Option<(ValueType, &Data)> {
+        self.entries.iter().find(|entry| entry.name == name).map(|entry| (entry.ty, &entry.value))
+    }
+
+    /// The tags in the order of their creation.
+    pub fn tags(&self) -> impl Iterator<Item = String> {
+        self.entries.iter().map(|entry| entry.ty.tag(&entry.name))
+    }
+
+    /// The names in the order of their creation.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().map(|entry| entry.name.as_str())
     }
 
     /// Does `edit`. Writing what is there already is no change.
     pub fn edit<'a>(&mut self, edit: Edit<'a>) -> Edited<'a> {
         match edit {
-            Edit::Tag(tag, Some(value)) => written(self.set(tag, value), ValueType::split_tag(tag).1),
-            Edit::Tag(tag, None) => removed(self.retain(|t| t != tag), ValueType::split_tag(tag).1),
-            Edit::Name(name, Some((ty, value))) => written(self.set_typed(name, ty, value), name),
-            Edit::Name(name, None) => removed(self.retain(|t| ValueType::split_tag(t).1 != name), name),
+            Edit::Tag(tag, value) => {
+                let (ty, name) = ValueType::split_tag(tag);
+                match value {
+                    Some(value) => written(self.set(ty, name, value), name),
+                    None => removed(self.retain(|entry| !entry.is(ty, name)), name),
+                }
+            }
+            Edit::Name(name, Some((ty, value))) => {
+                let retyped = self.retain(|entry| entry.name != name || entry.ty == ty);
+                written(self.set(ty, name, value) || retyped, name)
+            }
+            Edit::Name(name, None) => removed(self.retain(|entry| entry.name != name), name),
             Edit::Clear => self.clear(),
         }
     }
 
-    fn set(&mut self, tag: &str, value: Data) -> bool {
-        match self.entries.iter_mut().find(|(t, _)| t == tag) {
-            Some((_, old)) if *old == value => false,
-            Some((_, old)) => {
-                *old = value;
-                true
-            }
-            None => {
-                self.entries.push((tag.to_owned(), value));
-                true
-            }
+    fn set(&mut self, ty: ValueType, name: &str, value: Data) -> bool {
+        match self.entries.iter_mut().find(|entry| entry.is(ty, name)) {
+            Some(old) if old.value == value => return false,
+            Some(old) => old.value = value,
+            None => self.entries.push(Entry { ty, name: name.to_owned(), value }),
         }
-    }
-
-    fn set_typed(&mut self, name: &str, ty: ValueType, value: Data) -> bool {
-        let tag = ty.tag(name);
-        self.retain(|t| *t == *tag || ValueType::split_tag(t).1 != name);
-        self.set(&tag, value)
+        true
     }
 
     /// Tells whether anything went.
-    fn retain(&mut self, keep: impl Fn(&str) -> bool) -> bool {
+    fn retain(&mut self, keep: impl FnMut(&Entry) -> bool) -> bool {
         let before = self.entries.len();
-        self.entries.retain(|(tag, _)| keep(tag));
+        self.entries.retain(keep);
         self.entries.len() != before
     }
 
     fn clear(&mut self) -> Edited<'static> {
-        let names: Vec<String> =
-            self.entries.drain(..).map(|(tag, _)| ValueType::split_tag(&tag).1.to_owned()).collect();
+        let names: Vec<String> = self.entries.drain(..).map(|entry| entry.name).collect();
         if names.is_empty() { Edited::Nothing } else { Edited::Cleared(names) }
-    }
-
-    /// The tags in the order of their creation.
-    pub fn tags(&self) -> impl Iterator<Item = &str> {
-        self.entries.iter().map(|(tag, _)| tag.as_str())
-    }
-
-    /// The value `name` of whatever type.
-    pub fn typed(&self, name: &str) -> Option<(ValueType, &Data)> {
-        self.entries.iter().find_map(|(tag, value)| {
-            let (ty, tagged) = ValueType::split_tag(tag);
-            (tagged == name).then_some((ty, value))
-        })
     }
 }
 
@@ -228,7 +241,7 @@ mod tests {
         assert_eq!(data.edit(int()), Edited::Nothing);
         let buffer = Data::Buffer(vec![1]);
         assert!(data.edit(Edit::Name("x", Some((ValueType::Buffer, buffer.clone())))).any());
-        assert_eq!(data.tags().collect::<Vec<_>>(), ["x"]);
+        assert!(data.tags().eq(["x"]));
         assert_eq!(data.typed("x"), Some((ValueType::Buffer, &buffer)));
     }
 

@@ -52,6 +52,7 @@ pub mod special {
 /// Bits that may be added to an object handle (`sim.handleflag_*`). Several share a value: what a
 /// bit means depends on the function it is given to.
 pub mod flag {
+    pub const KEEP_ORIGINAL: i64 = 0x40_0000;
     pub const REL_JOINT_BASE_FRAME: i64 = 0x40_0000;
     pub const RAW_VALUE: i64 = 0x100_0000;
     pub const AXIS: i64 = 0x40_0000;

@@ -69,5 +69,6 @@ pub use object::{Kind, Measured, NOT_MODEL, Object};
 pub use path::clean_alias;
 pub use pose::Pose;
 pub use poses::{Frame, Placement};
+pub use references::{ReferenceLists, References};
 pub use settings::{DynamicsSettings, Settings};
 pub use store::{FIRST_MESH_UID, Scene};

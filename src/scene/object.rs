@@ -58,8 +58,8 @@ pub struct Object {
     /// Parameters of the old parameter dialog: name and value as text.
     pub user_params: Vec<(String, String)>,
     /// Tagged lists of handles: `(tag, handles)`; -1 stands for an object that is gone.
-    pub references: Vec<(String, Vec<i64>)>,
-    pub original_references: Vec<(String, Vec<i64>)>,
+    pub references: super::ReferenceLists,
+    pub original_references: super::ReferenceLists,
     /// What the physics uses of this object: shapes 1 respondable | 2 dynamic, joints 4, force sensors 32, dummies 64.
     pub dynamic_flag: i64,
     /// Asks the physics to build this object anew.

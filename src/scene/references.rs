@@ -4,6 +4,18 @@ use std::collections::BTreeSet;
 
 use super::{Change, Field, Handle, Kind, Object, Scene, SceneResult};
 
+/// Lists of handles by tag.
+pub type ReferenceLists = Vec<(String, Vec<i64>)>;
+
+/// What becomes of references when the object that holds them is copied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum References {
+    /// The copy refers to copies, and to nothing where an object was not copied along.
+    Following,
+    /// The copy refers to the same objects.
+    Original,
+}
+
 impl Object {
     /// Whether other objects' handles are kept here, apart from parent and children.
     pub(super) fn refers(&self) -> bool {
@@ -17,9 +29,17 @@ impl Object {
         by_kind || !self.references.is_empty() || !self.original_references.is_empty()
     }
 
+    /// The lists of a kind.
+    pub fn reference_lists(&self, kind: References) -> &ReferenceLists {
+        match kind {
+            References::Following => &self.references,
+            References::Original => &self.original_references,
+        }
+    }
+
     /// The handles referred to under `tag`; -1 for objects that are gone.
-    pub fn referenced(&self, tag: &str) -> &[i64] {
-        self.references.iter().find(|(t, _)| t == tag).map_or(&[], |(_, list)| list)
+    pub fn referenced(&self, kind: References, tag: &str) -> &[i64] {
+        self.reference_lists(kind).iter().find(|(t, _)| t == tag).map_or(&[], |(_, list)| list)
     }
 
     fn forget(&mut self, doomed: &BTreeSet<Handle>) {
@@ -44,13 +64,16 @@ impl Object {
 
 impl Scene {
     /// Sets what `handle` refers to under `tag`; an empty list removes the tag. Handles of nothing become -1.
-    pub fn set_references(&mut self, handle: Handle, tag: &str, handles: &[i64]) -> SceneResult<()> {
+    pub fn set_references(&mut self, handle: Handle, kind: References, tag: &str, handles: &[i64]) -> SceneResult<()> {
         let known = |raw: i64| {
             self.collection(raw).is_ok() || Handle::from_raw(raw).is_some_and(|h| h.raw() == raw && self.exists(h))
         };
         let list: Vec<i64> = handles.iter().map(|&raw| if known(raw) { raw } else { -1 }).collect();
         self.modify(handle, Field::Other, |object| {
-            let lists = &mut object.references;
+            let lists = match kind {
+                References::Following => &mut object.references,
+                References::Original => &mut object.original_references,
+            };
             match lists.iter_mut().find(|(t, _)| t == tag) {
                 _ if list.is_empty() => lists.retain(|(t, _)| t != tag),
                 Some((_, old)) => *old = list,

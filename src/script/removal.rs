@@ -7,7 +7,7 @@ use super::callback::SysCall;
 use super::error::ApiResult;
 use super::sim::Sim;
 use super::{instance::state, verbosity};
-use crate::scene::{CopyOptions, Data, Handle, Key, Kind, SceneError};
+use crate::scene::{CopyOptions, Data, Handle, Holder, Key, Kind, SceneError};
 
 impl Sim {
     /// Adds an object and tells everyone.
@@ -71,6 +71,7 @@ impl Sim {
         self.scene.borrow_mut().remove(&doomed)?;
         for handle in &doomed {
             self.scripts.borrow_mut().remove(&handle.raw());
+            self.signal_owners.borrow_mut().forget(Holder::Object(*handle));
         }
         self.broadcast(SysCall::AfterDelete, &[data]);
         Ok(())

@@ -98,7 +98,7 @@ fn set_aside(path: PathBuf) -> Failure {
 
 fn encode(contents: &Contents) -> Data {
     let values = |data: &CustomData| {
-        let pairs = data.tags().filter_map(|tag| Some(Data::Array(vec![Data::text(tag), data.get(tag)?.clone()])));
+        let pairs = data.tags().filter_map(|tag| Some(Data::Array(vec![Data::text(&tag), data.get(&tag)?.clone()])));
         Data::Array(pairs.collect())
     };
     Data::map([

@@ -183,9 +183,8 @@ impl Watched {
     /// Custom data or signals of the target.
     pub(super) fn stored(&self, sim: &Sim, namespace: Namespace) -> Vec<Entry> {
         let entries = sim.with_named_values(&self.target, namespace, |values| {
-            let name = |tag| ValueType::split_tag(tag).1;
             let entry = |name| Some(stored_entry(self.protocol, namespace, name, values.typed(name)?));
-            values.tags().map(name).filter_map(entry).collect()
+            values.names().filter_map(entry).collect()
         });
         entries.unwrap_or_default()
     }

@@ -79,7 +79,7 @@ impl Sim {
         hash.part(b'o', format!("{parent:?}").as_bytes());
         self.hash_rows(hash, &Target::Object(handle))?;
         let custom_data = self.with_named_values(&Target::Object(handle), Namespace::CustomData, |values| {
-            values.tags().map(|tag| (tag.to_owned(), values.get(tag).cloned())).collect::<Vec<_>>()
+            values.tags().map(|tag| (tag.clone(), values.get(&tag).cloned())).collect::<Vec<_>>()
         })?;
         for (tag, value) in custom_data {
             hash.part(b'c', tag.as_bytes());

@@ -9,7 +9,45 @@ use crate::script::error::{ApiError, ApiResult};
 use crate::script::instance::Script;
 
 /// The script that wrote each signal last. A signal goes with the Lua state of that script.
-pub(crate) type SignalOwners = BTreeMap<(Holder, String), i64>;
+#[derive(Default)]
+pub(crate) struct SignalOwners(BTreeMap<Holder, BTreeMap<String, i64>>);
+
+impl SignalOwners {
+    fn set(&mut self, holder: Holder, name: &str, script: i64) {
+        let owners = self.0.entry(holder).or_default();
+        match owners.get_mut(name) {
+            Some(owner) => *owner = script,
+            None => drop(owners.insert(name.to_owned(), script)),
+        }
+    }
+
+    fn remove(&mut self, holder: Holder, name: &str) {
+        if let Some(owners) = self.0.get_mut(&holder) {
+            owners.remove(name);
+        }
+    }
+
+    /// Forgets who owned the signals of a holder that is gone.
+    pub(crate) fn forget(&mut self, holder: Holder) {
+        self.0.remove(&holder);
+    }
+
+    /// Gives up what `script` owns.
+    fn take(&mut self, script: i64) -> Vec<(Holder, String)> {
+        let mut owned = Vec::new();
+        for (&holder, owners) in &mut self.0 {
+            owners.retain(|name, owner| {
+                let kept = *owner != script;
+                if !kept {
+                    owned.push((holder, name.clone()));
+                }
+                kept
+            });
+        }
+        self.0.retain(|_, owners| !owners.is_empty());
+        owned
+    }
+}
 
 /// Whether a new property may have that name.
 pub(crate) fn is_valid_name(name: &str) -> bool {
@@ -117,7 +155,7 @@ impl Sim {
         let holder = target.holder().ok_or(ApiError::UnknownProperty)?;
         self.edit_stored(holder, namespace, Edit::Name(name, Some((ty, value))))?;
         if namespace == Namespace::Signal {
-            self.signal_owners.borrow_mut().insert((holder, name.to_owned()), writer.id);
+            self.signal_owners.borrow_mut().set(holder, name, writer.id);
         }
         Ok(())
     }
@@ -125,7 +163,7 @@ impl Sim {
     pub(super) fn remove_stored(&self, target: &Target, namespace: Namespace, name: &str) -> ApiResult<bool> {
         let holder = target.holder().ok_or(ApiError::UnknownProperty)?;
         if namespace == Namespace::Signal {
-            self.signal_owners.borrow_mut().remove(&(holder, name.to_owned()));
+            self.signal_owners.borrow_mut().remove(holder, name);
         }
         self.edit_stored(holder, namespace, Edit::Name(name, None))
     }
@@ -143,7 +181,7 @@ impl Sim {
         let mut names = Vec::new();
         for (namespace, prefix) in [(Namespace::CustomData, "customData"), (Namespace::Signal, "signal")] {
             let found = self.with_stored(holder, namespace, |values| {
-                values.tags().map(|tag| format!("{prefix}.{}", ValueType::split_tag(tag).1)).collect::<Vec<_>>()
+                values.names().map(|name| format!("{prefix}.{name}")).collect::<Vec<_>>()
             });
             names.extend(found.unwrap_or_default());
         }
@@ -155,14 +193,7 @@ impl Sim {
 
     /// Removes the signals whose last writer's Lua state ends.
     pub(crate) fn drop_signals_of(&self, script: &Script) {
-        let mut owned = Vec::new();
-        self.signal_owners.borrow_mut().retain(|key, owner| {
-            let keep = *owner != script.id;
-            if !keep {
-                owned.push(key.clone());
-            }
-            keep
-        });
+        let owned = self.signal_owners.borrow_mut().take(script.id);
         for (holder, name) in owned {
             // An object that is gone took its signals along.
             let _ = self.edit_stored(holder, Namespace::Signal, Edit::Name(&name, None));
