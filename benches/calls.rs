@@ -17,14 +17,31 @@ function setObjectPositionChanging(n)
     local f, h, p, q = sim.setObjectPosition, h, p, q
     for _ = 1, n / 2 do f(h, p) f(h, q) end
 end
+function getIntProperty(n) local f, h = sim.getIntProperty, h for _ = 1, n do f(h, 'layer') end end
+function setIntProperty(n) local f, h = sim.setIntProperty, h for i = 1, n do f(h, 'layer', i & 1) end end
+function setFloatPropertyCustom(n) local f, h = sim.setFloatProperty, h for i = 1, n do f(h, 'customData.x', i) end end
+function getFloatPropertyCustom(n) local f, h = sim.getFloatProperty, h for _ = 1, n do f(h, 'customData.x') end end
+function getVector3Property(n) local f, s = sim.getVector3Property, sim.handle_scene for _ = 1, n do f(s, 'gravity') end end
 ";
+
+const FUNCTIONS: [&str; 9] = [
+    "getSimulationTime",
+    "getObjectPosition",
+    "setObjectPosition",
+    "setObjectPositionChanging",
+    "getIntProperty",
+    "setIntProperty",
+    "setFloatPropertyCustom",
+    "getFloatPropertyCustom",
+    "getVector3Property",
+];
 
 fn calls(criterion: &mut Criterion) {
     let mut sim = Simulator::new(Options::default());
     let script = sim.add_script(ScriptKind::Customization, "bench", SCRIPT.as_bytes()).expect("the script loads");
     let mut group = criterion.benchmark_group("calls");
     group.throughput(Throughput::Elements(CALLS));
-    for function in ["getSimulationTime", "getObjectPosition", "setObjectPosition", "setObjectPositionChanging"] {
+    for function in FUNCTIONS {
         group.bench_function(function, |bencher| {
             bencher.iter(|| sim.call(&script, function, &[Data::Int(CALLS as i64)]).expect("the function works"));
         });

@@ -223,3 +223,54 @@ fn running_out_of_memory_is_an_error() {
     );
     assert!(output.contains("alive"), "{output}");
 }
+
+#[test]
+fn wrong_values_for_every_property() {
+    // Not started: some of what is written here stops the simulation for good.
+    let output = run(
+        "sim = require 'sim'
+        local inf, targets = math.huge, {sim.handle_app, sim.handle_scene, sim.handle_self, sim.handle_sandbox, 999999, -77, 2 ^ 53}
+        local values = {true, 0, -1, 1 << 62, 0.5, 0 / 0, inf, -inf, '', 'x', ('x'):rep(100000), {}, {0 / 0}, {inf, inf, inf, inf, inf, inf, inf},
+            {1}, {1, 2, 3}, {0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0}, {1, 'x'}, {{}}, {a = 1}}
+        local long = {} for i = 1, 100000 do long[i] = 1e300 end
+        targets[#targets + 1] = sim.createDummy(0.1)
+        targets[#targets + 1] = sim.createJoint(sim.joint_revolute_subtype, sim.jointmode_dynamic, 0)
+        targets[#targets + 1] = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1})
+        targets[#targets + 1] = sim.createForceSensor(0, {0, 1, 10, 0, 0}, {0.05, 100, 10, 0, 0})
+        local count = 0
+        local function tryTyped(target, name, value)
+            for code = 0, 16 do
+                if sim.getPropertySetter(code) then
+                    pcall(sim.getPropertySetter(code), target, name, value)
+                    pcall(sim.getPropertyGetter(code), target, name)
+                end
+            end
+        end
+        local function try(target, name)
+            count = count + 1
+            for _, value in ipairs(values) do pcall(sim.setProperty, target, name, value) end
+            tryTyped(target, name, values[count % #values + 1])
+            if count % 50 == 0 then tryTyped(target, name, long) end
+        end
+        function sysCall_init()
+            for _, target in ipairs(targets) do
+                local names, index = {'nothing', '', 'customData.', 'signal.', 'customData.a b', 'app.app.layer', ('x'):rep(1000), '\\xff'}, 0
+                while true do
+                    local ok, name = pcall(sim.getPropertyName, target, index)
+                    if not ok or not name then break end
+                    names[#names + 1], index = name, index + 1
+                end
+                for _, name in ipairs(names) do
+                    if not name:find('scriptDisabled') then try(target, name) end
+                    pcall(sim.removeProperty, target, name)
+                    pcall(sim.getPropertyInfo, target, name)
+                end
+                pcall(sim.getPropertyName, target, -1)
+                pcall(sim.getProperties, target)
+            end
+            print('done', count > 500)
+        end",
+        &["--no-start", "--empty"],
+    );
+    assert!(output.contains("done, true"), "{output}");
+}

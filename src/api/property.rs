@@ -4,7 +4,9 @@ use api_macro::api;
 
 use super::{ApiError, ApiFn, Args, Cx, FromScript, Result, functions};
 use crate::scene::Data;
-use crate::script::{Bytes, Color, IntPair, Long, PoseArray, PropertyValue, Quaternion, Table, Text, Vector2, Vector3};
+use crate::script::{
+    Bytes, Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Table, Text, Vector2, Vector3,
+};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_bool_property,
@@ -97,9 +99,9 @@ macro_rules! typed_properties {
         /// @return propertyState
         #[api($get_name)]
         fn $get(
-            cx: &Cx, target: i64, property_name: String, #[default(Options::default())] options: Options,
+            cx: &Cx, target: i64, property_name: PropertyName, #[default(Options::default())] options: Options,
         ) -> Result<Option<$ty>> {
-            options.apply(read(cx, target, &property_name))
+            options.apply(read(cx, target, property_name.as_str()))
         }
 
         /// Sets a property; names below `customData.` and `signal.` are created.
@@ -110,10 +112,10 @@ macro_rules! typed_properties {
         /// @param options noError: no error when that fails
         #[api($set_name)]
         fn $set(
-            cx: &mut Cx, target: i64, property_name: String, property_state: $ty,
+            cx: &mut Cx, target: i64, property_name: PropertyName, property_state: $ty,
             #[default(Options::default())] options: Options,
         ) -> Result<()> {
-            options.apply(write(cx, target, &property_name, property_state)).map(drop)
+            options.apply(write(cx, target, property_name.as_str(), property_state)).map(drop)
         }
     )* };
 }
@@ -145,11 +147,11 @@ typed_properties! {
 fn remove_property(
     cx: &mut Cx,
     target: i64,
-    property_name: String,
+    property_name: PropertyName,
     #[default(Options::default())] options: Options,
 ) -> Result<()> {
     let target = cx.sim().property_target(target, cx.script())?;
-    options.apply(cx.sim().remove_property(&target, &property_name)).map(drop)
+    options.apply(cx.sim().remove_property(&target, property_name.as_str())).map(drop)
 }
 
 /// What is known about a property; nothing when there is none of that name.
@@ -162,11 +164,11 @@ fn remove_property(
 fn get_property_info(
     cx: &Cx,
     target: i64,
-    property_name: String,
+    property_name: PropertyName,
     #[default(Options::default())] _options: Options,
 ) -> Result<Option<(i64, i64, &'static str)>> {
     let target = cx.sim().property_target(target, cx.script())?;
-    Ok(cx.sim().property_info(&target, &property_name).map(|(ty, flags)| (ty as i64, flags, "")))
+    Ok(cx.sim().property_info(&target, property_name.as_str()).map(|(ty, flags)| (ty as i64, flags, "")))
 }
 
 /// The properties of a target one by one; nothing past the last one.
@@ -184,5 +186,5 @@ fn get_property_name(
 ) -> Result<Option<(String, &'static str)>> {
     let target = cx.sim().property_target(target, cx.script())?;
     let Ok(index) = usize::try_from(index) else { return Ok(None) };
-    Ok(cx.sim().property_names(&target, &options.prefix).into_iter().nth(index))
+    Ok(cx.sim().property_name(&target, index, &options.prefix))
 }

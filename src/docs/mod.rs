@@ -7,6 +7,7 @@ mod coverage;
 mod lua_comments;
 mod markdown;
 mod modules;
+mod properties;
 mod row;
 mod stubs;
 
@@ -52,6 +53,7 @@ pub fn files() -> Vec<(String, String)> {
     files.push(("docs/api/modules.md".to_owned(), modules::page()));
     files.push((STUBS.to_owned(), stubs::text(&functions)));
     files.push(("docs/COVERAGE.md".to_owned(), coverage::text(&functions)));
+    files.push(("docs/PROPERTIES.md".to_owned(), properties::text()));
     files
 }
 

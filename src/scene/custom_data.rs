@@ -19,6 +19,11 @@ macro_rules! value_types {
                 match word { $($word => Some(Self::$variant),)* _ => None }
             }
 
+            /// What follows `sim.propertytype_` in the name of its constant.
+            pub fn word(self) -> &'static str {
+                match self { $(Self::$variant => $word),* }
+            }
+
             /// What precedes the name in a tag.
             fn mark(self) -> &'static str {
                 match self { $(Self::$variant => $mark),* }

@@ -46,6 +46,17 @@ impl Data {
         !matches!(self, Self::Nil | Self::Bool(false))
     }
 
+    /// How many bytes it takes, roughly: eight for a number.
+    pub fn size(&self) -> usize {
+        match self {
+            Self::Nil | Self::Bool(_) => 1,
+            Self::Int(_) | Self::Float(_) => 8,
+            Self::Text(bytes) | Self::Buffer(bytes) => bytes.len(),
+            Self::Array(items) => items.iter().map(Self::size).sum(),
+            Self::Map(entries) => entries.iter().map(|(key, value)| key.size() + value.size()).sum(),
+        }
+    }
+
     /// The number, if this is one.
     pub fn as_f64(&self) -> Option<f64> {
         match *self {
@@ -53,6 +64,12 @@ impl Data {
             Self::Float(f) => Some(f),
             _ => None,
         }
+    }
+}
+
+impl Key {
+    fn size(&self) -> usize {
+        if let Self::Text(bytes) = self { bytes.len() } else { 8 }
     }
 }
 

@@ -39,6 +39,11 @@ impl ValueType {
         (self.is_kind_of(&value) && is_finite(&value)).then_some(value)
     }
 
+    /// Whether values differ in size.
+    pub fn may_be_large(self) -> bool {
+        matches!(self, Self::String | Self::Buffer | Self::Table | Self::FloatArray | Self::IntArray)
+    }
+
     fn is_kind_of(self, value: &Data) -> bool {
         let is_int = |item: &Data| matches!(item, Data::Int(_));
         let is_float = |item: &Data| matches!(item, Data::Float(_));

@@ -50,6 +50,11 @@ impl<'a> Args<'a> {
         if self.position > self.count { Type::None } else { self.stack.kind(self.position) }
     }
 
+    /// The bytes of the argument, when it is a string.
+    pub(crate) fn bytes(&self) -> Option<&'a [u8]> {
+        if self.position > self.count { None } else { self.stack.bytes(self.position) }
+    }
+
     /// Fails unless there are `count` arguments.
     pub fn require(&self, count: usize) -> ApiResult<()> {
         if (self.count as usize) < count { Err(ApiError::MoreArguments) } else { Ok(()) }

@@ -47,7 +47,7 @@ pub use console::{Console, LogLine, Silent};
 pub use cx::Cx;
 pub use error::{ApiError, ApiResult};
 pub use instance::Script;
-pub use property::{Color, IntPair, Long, PoseArray, PropertyValue, Quaternion, Text, Vector2, Vector3};
+pub use property::{Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2, Vector3};
 pub use returns::{IntoScript, Nil, Results};
 pub use sim::Options;
 pub use threads::LevelChange;
@@ -59,7 +59,7 @@ pub(crate) use env::Hook;
 pub(crate) use events::Filters;
 pub(crate) use instance::Detached;
 pub(crate) use order::Group;
-pub(crate) use property::Target;
+pub(crate) use property::{Target, table as property_table};
 pub(crate) use sim::Sim;
 pub(crate) use threads::{auto_level, changed_level, set_auto_level};
 

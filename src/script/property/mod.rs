@@ -20,7 +20,7 @@ mod scene;
 mod script;
 mod shape;
 mod stored;
-mod table;
+pub(crate) mod table;
 mod value;
 mod view;
 
@@ -37,7 +37,7 @@ use table::Source;
 pub(crate) use app::AppData;
 pub(crate) use stored::SignalOwners;
 pub(crate) use table::{Class, Row, app_class, flags, mesh_class, object_class, scene_class, script_class};
-pub use value::{Color, IntPair, Long, PoseArray, PropertyValue, Quaternion, Text, Vector2, Vector3};
+pub use value::{Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2, Vector3};
 
 /// What has properties.
 #[derive(Clone)]
@@ -64,6 +64,9 @@ enum Name<'a> {
     /// A named parameter of the application.
     Param(&'a str),
 }
+
+/// Bytes from which on a value is said to be large; the original's limit is not known to us.
+const LARGE: usize = 1000;
 
 /// Type and flags, as `sim.getPropertyInfo` tells them.
 pub(crate) type Info = (ValueType, i64);
@@ -163,30 +166,38 @@ impl Sim {
         if existed { Ok(()) } else { Err(ApiError::UnknownProperty) }
     }
 
-    /// Type and flags of a property; None when there is none of that name.
-    pub(crate) fn property_info(&self, target: &Target, name: &str) -> Option<Info> {
+    /// Type and flags of a property; None when there is none of that name. That a value is large is told by what it is now.
+    pub(crate) fn property_info(self: &Rc<Self>, target: &Target, name: &str) -> Option<Info> {
         let class = self.class_of(target).ok()?;
-        match parse_name(class, target, name) {
-            Name::Stored(namespace, name) => self.stored_info(target, namespace, name),
+        let (ty, flags) = match parse_name(class, target, name) {
+            Name::Stored(namespace, name) => self.stored_info(target, namespace, name)?,
             Name::Param(name) => {
                 let known = self.app.borrow().named_params.contains_key(name);
-                known.then_some((ValueType::String, flags::REMOVABLE | flags::MODEL_HASH_EXCLUDE))
+                known.then_some((ValueType::String, flags::REMOVABLE | flags::MODEL_HASH_EXCLUDE))?
             }
-            Name::Static(name) => class.find(name).map(|row| (row.ty, row.flags)),
-        }
+            Name::Static(name) => class.find(name).map(|row| (row.ty, row.flags))?,
+        };
+        let large = ty.may_be_large() && self.read_property(target, name, ty).is_ok_and(|value| value.size() > LARGE);
+        Some((ty, if large { flags | flags::LARGE_DATA } else { flags }))
     }
 
-    /// All properties in the order of enumeration: name and class. Static ones only if they begin with `prefix`; custom data and
-    /// signals in any case, as in CoppeliaSim.
-    pub(crate) fn property_names(&self, target: &Target, prefix: &str) -> Vec<(String, &'static str)> {
-        let Ok((before, after)) = self.rows_of(target) else { return Vec::new() };
-        let class = before.last().map_or("", |row| row.class);
+    /// The property at `index` in the order of enumeration, with its class; None past the end. Static ones count only if they begin
+    /// with `prefix`; custom data and signals in any case, as in CoppeliaSim.
+    pub(crate) fn property_name(&self, target: &Target, index: usize, prefix: &str) -> Option<(String, &'static str)> {
+        let (before, after) = self.rows_of(target).ok()?;
         let listed = |rows: &'static [Row]| {
-            let rows = rows.iter().filter(|row| row.flags & flags::DEPRECATED == 0 && row.name.starts_with(prefix));
-            rows.map(|row| (row.name.to_owned(), row.class))
+            rows.iter().filter(|row| row.flags & flags::DEPRECATED == 0 && row.name.starts_with(prefix))
         };
-        let stored = self.stored_names(target).into_iter().map(|name| (name, class));
-        listed(before).chain(stored).chain(listed(after)).collect()
+        let told = |row: &'static Row| (row.name.to_owned(), row.class);
+        if let Some(row) = listed(before).nth(index) {
+            return Some(told(row));
+        }
+        let index = index - listed(before).count();
+        let stored = self.stored_names(target);
+        let Some(row) = index.checked_sub(stored.len()) else {
+            return Some((stored.into_iter().nth(index)?, before.last()?.class));
+        };
+        listed(after).nth(row).map(told)
     }
 
     /// The static properties of a target in the order of enumeration: those before and those after custom data and signals.

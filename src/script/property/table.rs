@@ -2,6 +2,7 @@
 //! a meaning are read and written.
 
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 use std::sync::LazyLock;
 
 use super::access::Accessor;
@@ -26,6 +27,7 @@ pub(crate) mod flags {
     pub const REMOVABLE: i64 = 4;
     pub const MODEL_HASH_EXCLUDE: i64 = 8;
     pub const DEPRECATED: i64 = 0x10;
+    pub const LARGE_DATA: i64 = 0x100;
 }
 
 /// One static property of one class.
@@ -60,7 +62,7 @@ pub(crate) struct Class {
     rows: Vec<Row>,
     /// How many rows come before custom data and signals.
     common: usize,
-    by_name: HashMap<&'static str, usize>,
+    by_name: ByName,
 }
 
 impl Class {
@@ -79,6 +81,30 @@ impl Class {
         let strip = |name: &'a str, word: &str| name.strip_prefix(word)?.strip_prefix('.');
         let words = self.outer.iter().copied().chain([self.word]);
         words.fold(name, |name, word| strip(name, word).unwrap_or(name))
+    }
+}
+
+/// Where the rows are by their name.
+type ByName = HashMap<&'static str, usize, BuildHasherDefault<NameHasher>>;
+
+/// FNV-1a: the names are short and known, so that nothing dearer is needed.
+struct NameHasher(u64);
+
+impl Default for NameHasher {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Hasher for NameHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3);
+        }
     }
 }
 
@@ -177,19 +203,14 @@ type Parts = HashMap<&'static str, Vec<Row>>;
 fn parts() -> Parts {
     let accessors = accessors();
     let mut parts = Parts::new();
-    for line in STATIC.lines() {
-        let fields: Vec<&'static str> = line.split('\t').collect();
-        let [part, name, ty, flags, state, default] = fields[..] else {
-            panic!("a line of static.tsv has six fields: {line}")
-        };
-        let ty = ValueType::from_word(ty).expect("static.tsv holds known types");
-        let flags = flags.parse().expect("static.tsv holds flags as integers");
+    for line in lines() {
+        let Line { part, name, ty, flags, state, default } = line;
         let default = ty.parse(default).expect("static.tsv holds defaults of the row's type");
         let source = match (accessors.get(&(part, name)), state) {
-            (Some(accessor), "works" | "kept" | "constant") => Source::Works(accessor),
+            (Some(accessor), _) => Source::Works(accessor),
             (None, "kept") => Source::Kept(default),
             (None, "constant") => Source::Constant(default),
-            _ => panic!("a state in static.tsv is works (with an accessor), kept or constant: {line}"),
+            _ => panic!("a property in static.tsv that works has an accessor: {part} {name}"),
         };
         parts.entry(part).or_default().push(Row { name, ty, flags, source, class: "" });
     }
@@ -197,6 +218,44 @@ fn parts() -> Parts {
         parts.entry(part).or_default().extend(engine_params(owner).filter(|param| param.is_property).map(engine_row));
     }
     parts
+}
+
+/// A line of `static.tsv`.
+pub(crate) struct Line {
+    pub part: &'static str,
+    pub name: &'static str,
+    pub ty: ValueType,
+    pub flags: i64,
+    pub state: &'static str,
+    default: &'static str,
+}
+
+fn lines() -> impl Iterator<Item = Line> {
+    STATIC.lines().map(|line| {
+        let fields: Vec<&'static str> = line.split('\t').collect();
+        let [part, name, ty, flags, state, default] = fields[..] else {
+            panic!("a line of static.tsv has six fields: {line}")
+        };
+        let ty = ValueType::from_word(ty).expect("static.tsv holds known types");
+        let flags = flags.parse().expect("static.tsv holds flags as integers");
+        Line { part, name, ty, flags, state, default }
+    })
+}
+
+/// Every static property for the reference, those of physics engines after the others.
+pub(crate) fn described() -> Vec<Line> {
+    let engine_line = |part: &'static str, param: &'static EngineParam| Line {
+        part,
+        name: param.name,
+        ty: param.ty,
+        flags: param.flags,
+        state: if param.works { "works" } else { "kept" },
+        default: "",
+    };
+    let engines = ENGINE_PARTS.into_iter().flat_map(|(part, owner)| {
+        engine_params(owner).filter(|param| param.is_property).map(move |param| engine_line(part, param))
+    });
+    lines().chain(engines).collect()
 }
 
 /// The parts that end with parameters of physics engines.
@@ -268,7 +327,7 @@ fn accessors() -> Accessors {
 
 #[cfg(test)]
 mod tests {
-    use super::{CLASSES, Source, accessors, app_class, class, flags, parts};
+    use super::{CLASSES, Source, accessors, app_class, class, flags, lines, parts};
 
     #[test]
     fn every_accessor_has_its_row() {
@@ -277,6 +336,11 @@ mod tests {
             let row = parts[part].iter().find(|row| row.name == *name);
             assert!(row.is_some_and(|row| matches!(row.source, Source::Works(_))), "{part}: {name}");
         }
+    }
+
+    #[test]
+    fn every_line_says_what_becomes_of_it() {
+        assert!(lines().all(|line| ["works", "kept", "constant"].contains(&line.state)));
     }
 
     #[test]

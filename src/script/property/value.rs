@@ -18,6 +18,39 @@ pub trait PropertyValue: Sized {
     fn into_data(self) -> Data;
 }
 
+/// The name of a property, which costs no allocation unless it is long.
+pub enum PropertyName {
+    Short { bytes: [u8; PropertyName::SHORT], length: usize },
+    Long(String),
+}
+
+impl PropertyName {
+    const SHORT: usize = 56;
+
+    /// The name.
+    pub fn as_str(&self) -> &str {
+        match self {
+            Self::Short { bytes, length } => std::str::from_utf8(&bytes[..*length]).unwrap_or_default(),
+            Self::Long(name) => name,
+        }
+    }
+}
+
+impl FromScript for PropertyName {
+    const TYPE: &'static str = "string";
+
+    fn from_script(args: &Args<'_>) -> ApiResult<Self> {
+        match args.bytes() {
+            Some(name) if name.len() <= Self::SHORT && std::str::from_utf8(name).is_ok() => {
+                let mut bytes = [0; Self::SHORT];
+                bytes[..name.len()].copy_from_slice(name);
+                Ok(Self::Short { bytes, length: name.len() })
+            }
+            _ => String::from_script(args).map(Self::Long),
+        }
+    }
+}
+
 /// A string of any bytes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Text(pub Vec<u8>);
@@ -40,7 +73,12 @@ macro_rules! vectors {
             const TYPE: ValueType = ValueType::$variant;
 
             fn from_data(data: Data) -> Option<Self> {
-                floats(&data)?.try_into().ok().map(Self)
+                let items: &[Data; $n] = items(&data)?.try_into().ok()?;
+                let mut numbers = [0.0; $n];
+                for (number, item) in numbers.iter_mut().zip(items) {
+                    *number = item.as_f64()?;
+                }
+                Some(Self(numbers))
             }
 
             fn into_data(self) -> Data {

@@ -1,0 +1,78 @@
+//! The table of properties: which there are, and what becomes of them here.
+
+use std::fmt::Write as _;
+
+use crate::script::property_table::{described, flags};
+
+/// Parts in the order of the page, with what they belong to.
+const PARTS: [(&str, &str); 27] = [
+    ("app", "The application, `sim.handle_app`"),
+    ("simulation", "The scene, `sim.handle_scene`: simulation"),
+    ("environment", "The scene: environment"),
+    ("container", "The scene: objects"),
+    ("dynamics", "The scene: dynamics"),
+    ("object", "All objects"),
+    ("colour", "Objects with a colour"),
+    ("shape", "Shapes"),
+    ("mass", "Shapes: mass"),
+    ("material", "Shapes: material"),
+    ("mesh", "Meshes of shapes"),
+    ("joint", "Joints"),
+    ("dummy", "Dummies"),
+    ("script", "Scripts"),
+    ("scriptObject", "Scripts that are objects"),
+    ("proximitySensor", "Proximity sensors"),
+    ("volume", "Proximity sensors: volume"),
+    ("rayColour", "Proximity sensors: colour of the ray"),
+    ("visionSensor", "Vision sensors"),
+    ("viewable", "Vision sensors and cameras"),
+    ("camera", "Cameras"),
+    ("forceSensor", "Force sensors"),
+    ("light", "Lights"),
+    ("lightColour", "Lights: colour of the light"),
+    ("graph", "Graphs"),
+    ("ocTree", "Octrees"),
+    ("pointCloud", "Point clouds"),
+];
+
+/// The page.
+pub(super) fn text() -> String {
+    let lines = described();
+    let count = |state: &str| lines.iter().filter(|line| line.state == state).count();
+    let mut out = format!(
+        "# Properties\n\nGenerated from the sources: `UPDATE=1 cargo test --test generated`. The {} static properties of CoppeliaSim \
+         4.10, read and written with `sim.getIntProperty` and its like. Names below `customData.` and `signal.` come with scripts.\n\n\
+         | state | what it is | properties |\n|---|---|---|\n\
+         | works | has its meaning | {} |\n\
+         | kept | is stored and read back, and has no effect | {} |\n\
+         | constant | reads as the value a fresh CoppeliaSim has | {} |\n",
+        lines.len(),
+        count("works"),
+        count("kept"),
+        count("constant")
+    );
+    for (part, title) in PARTS {
+        let _ = write!(out, "\n## {title}\n\n| name | type | access | state |\n|---|---|---|---|\n");
+        for line in lines.iter().filter(|line| line.part == part) {
+            let _ = writeln!(out, "| `{}` | {} | {} | {} |", line.name, line.ty.word(), access(line.flags), line.state);
+        }
+    }
+    out
+}
+
+fn access(flags: i64) -> String {
+    let read = if flags & flags::NOT_READABLE == 0 { "R" } else { "" };
+    let write = if flags & flags::NOT_WRITABLE == 0 { "W" } else { "" };
+    let deprecated = if flags & flags::DEPRECATED == 0 { "" } else { ", deprecated" };
+    format!("{read}{write}{deprecated}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PARTS, described};
+
+    #[test]
+    fn every_part_has_a_title() {
+        assert!(described().iter().all(|line| PARTS.iter().any(|(part, _)| *part == line.part)));
+    }
+}
