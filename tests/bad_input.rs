@@ -162,6 +162,12 @@ fn numbers_beyond_reason() {
 const NOT_CALLED: &[&str] = &["quitSimulator", "sim.quitSimulator", "sim.wait"];
 
 #[test]
+fn odd_values_for_every_property() {
+    let output = run(include_str!("support/odd_properties.lua"), &["--steps", "5"]);
+    assert!(output.contains("every property was written"), "{output}");
+}
+
+#[test]
 fn wrong_arguments_for_every_function() {
     let functions: Vec<Function> = docs::functions().into_iter().filter(|f| !NOT_CALLED.contains(&&*f.name)).collect();
     assert!(functions.len() > 100, "the table of functions is read");
