@@ -67,6 +67,9 @@ end
 
 local function hasDefault(t) return t.default ~= nil or t.default_nil or t.nullable end
 
+--- The default of a type.
+function checkargs.getdefault(t) return t.default end
+
 -- The function that called checkargs is at this level when seen from a function called by checkargsEx.
 local function fail(level, text)
     local info = debug.getinfo(level, 'n')
@@ -107,5 +110,14 @@ setmetatable(checkargs, {__call = function(_, types, ...)
     local results = table.pack(checkargs.checkargsEx({level = 1}, types, ...))
     return table.unpack(results, 1, results.n)
 end})
+
+function checkargs.unittest()
+    local function f(...)
+        local i, s, t = checkargs({{type = 'int'}, {type = 'string', default = 'x'}, {type = 'table', size = 3, default_nil = true}}, ...)
+        return i, s, t
+    end
+    assert(select(2, f(1)) == 'x' and not pcall(f) and not pcall(f, 'a') and not pcall(f, 1, 's', {1}) and pcall(f, 1, nil, {1, 2, 3}))
+    print(debug.getinfo(1, 'S').source, 'tests passed')
+end
 
 return checkargs

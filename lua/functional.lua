@@ -150,4 +150,13 @@ function M.sum(t) return M.reduce(M.operator.add, t, 0) end
 
 function M.prod(t) return M.reduce(M.operator.mul, t, 1) end
 
+function M.unittest()
+    local double = function(x) return 2 * x end
+    local same = require('tablex').eq
+    assert(same(M.map(double, {1, 2}), {2, 4}) and same(M.range(2, 6, 2), {2, 4, 6}) and M.sum{1, 2, 3} == 6 and M.prod{2, 3} == 6)
+    assert(same(M.filter(function(x) return x > 1 end, {1, 2, 3}), {2, 3}) and same(M.zip({1, 2}, {3, 4}), {{1, 3}, {2, 4}}))
+    assert(M.partial(math.max, 5)(3) == 5 and M.any(M.identity, {false, true}) and not M.all(M.identity, {false, true}))
+    print(debug.getinfo(1, 'S').source, 'tests passed')
+end
+
 return M

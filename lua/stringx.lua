@@ -185,4 +185,11 @@ function M.blockhstack(blocks, spacing)
     return table.concat(lines, '\n')
 end
 
+function M.unittest()
+    assert(table.concat(M.split('a,b,,c', ','), '|') == 'a|b||c' and #M.qsplit('a "b c" d') == 3)
+    assert(M.trim('  a b ') == 'a b' and M.startswith('abc', 'ab') and M.endswith('abc', 'bc') and not M.endswith('abc', 'b'))
+    assert(M.utf8sub('aéb', 2, 2) == 'é' and M.pad('a', 3) == 'a  ' and M.elide('abcdef', 5) == 'ab...')
+    print(debug.getinfo(1, 'S').source, 'tests passed')
+end
+
 return M

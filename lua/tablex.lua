@@ -89,7 +89,17 @@ function M.join(t, sep)
     return table.concat(parts, sep or ', ')
 end
 
-function M.tostring(t) return getAsString(t) end
+-- Text of a table; with sep between its entries where that is given.
+function M.tostring(t, sep)
+    if not sep then return getAsString(t) end
+    local parts, n = {}, #t
+    for i = 1, n do parts[i] = getAsString(t[i]) end
+    for key, value in pairs(t) do
+        local isElement = math.type(key) == 'integer' and key >= 1 and key <= n
+        if not isElement then parts[#parts + 1] = tostring(key) .. ' = ' .. getAsString(value) end
+    end
+    return '{' .. table.concat(parts, sep) .. '}'
+end
 
 function M.print(t) print(t) end
 
@@ -255,6 +265,13 @@ function M.bisect(t, value)
         if t[middle] < value then low = middle + 1 else high = middle end
     end
     return low
+end
+
+function M.unittest()
+    assert(M.eq({1, {a = 2}}, {1, {a = 2}}) and not M.eq({1}, {1, 2}) and M.isarray{1, 2} and not M.isarray{a = 1})
+    assert(M.eq(M.slice({1, 2, 3, 4}, 2, 4, 2), {2, 4}) and M.eq(M.flatten{a = {b = 1}}, {['a.b'] = 1}))
+    assert(M.eq(M.batched({1, 2, 3}, 2), {{1, 2}, {3}}) and M.compare({1, 2}, {1, 3}) == -1 and M.find({5, 6}, 6) == 2)
+    print(debug.getinfo(1, 'S').source, 'tests passed')
 end
 
 return M

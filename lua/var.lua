@@ -53,4 +53,13 @@ function M.f(text)
     end))
 end
 
+function M.unittest()
+    local context = {a = {b = {1, 2}}}
+    M.setvar('a.c.d', 3, context)
+    assert(M.getvar('a.b.2', context) == 2 and M.getvar('a.c.d', context) == 3 and M.getvar('x.y', context) == nil)
+    local x = 1.5
+    assert(M.f('{x:%.2f} {x}') == '1.50 ' .. getAsDisplayString(x))
+    print(debug.getinfo(1, 'S').source, 'tests passed')
+end
+
 return M

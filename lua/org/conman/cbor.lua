@@ -29,7 +29,7 @@ local MAX_DEPTH <const> = 500 -- as in the native part
 local TOO_DEEP <const> = 'nested too deeply (500 levels): does a table contain itself?'
 
 local M = {_VERSION = '1.4.0', TYPE = {}, TAG = {}, SIMPLE = {}, __ENCODE_MAP = {}}
-local TYPE, TAG, SIMPLE, ENCODE = M.TYPE, M.TAG, M.SIMPLE, M.__ENCODE_MAP
+local TYPE, TAG, ENCODE = M.TYPE, M.TAG, M.__ENCODE_MAP
 
 local NUMBERS = {UINT = 'integer', NINT = 'integer', half = 'float', single = 'float', double = 'float'}
 
@@ -159,23 +159,6 @@ end
 
 function TYPE.TAG(number, value, sref, stref) return head.encode(0xC0, number) .. encodeAny(value, sref, stref) end
 
----------------------------------------------------------------- simple values and floats
-
-SIMPLE['false'] = function() return '\xf4' end
-SIMPLE['true'] = function() return '\xf5' end
-function SIMPLE.null() return '\xf6' end
-function SIMPLE.undefined() return '\xf7' end
-function SIMPLE.half(value) return head.encode(0xE0, 25, value) end
-function SIMPLE.single(value) return head.encode(0xE0, 26, value) end
-function SIMPLE.double(value) return head.encode(0xE0, 27, value) end
-function SIMPLE.__break() return '\xff' end
-
--- SIMPLE['16'] encodes that simple value.
-setmetatable(SIMPLE, {__index = function(_, name)
-    local number = math.tointeger(tonumber(name))
-    return number and function() return head.encode(0xE0, number) end
-end})
-
 ---------------------------------------------------------------- decoding
 
 -- Errors of this part: a table that M.decode and M.pdecode turn into words.
@@ -275,7 +258,14 @@ function decodeAny(packet, pos, conv, ref, iskey, depth)
     return value, nextPos, ctype
 end
 
-tags.install(M, encodeAny, decodeAny, fail)
+-- What a tag is put on: not the end of something else.
+local function decodeTagged(packet, ...)
+    local value, pos, ctype = decodeAny(packet, ...)
+    if ctype == '__break' then fail(pos, 'unexpected break') end
+    return value, pos, ctype
+end
+
+tags.install(M, encodeAny, decodeTagged, fail)
 
 -- true, value, next, type | false, message, position
 local function tryDecode(packet, pos, conv, ref, iskey)

@@ -1,5 +1,5 @@
 --[[
-Tags of CBOR by name, and the references among tables and strings, for org.conman.cbor.
+Tags of CBOR by name, the references among tables and strings, and encoders of simple values, for org.conman.cbor.
 
 TAG._name(value) encodes, TAG[number] decodes and checks what the tag is put on. Any other tag: TAG.TAG_100(value), TAG[100].
 ]]
@@ -110,10 +110,35 @@ local function installStrings(TAG, encode, decode, fail)
     end
 end
 
---- Fills cbor.TAG. encode and decode are for the tagged value, fail(pos, message) raises.
+local function installSimple(SIMPLE)
+    local head = M.head
+    SIMPLE['false'] = function() return '\xf4' end
+    SIMPLE['true'] = function() return '\xf5' end
+    function SIMPLE.null() return '\xf6' end
+    function SIMPLE.undefined() return '\xf7' end
+    function SIMPLE.half(value) return head.encode(0xE0, 25, value) end
+    function SIMPLE.single(value) return head.encode(0xE0, 26, value) end
+    function SIMPLE.double(value) return head.encode(0xE0, 27, value) end
+    function SIMPLE.__break() return '\xff' end
+    -- SIMPLE['16'] encodes that simple value.
+    setmetatable(SIMPLE, {__index = function(_, name)
+        local number = math.tointeger(tonumber(name))
+        return number and function() return head.encode(0xE0, number) end
+    end})
+end
+
+-- Numbers from 2^63 on are negative integers in Lua.
+local function unsigned(number)
+    if number >= 0 then return tostring(number) end
+    local tens = (number >> 1) // 5
+    return tens .. number - tens * 10
+end
+
+--- Fills cbor.TAG and cbor.SIMPLE. encode and decode are for the tagged value, fail(pos, message) raises.
 function M.install(cbor, encode, decode, fail)
     M.head = require('org.conman.cbor_c')
     local TAG = cbor.TAG
+    installSimple(cbor.SIMPLE)
     installNames(TAG, cbor.TYPE, encode, decode, fail)
     installSharedTables(TAG, encode, decode, fail)
     installStrings(TAG, encode, decode, fail)
@@ -125,7 +150,7 @@ function M.install(cbor, encode, decode, fail)
         end
         return function(packet, pos, conv, ref, iskey, depth)
             local value, nextPos = decode(packet, pos, conv, ref, iskey, depth or 0)
-            return value, nextPos, 'TAG_' .. number
+            return value, nextPos, 'TAG_' .. unsigned(number)
         end
     end})
 end

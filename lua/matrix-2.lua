@@ -1,0 +1,5 @@
+--[[
+The later name of the module matrix.
+]]
+
+return require 'matrix'

@@ -1,0 +1,225 @@
+--[[
+Linear algebra of Matrix: products, elimination, inverses, singular values.
+
+Dense and small: what robots need. Singular values by one-sided Jacobi rotations (Hestenes 1958).
+]]
+
+local Matrix = require 'matrix.core'
+
+local function isMatrix(value) return type(value) == 'table' and getmetatable(value) == Matrix end
+
+local function checkSquare(m)
+    if m._rows ~= m._cols then error('Matrix: not square', 3) end
+end
+
+--- Transposed.
+function Matrix:t() return Matrix(self._cols, self._rows, function(i, j) return self:get(j, i) end) end
+
+--- Product of matrices, or of each element and a number.
+function Matrix:mul(m)
+    if not isMatrix(m) then return self:times(m) end
+    if self._cols ~= m._rows then
+        error(('Matrix: no product of %d x %d and %d x %d'):format(self._rows, self._cols, m._rows, m._cols), 3)
+    end
+    return Matrix(self._rows, m._cols, function(i, j)
+        local sum = 0
+        for k = 1, self._cols do sum = sum + self:get(i, k) * m:get(k, j) end
+        return sum
+    end)
+end
+
+function Matrix.__mul(a, b)
+    if isMatrix(a) then return a:mul(b) end
+    return b:times(a)
+end
+
+--- Product with a vector; one of 3 elements is moved by a 4 x 4 matrix as a point.
+function Matrix:mult(v)
+    if not isMatrix(v) then v = Matrix(#v, 1, v) end
+    if self._cols == 4 and v:count() == 3 then return (self * v:hom()):nonhom() end
+    return self * Matrix(v:count(), 1, v:data())
+end
+
+--- Integer power of a square matrix; a negative one is of the inverse.
+function Matrix:power(k)
+    checkSquare(self)
+    if math.type(k) ~= 'integer' or math.abs(k) > 1 << 32 then error('Matrix: the power is an integer', 2) end
+    local base, result = k < 0 and self:inv() or self, Matrix:eye(self._rows)
+    k = math.abs(k)
+    while k > 0 do
+        if k % 2 == 1 then result = result * base end
+        base, k = base * base, k // 2
+    end
+    return result
+end
+
+function Matrix:dot(m)
+    if self:count() ~= m:count() then error('Matrix: vectors of different lengths', 2) end
+    local a, b, sum = self:data(), m:data(), 0
+    for i = 1, #a do sum = sum + a[i] * b[i] end
+    return sum
+end
+
+function Matrix:cross(m)
+    if self:count() ~= 3 or m:count() ~= 3 then error('Matrix: cross is for vectors of 3 elements', 2) end
+    local a, b = self:data(), m:data()
+    return Matrix(self._rows, self._cols, {a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1]})
+end
+
+function Matrix:kron(m)
+    return Matrix(self._rows * m._rows, self._cols * m._cols, function(i, j)
+        local a = self:get((i - 1) // m._rows + 1, (j - 1) // m._cols + 1)
+        return a * m:get((i - 1) % m._rows + 1, (j - 1) % m._cols + 1)
+    end)
+end
+
+--- Columns as homogeneous coordinates: a row of ones below.
+function Matrix:hom()
+    if self._rows == 1 and self._cols > 1 then return self:t():hom():t() end
+    return self:vertcat(Matrix(1, self._cols, 1))
+end
+
+--- The reverse: divided by the last row.
+function Matrix:nonhom()
+    if self._rows == 1 and self._cols > 1 then return self:t():nonhom():t() end
+    local n = self._rows
+    return Matrix(n - 1, self._cols, function(i, j) return self:get(i, j) / self:get(n, j) end)
+end
+
+function Matrix:norm() return self:dot(self) ^ 0.5 end
+function Matrix:normalized() return self / self:norm() end
+
+--- The diagonal as a column; Matrix:diag(t) is a matrix with the diagonal t.
+function Matrix:diag(t)
+    if t == nil then return Matrix(math.min(self._rows, self._cols), 1, function(i) return self:get(i, i) end) end
+    local values = isMatrix(t) and t:data() or t
+    return Matrix(#values, #values, function(i, j) return i == j and values[i] or 0 end)
+end
+
+function Matrix:trace() return self:diag():sum() end
+
+--- Column x, y or z (or 1 to 3) of a rotation or pose as a vector of 3.
+function Matrix:axis(which)
+    local j = ({x = 1, y = 2, z = 3})[which] or which
+    return self:slice(1, j, 3, j)
+end
+
+local function swapRows(m, a, b)
+    local row = m:row(a)
+    m:setrow(a, m:row(b))
+    m:setrow(b, row)
+end
+
+local function pivotRow(m, from, col)
+    local best = from
+    for i = from + 1, m._rows do
+        if math.abs(m:get(i, col)) > math.abs(m:get(best, col)) then best = i end
+    end
+    return best
+end
+
+--- Row echelon form by elimination with pivoting, reduced if `jordan`; and the determinant of the first square part.
+function Matrix:gauss(jordan)
+    local m, row, det = self * 1.0, 1, 1.0
+    for col = 1, m._cols do
+        if row > m._rows then break end
+        local pivot = pivotRow(m, row, col)
+        local value = m:get(pivot, col)
+        if value == 0 then
+            if col <= m._rows then det = 0.0 end
+        else
+            if pivot ~= row then
+                swapRows(m, pivot, row)
+                det = -det
+            end
+            det = det * value
+            if jordan then m:setrow(row, m:row(row) / value) end
+            for i = jordan and 1 or row + 1, m._rows do
+                local factor = i ~= row and m:get(i, col) / m:get(row, col) or 0
+                if factor ~= 0 then m:setrow(i, m:row(i) - m:row(row) * factor) end
+            end
+            row = row + 1
+        end
+    end
+    return m, det
+end
+
+function Matrix:det()
+    checkSquare(self)
+    return (select(2, self:gauss()))
+end
+
+function Matrix:inv()
+    checkSquare(self)
+    local n = self._rows
+    local reduced, det = self:horzcat(Matrix:eye(n)):gauss(true)
+    if det == 0 or det ~= det then error('Matrix: singular', 2) end
+    return reduced:slice(1, n + 1, n, 2 * n)
+end
+
+---------------------------------------------------------------- singular values
+
+-- Rotates columns p and q of u (and v) until they are orthogonal; true when they were.
+local function orthogonalize(u, v, p, q)
+    local alpha, beta, gamma = 0, 0, 0
+    for i = 1, u._rows do
+        local a, b = u:get(i, p), u:get(i, q)
+        alpha, beta, gamma = alpha + a * a, beta + b * b, gamma + a * b
+    end
+    if math.abs(gamma) <= 1e-15 * (alpha * beta) ^ 0.5 then return true end
+    local zeta = (beta - alpha) / (2 * gamma)
+    local t = (zeta >= 0 and 1 or -1) / (math.abs(zeta) + (1 + zeta * zeta) ^ 0.5)
+    local c = 1 / (1 + t * t) ^ 0.5
+    for _, m in ipairs{u, v} do
+        for i = 1, m._rows do
+            local a, b = m:get(i, p), m:get(i, q)
+            m:set(i, p, c * (a - t * b))
+            m:set(i, q, c * (t * a + b))
+        end
+    end
+    return false
+end
+
+-- For at least as many rows as columns: U (its columns not normed) and V.
+local function jacobi(m)
+    local u, v = m * 1.0, Matrix:eye(m._cols) * 1.0
+    for _ = 1, 60 do
+        local done = true
+        for p = 1, m._cols - 1 do
+            for q = p + 1, m._cols do done = orthogonalize(u, v, p, q) and done end
+        end
+        if done then break end
+    end
+    return u, v
+end
+
+--- Singular values (a column, the largest first), U, V, and with b the least-squares solution of A x = b. U and V are thin.
+function Matrix:svd(_, _, b)
+    if self._rows < self._cols then
+        local s, v, u = self:t():svd()
+        return s, u, v, b and self:pinv(b)
+    end
+    local u, v = jacobi(self)
+    local norms, order = {}, {}
+    for j = 1, self._cols do norms[j], order[j] = u:col(j):norm(), j end
+    table.sort(order, function(i, j) return norms[i] > norms[j] or norms[i] == norms[j] and i < j end)
+    local s = Matrix(self._cols, 1, function(i) return norms[order[i]] end)
+    local normed = u:at(nil, order):applyfuncidx(function(_, j, x) return s[j] > 0 and x / s[j] or x end)
+    return s, normed, v:at(nil, order), b and self:pinv(b)
+end
+
+--- Pseudo-inverse, or its product with b. With a damping d each singular value s counts as (s^2 + d^2) / s.
+function Matrix:pinv(b, damping)
+    local s, u, v = self:svd()
+    local smallest = 1e-12 * math.max(self._rows, self._cols) * (s:count() > 0 and s[1] or 0)
+    local d = damping or 0
+    local inverse = Matrix:diag(s:applyfunc(function(x)
+        if x <= smallest then return 0 end
+        return x / (x * x + d * d)
+    end))
+    local result = v * inverse * u:t()
+    if b == nil then return result end
+    return result * (isMatrix(b) and b or Matrix(#b, 1, b))
+end
+
+return Matrix
