@@ -367,7 +367,7 @@ function sim.createPath(ctrlPts, options, subdiv, smoothness, orientationMode, u
 --- A new, empty point cloud at the world's origin.
 ---@param maxVoxelSize? number largest cell, metres
 ---@param maxPtCntPerVoxel? integer most points in a cell
----@param options? integer for display
+---@param options? integer 8: points are not kept in an octree; others for display
 ---@param pointSize? number for display, pixels
 ---@return integer handle the point cloud
 function sim.createPointCloud(maxVoxelSize, maxPtCntPerVoxel, options, pointSize) end

@@ -87,7 +87,7 @@ fn create_octree(
 ///
 /// @param maxVoxelSize largest cell, metres
 /// @param maxPtCntPerVoxel most points in a cell
-/// @param options for display
+/// @param options 8: points are not kept in an octree; others for display
 /// @param pointSize for display, pixels
 /// @return handle the point cloud
 #[api("sim.createPointCloud")]
@@ -103,7 +103,7 @@ fn create_point_cloud(
         max_cell_size: cell_size(max_voxel_size),
         max_points_in_cell,
         point_size: point_size as i64,
-        uses_octree: options.0 & 4 == 0,
+        uses_octree: options.0 & 8 == 0,
         display_fraction: 1.0,
     };
     cx.sim().clone().add_object("pointCloud", Kind::PointCloud(Box::new(cloud)))

@@ -1,7 +1,8 @@
 //! The numbered parameters of cameras, sensors, lights and voxels (`sim.visionintparam_*`, `sim.camerafloatparam_*`, ...).
 
+use super::force_sensor::ForceSensor;
 use super::sensors::{Camera, Light, ProximitySensor, View, VisionSensor};
-use super::{Field, Handle, Kind, Object, Scene, SceneResult};
+use super::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
 
 impl View {
     fn float_param(&self, id: i64, [near, far, angle, ortho]: [i64; 4]) -> Option<f64> {
@@ -90,6 +91,19 @@ impl Light {
     }
 }
 
+impl ForceSensor {
+    /// How far the physics moved the sides of the sensor apart: along the axes, in all, and the angle.
+    fn float_param(&self, id: i64) -> Option<f64> {
+        let error = self.error.unwrap_or_else(Pose::identity);
+        Some(match id {
+            5000..=5002 => error.translation.vector[(id - 5000) as usize],
+            5006 => error.translation.vector.norm(),
+            5007 => error.rotation.angle(),
+            _ => return None,
+        })
+    }
+}
+
 impl Camera {
     fn int_param(&self, id: i64) -> Option<i64> {
         match id {
@@ -130,6 +144,7 @@ impl Object {
             Kind::VisionSensor(sensor) => sensor.view.float_param(id, OF_VISION_SENSOR),
             Kind::Camera(camera) => camera.view.float_param(id, OF_CAMERA),
             Kind::Light(light) => light.float_param(id),
+            Kind::ForceSensor(sensor) => sensor.float_param(id),
             Kind::OcTree(octree) if id == 13000 => Some(octree.voxel_size),
             _ => None,
         }
