@@ -4,6 +4,7 @@ pub mod api;
 pub mod cli;
 pub mod docs;
 mod dynamics;
+mod format;
 pub mod scene;
 pub mod script;
 mod simulator;

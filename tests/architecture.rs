@@ -21,6 +21,7 @@ const OWNERS: &[(&str, &str)] = &[
     ("mlua_sys", "src/script/lua"),
     ("directories", "src/script/app_storage"),
     ("fs4", "src/script/app_storage"),
+    ("image", "src/format/picture.rs"),
     ("clap", "src/cli"),
     ("indicatif", "src/cli"),
     ("ctrlc", "src/cli"),

@@ -1172,6 +1172,15 @@ function sim.getReferencedHandlesTags(objectHandle) end
 ---@return number angle 0 to pi, radians
 function sim.getRotationAxis(matrixStart, matrixGoal) end
 
+--- An image in another size.
+---@param imageIn string|table rows of pixels
+---@param resolutionIn number[] width and height
+---@param desiredResolutionOut number[] width and height wished for
+---@param options integer 1: the image has an alpha channel; 2: the result has one; 4: keep the proportions
+---@return string|table imageOut
+---@return integer[] effectiveResolutionOut
+function sim.getScaledImage(imageIn, resolutionIn, desiredResolutionOut, options) end
+
 --- Handle of a script.
 ---@param scriptType integer sim.scripttype_*, or sim.handle_self
 ---@param scriptName? any the object the script belongs to, by path or handle; the display name of an add-on
@@ -1582,6 +1591,13 @@ function sim.isObjectInSelection(objectHandle) end
 ---@param name string for instance simIK
 ---@return boolean loaded true if so
 function sim.isPluginLoaded(name) end
+
+--- Reads an image: PNG, JPEG, BMP or TGA.
+---@param options integer 1: with an alpha channel
+---@param filename string|table name of the file, or its content
+---@return string|table image
+---@return integer[] resolution the top row first
+function sim.loadImage(options, filename) end
 
 --- Loads a plugin of this simulator.
 ---@param name string for instance simIK
@@ -2042,6 +2058,15 @@ function sim.ruckigStep(handle, cycleTime) end
 ---@param targetVel number[] velocities
 ---@return integer handle for sim.ruckigStep
 function sim.ruckigVel(dofs, baseCycleTime, flags, currentPosVelAccel, maxAccelJerk, selection, targetVel) end
+
+--- Writes an image to a file.
+---@param image string|table rows of pixels, the top row first
+---@param resolution number[] width and height
+---@param options integer 0: red, green, blue; 1: with an alpha channel; 2: grey
+---@param filename string its ending tells the kind: png, jpg, bmp, tga. An ending alone (`.png`) makes the function return the content of the file
+---@param quality? integer of JPEG, 1 to 100; -1 for the usual one
+---@return string|table serializedImage
+function sim.saveImage(image, resolution, options, filename, quality) end
 
 --- Scales an object along its axes; mass and inertia stay.
 ---@param objectHandle integer the object
@@ -2739,6 +2764,13 @@ function sim.throttle(period, f, ...) end
 ---@param outFormat integer sim.buffer_*, with sim.buffer_clamp added: numbers are cut to the range of the format; sim.buffer_base64: text;
 ---@return any outBuffer
 function sim.transformBuffer(inBuffer, inFormat, multiplier, offset, outFormat) end
+
+--- A mirrored image. Sensors have the bottom row first, files the top one: flip along y in between.
+---@param image string|table rows of pixels
+---@param resolution number[] width and height
+---@param options integer 1: the image has an alpha channel; 2: flip along x; 4: flip along y
+---@return string|table newImage
+function sim.transformImage(image, resolution, options) end
 
 --- Takes a compound apart into the shapes it was made of.
 ---@param shapeHandle integer the shape; -2 minus the handle divides a single mesh into its islands

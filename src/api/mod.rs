@@ -13,6 +13,7 @@ mod engine_param;
 mod events;
 mod force_sensor;
 mod global;
+mod images;
 mod joint;
 mod joint_motion;
 mod joint_shape_old;
@@ -87,6 +88,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Dynamics", dynamics::FUNCTIONS),
     ("Engine parameters", engine_param::FUNCTIONS),
     ("Events", events::FUNCTIONS),
+    ("Images", images::FUNCTIONS),
     ("Properties", property::FUNCTIONS),
     ("Simulator parameters", param::FUNCTIONS),
     ("Custom data", custom_data::FUNCTIONS),

@@ -1,0 +1,179 @@
+//! Pictures as scripts hold them: rows of bytes, and the files they come from and go to (PNG, JPEG, BMP, TGA).
+//!
+//! Rows keep their order: files begin with the top one, images of vision sensors with the bottom one.
+
+use std::io::Cursor;
+
+use image::codecs::jpeg::JpegEncoder;
+use image::imageops::{self, FilterType};
+use image::{DynamicImage, ExtendedColorType, ImageFormat, ImageReader, Limits, RgbaImage};
+
+/// No picture is larger: it could hardly be meant.
+const MAX_SIDE: u32 = 16_384;
+
+/// Why a picture cannot be had.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum PictureError {
+    #[error("the image has {found} bytes, but its resolution asks for {expected}.")]
+    Length { found: usize, expected: usize },
+    #[error("the resolution of an image lies between 1 and {MAX_SIDE}.")]
+    Resolution,
+    #[error("unknown kind of image: {0} (known: png, jpg, bmp, tga).")]
+    Kind(String),
+    #[error("{0}.")]
+    Codec(#[from] image::ImageError),
+    #[error("{0}.")]
+    Io(#[from] std::io::Error),
+}
+
+/// Bytes per pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Layout {
+    Grey = 1,
+    Rgb = 3,
+    Rgba = 4,
+}
+
+/// A picture in memory.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Picture {
+    width: u32,
+    height: u32,
+    layout: Layout,
+    bytes: Vec<u8>,
+}
+
+impl Picture {
+    /// # Errors
+    /// When the resolution is impossible, or the bytes do not fit it.
+    pub(crate) fn new(bytes: Vec<u8>, [width, height]: [i64; 2], layout: Layout) -> Result<Self, PictureError> {
+        let side = |n: i64| u32::try_from(n).ok().filter(|n| (1..=MAX_SIDE).contains(n));
+        let (Some(width), Some(height)) = (side(width), side(height)) else { return Err(PictureError::Resolution) };
+        let expected = width as usize * height as usize * layout as usize;
+        if bytes.len() != expected {
+            return Err(PictureError::Length { found: bytes.len(), expected });
+        }
+        Ok(Self { width, height, layout, bytes })
+    }
+
+    /// The picture a file holds.
+    ///
+    /// # Errors
+    /// When the bytes are no picture of a known kind, or one that is too large.
+    pub(crate) fn decode(file: &[u8], layout: Layout) -> Result<Self, PictureError> {
+        let mut reader = ImageReader::new(Cursor::new(file)).with_guessed_format()?;
+        let mut limits = Limits::default();
+        (limits.max_image_width, limits.max_image_height) = (Some(MAX_SIDE), Some(MAX_SIDE));
+        reader.limits(limits);
+        Ok(Self::from_dynamic(&reader.decode()?, layout))
+    }
+
+    /// Whether the bytes begin like a picture of a known kind.
+    pub(crate) fn is_file(bytes: &[u8]) -> bool {
+        image::guess_format(bytes).is_ok()
+    }
+
+    /// The picture as a file of the kind `extension` names; `quality` is that of JPEG, 1 to 100.
+    ///
+    /// # Errors
+    /// When there is no such kind.
+    pub(crate) fn encode(&self, extension: &str, quality: u8) -> Result<Vec<u8>, PictureError> {
+        let format = ImageFormat::from_extension(extension).filter(ImageFormat::can_write);
+        let mut file = Cursor::new(Vec::new());
+        match format {
+            None => return Err(PictureError::Kind(extension.to_owned())),
+            // JPEG knows no transparency.
+            Some(ImageFormat::Jpeg) => {
+                let rgb = self.to_dynamic().into_rgb8();
+                let mut encoder = JpegEncoder::new_with_quality(&mut file, quality);
+                encoder.encode(&rgb, self.width, self.height, ExtendedColorType::Rgb8)?;
+            }
+            Some(format) => self.to_dynamic().write_to(&mut file, format)?,
+        }
+        Ok(file.into_inner())
+    }
+
+    /// The picture in another size; with `keep_aspect` as large as fits.
+    ///
+    /// # Errors
+    /// When the resolution is impossible.
+    pub(crate) fn scaled(&self, size: [i64; 2], keep_aspect: bool, layout: Layout) -> Result<Self, PictureError> {
+        let side =
+            |n: i64| u32::try_from(n).ok().filter(|n| (1..=MAX_SIDE).contains(n)).ok_or(PictureError::Resolution);
+        let (width, height) = (side(size[0])?, side(size[1])?);
+        let picture = self.to_dynamic();
+        let scaled = match keep_aspect {
+            true => picture.resize(width, height, FilterType::Triangle),
+            false => picture.resize_exact(width, height, FilterType::Triangle),
+        };
+        Ok(Self::from_dynamic(&scaled, layout))
+    }
+
+    /// The picture mirrored left to right, top to bottom, or both.
+    pub(crate) fn flipped(&self, horizontally: bool, vertically: bool) -> Self {
+        let mut picture = self.to_dynamic();
+        if horizontally {
+            imageops::flip_horizontal_in_place(&mut picture);
+        }
+        if vertically {
+            imageops::flip_vertical_in_place(&mut picture);
+        }
+        Self::from_dynamic(&picture, self.layout)
+    }
+
+    pub(crate) fn resolution(&self) -> [i64; 2] {
+        [self.width.into(), self.height.into()]
+    }
+
+    pub(crate) fn into_bytes(self) -> Vec<u8> {
+        self.bytes
+    }
+
+    fn to_dynamic(&self) -> DynamicImage {
+        let (width, height, bytes) = (self.width, self.height, self.bytes.clone());
+        let picture = match self.layout {
+            Layout::Grey => image::GrayImage::from_raw(width, height, bytes).map(DynamicImage::from),
+            Layout::Rgb => image::RgbImage::from_raw(width, height, bytes).map(DynamicImage::from),
+            Layout::Rgba => RgbaImage::from_raw(width, height, bytes).map(DynamicImage::from),
+        };
+        picture.expect("the length was checked when the picture was made")
+    }
+
+    fn from_dynamic(picture: &DynamicImage, layout: Layout) -> Self {
+        let bytes = match layout {
+            Layout::Grey => picture.to_luma8().into_raw(),
+            Layout::Rgb => picture.to_rgb8().into_raw(),
+            Layout::Rgba => picture.to_rgba8().into_raw(),
+        };
+        Self { width: picture.width(), height: picture.height(), layout, bytes }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Layout, Picture};
+
+    fn picture() -> Picture {
+        Picture::new((0..12).collect(), [2, 2], Layout::Rgb).expect("twelve bytes are two by two pixels")
+    }
+
+    #[test]
+    fn files_without_loss_come_back() {
+        for kind in ["png", "bmp", "tga"] {
+            let file = picture().encode(kind, 90).expect("a known kind");
+            if kind != "tga" {
+                // TGA files have no mark at their beginning.
+                assert_eq!(Picture::decode(&file, Layout::Rgb).expect("a file just written"), picture(), "{kind}");
+            }
+        }
+        assert!(picture().encode("xyz", 90).is_err());
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        assert!(Picture::decode(b"\x89PNG\r\n\x1a\nnot a picture", Layout::Rgb).is_err());
+        assert!(Picture::new(vec![0; 11], [2, 2], Layout::Rgb).is_err());
+        assert!(Picture::new(Vec::new(), [0, 2], Layout::Rgb).is_err());
+        assert!(Picture::new(Vec::new(), [i64::MAX, i64::MAX], Layout::Rgb).is_err());
+    }
+}
