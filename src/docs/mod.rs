@@ -69,10 +69,29 @@ pub fn reference_signature(name: &str) -> Option<&'static str> {
 }
 
 /// One row of CoppeliaSim's reference.
+/// Where a function stands in the history of the reference.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Age {
+    Current,
+    Deprecated,
+    /// In versions after 4.10 only.
+    Later,
+}
+
+impl Age {
+    fn from_word(word: &str) -> Self {
+        match word {
+            "deprecated" => Self::Deprecated,
+            "later" => Self::Later,
+            _ => Self::Current,
+        }
+    }
+}
+
 struct ReferenceRow {
     name: &'static str,
     category: &'static str,
-    deprecated: bool,
+    age: Age,
     signature: &'static str,
 }
 
@@ -80,7 +99,7 @@ fn reference() -> impl Iterator<Item = ReferenceRow> {
     api::REFERENCE.lines().map(|line| {
         let mut columns = line.split('\t');
         let mut next = || columns.next().unwrap_or_default();
-        ReferenceRow { name: next(), category: next(), deprecated: next() == "deprecated", signature: next() }
+        ReferenceRow { name: next(), category: next(), age: Age::from_word(next()), signature: next() }
     })
 }
 
