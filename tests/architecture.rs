@@ -20,7 +20,7 @@ const OWNERS: &[(&str, &str)] = &[
     ("rapier3d", "src/dynamics"),
     ("mlua_sys", "src/script/lua"),
     ("directories", "src/script/app_storage"),
-    ("fs4", "src/script/app_storage"),
+    ("fs4", "src/script"),
     ("image", "src/format/picture.rs"),
     ("clap", "src/cli"),
     ("indicatif", "src/cli"),

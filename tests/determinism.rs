@@ -13,8 +13,10 @@ use swanilda::{Console, LogLine, Options, ScriptKind, Simulator};
 const LONGEST: u64 = 400;
 
 fn scenes() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    let files = fs::read_dir(folder).expect("scenes/ is readable").flatten().map(|entry| entry.path());
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let folders = [top.clone(), top.join("messaging")];
+    let entries = folders.iter().flat_map(|folder| fs::read_dir(folder).expect("scenes/ is readable").flatten());
+    let files = entries.map(|entry| entry.path());
     let mut scenes: Vec<_> = files.filter(|path| path.extension().is_some_and(|e| e == "lua")).collect();
     scenes.sort();
     scenes
@@ -34,7 +36,9 @@ fn twice_in_processes_of_their_own() {
         let run = || {
             let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
             command.arg("run").arg(&scene).args(["--quiet", "--json", "--steps", &LONGEST.to_string()]);
-            String::from_utf8_lossy(&command.output().expect("the command starts").stdout).into_owned()
+            let output = command.output().expect("the command starts");
+            assert!(output.status.success(), "{} fails", scene.display());
+            String::from_utf8_lossy(&output.stdout).into_owned()
         };
         assert_same(&run(), &run(), &scene);
     }

@@ -132,6 +132,34 @@ function sim.alphaBetaGammaToYawPitchRoll(alpha, beta, gamma) end
 ---@return any result what it gives
 function sim.auxFunc(cmd, ...) end
 
+--- Closes a console.
+---@param consoleHandle integer from sim.auxiliaryConsoleOpen
+---@return integer result 1, or 0 if there is no such console
+function sim.auxiliaryConsoleClose(consoleHandle) end
+
+--- Opens a console. What is printed to it goes to the log, under its title.
+---@param title string of the window
+---@param MaxLines? integer
+---@param mode? integer 1: it closes at the end of the simulation; other bits are the window's
+---@param Position? number[]
+---@param Size? number[]
+---@param TextColor? number[]
+---@param BackgroundColor? number[]
+---@return integer consoleHandle
+function sim.auxiliaryConsoleOpen(title, MaxLines, mode, Position, Size, TextColor, BackgroundColor) end
+
+--- Prints to a console.
+---@param consoleHandle integer from sim.auxiliaryConsoleOpen
+---@param text? string|table nil to clear the window
+---@return integer result 1, or 0 if there is no such console
+function sim.auxiliaryConsolePrint(consoleHandle, text) end
+
+--- Shows or hides a console, which has no effect here.
+---@param consoleHandle integer from sim.auxiliaryConsoleOpen
+---@param ShowState boolean
+---@return integer result 1, or 0 if there is no such console
+function sim.auxiliaryConsoleShow(consoleHandle, ShowState) end
+
 --- Bitwise and of the lower 16 bits.
 ---@param a integer number
 ---@param b integer number
@@ -1343,6 +1371,12 @@ function sim.getSimulationTime() end
 --- Length of a simulation step.
 ---@return number timeStep seconds
 function sim.getSimulationTimeStep() end
+
+--- The next thing the user did in the interface. Nobody does anything there.
+---@return integer messageID -1: nothing
+---@return integer[] auxiliaryData four zeros
+---@return any auxiliaryData2 empty
+function sim.getSimulatorMessage() end
 
 --- Lua's stack traceback of a script that is running now.
 ---@param scriptHandle? integer the script
@@ -2748,6 +2782,11 @@ function sim.stopSimulation(wait) end
 ---@deprecated sim.step
 function sim.switchThread() end
 
+--- Takes or gives back a semaphore all programs on the machine share. Taking waits until no other one has it.
+---@param key string|table its name
+---@param acquire boolean true to take it, false to give it back
+function sim.systemSemaphore(key, acquire) end
+
 --- Calls a function, but not more often than once per period; other calls do nothing.
 ---@param period number seconds of wall-clock time
 ---@param f function the function; the rest are its arguments
@@ -2771,6 +2810,36 @@ function sim.transformBuffer(inBuffer, inFormat, multiplier, offset, outFormat) 
 ---@param options integer 1: the image has an alpha channel; 2: flip along x; 4: flip along y
 ---@return string|table newImage
 function sim.transformImage(image, resolution, options) end
+
+--- Closes one end of a tube.
+---@param tubeHandle integer from sim.tubeOpen
+---@return integer result 1, or -1 if there is no such tube
+function sim.tubeClose(tubeHandle) end
+
+--- Opens one end of a tube; the other one is opened with the same header and name.
+---@param dataHeader integer a number of your own
+---@param dataName string|table a name of your own
+---@param readBufferSize integer packets that wait at most, the oldest one makes room; 0: any number
+---@return integer tubeHandle
+function sim.tubeOpen(dataHeader, dataName, readBufferSize) end
+
+--- Takes the oldest packet out of a tube.
+---@param tubeHandle integer from sim.tubeOpen
+---@return string|table data nothing if no packet waits
+function sim.tubeRead(tubeHandle) end
+
+--- How it is with a tube.
+---@param tubeHandle integer from sim.tubeOpen
+---@return integer result 1 if both ends are open, 0 if only this one is, -1 if there is no such tube
+---@return integer readPacketsCount packets that wait here
+---@return integer writePacketsCount packets that wait at the other end
+function sim.tubeStatus(tubeHandle) end
+
+--- Writes a packet into a tube.
+---@param tubeHandle integer from sim.tubeOpen
+---@param data string|table the packet
+---@return integer result 1, 0 if nobody has opened the other end (the packet is lost), -1 if there is no such tube
+function sim.tubeWrite(tubeHandle, data) end
 
 --- Takes a compound apart into the shapes it was made of.
 ---@param shapeHandle integer the shape; -2 minus the handle divides a single mesh into its islands

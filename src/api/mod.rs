@@ -4,6 +4,7 @@
 //! their own stand in tables: constants, aliases, deprecations, old names, and the reference that tells what is missing.
 
 mod alias;
+mod auxiliary_console;
 mod collection;
 mod colour;
 mod custom_data;
@@ -41,6 +42,7 @@ mod signal;
 mod simulation;
 mod thread;
 mod time;
+mod tube;
 mod user_param;
 
 use std::collections::HashMap;
@@ -94,6 +96,8 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Custom data", custom_data::FUNCTIONS),
     ("Signals", signal::FUNCTIONS),
     ("Packing", packing::FUNCTIONS),
+    ("Tubes", tube::FUNCTIONS),
+    ("Consoles, messages of the interface, semaphores", auxiliary_console::FUNCTIONS),
     ("User parameters", user_param::FUNCTIONS),
     ("Scene files", scene_file::FUNCTIONS),
 ];

@@ -222,10 +222,11 @@ impl Sim {
         }
     }
 
-    /// Gives the interpreter up; it is closed when its last call has returned. Its signals go with it.
+    /// Gives the interpreter up; it is closed when its last call has returned. Its signals and tubes go with it.
     fn close(&self, script: &Script) {
         script.runtime.replace(None);
         self.drop_signals_of(script);
+        self.tubes.borrow_mut().close_those_of(script.id);
     }
 
     /// `restartOnError` is a one-shot.

@@ -4,6 +4,7 @@
 
 mod app_storage;
 mod args;
+mod aux_consoles;
 mod binding;
 mod callback;
 mod calls;
@@ -34,8 +35,10 @@ mod scene_switch;
 mod sim;
 mod startup;
 mod step;
+mod system_semaphore;
 mod threads;
 mod trajectories;
+mod tubes;
 pub mod verbosity;
 mod wall_clock;
 
@@ -53,6 +56,7 @@ pub use sim::Options;
 pub use threads::LevelChange;
 
 pub(crate) use app_storage::Section;
+pub(crate) use aux_consoles::AuxiliaryConsole;
 pub(crate) use binding::{Bound, Member, Registry};
 pub(crate) use embedded::{Embedded, FILES};
 pub(crate) use env::Hook;

@@ -12,6 +12,8 @@ use super::instance::{Detached, Script};
 use super::order::OrderCache;
 use super::property::{AppData, SignalOwners};
 use super::random::Random;
+use super::system_semaphore::SystemSemaphores;
+use super::tubes::Tubes;
 use super::verbosity;
 use crate::dynamics::Dynamics;
 use crate::scene::script_object::ScriptType;
@@ -76,6 +78,8 @@ pub(crate) struct Sim {
     pub last_selection: RefCell<Vec<Handle>>,
     pub app: RefCell<AppData>,
     pub signal_owners: RefCell<SignalOwners>,
+    pub tubes: RefCell<Tubes>,
+    pub semaphores: RefCell<SystemSemaphores>,
     pub events: EventStream,
     next_detached: Cell<i64>,
     once: RefCell<HashSet<(String, i64, String)>>,
@@ -103,6 +107,8 @@ impl Sim {
             known_at_start: RefCell::default(),
             last_selection: RefCell::default(),
             signal_owners: RefCell::default(),
+            tubes: RefCell::default(),
+            semaphores: RefCell::default(),
             events: EventStream::new(),
             next_detached: Cell::new(FIRST_DETACHED),
             once: RefCell::default(),

@@ -215,6 +215,7 @@ impl Sim {
             self.deliver_to(group, SysCall::AfterSimulation, &[]);
         }
         self.restart_failed_customization_scripts();
+        self.app.borrow_mut().consoles.end_simulation();
         self.chatter("Simulation stopped.");
     }
 

@@ -15,6 +15,7 @@ mod callback;
 mod calls;
 mod coroutine;
 mod file;
+mod pool;
 mod stack;
 mod state;
 mod tables;

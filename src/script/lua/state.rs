@@ -8,10 +8,13 @@ use mlua_sys as ffi;
 
 use super::super::env::Env;
 use super::Stack;
+use super::pool::{LARGEST, Pool, same_block};
 
 /// A Lua state with the standard libraries. Closed when dropped.
 pub(crate) struct State {
     raw: NonNull<ffi::lua_State>,
+    /// Where the state's small blocks are: it goes after the state is closed.
+    pool: NonNull<Pool>,
     /// Neither `Send` nor `Sync`: a state belongs to the thread of its simulator.
     _thread: PhantomData<*mut ()>,
 }
@@ -22,11 +25,12 @@ impl State {
         // SAFETY: `allocate` never returns null for the sizes asked for here and by pushes, so neither fails.
         // The extra space of a main thread is copied into each of its coroutines.
         unsafe {
-            let raw = ffi::lua_newstate(allocate, std::ptr::null_mut());
+            let pool = NonNull::from(Box::leak(Box::new(Pool::new())));
+            let raw = ffi::lua_newstate(allocate, pool.as_ptr().cast());
             let raw = NonNull::new(raw).expect("the allocator aborts rather than fail");
             *ffi::lua_getextraspace(raw.as_ptr()).cast::<*const Env>() = owner;
             ffi::luaL_openlibs(raw.as_ptr());
-            Self { raw, _thread: PhantomData }
+            Self { raw, pool, _thread: PhantomData }
         }
     }
 
@@ -40,7 +44,11 @@ impl State {
 impl Drop for State {
     fn drop(&mut self) {
         // SAFETY: created by `new`, closed only here. Finalizers that run now may call back; the owner outlives the state.
-        unsafe { ffi::lua_close(self.raw.as_ptr()) }
+        // The pool was leaked by `new`; nothing of the state is left in it.
+        unsafe {
+            ffi::lua_close(self.raw.as_ptr());
+            drop(Box::from_raw(self.pool.as_ptr()));
+        }
     }
 }
 
@@ -48,25 +56,72 @@ impl Drop for State {
 /// pushes is smaller (see `Stack::push_bytes` and `Stack::new_table`).
 pub(super) const MAX_BLOCK: usize = 1 << 30;
 
-/// Lua's allocator on top of libc's. Out of memory ends the process, as it does everywhere in Rust.
-unsafe extern "C" fn allocate(_: *mut c_void, old: *mut c_void, _: usize, size: usize) -> *mut c_void {
-    unsafe extern "C" {
-        fn realloc(block: *mut c_void, size: usize) -> *mut c_void;
-        fn free(block: *mut c_void);
-    }
-    // SAFETY: `old` is null or came from this function; that is Lua's contract for allocators.
+/// Lua's allocator: small blocks from the pool of the state, others from libc. Out of memory ends the process, as it does everywhere in
+/// Rust.
+unsafe extern "C" fn allocate(pool: *mut c_void, old: *mut c_void, old_size: usize, size: usize) -> *mut c_void {
+    // SAFETY: `new` gave a pool that outlives the state, which is used from one thread; Lua tells the size it asked for.
     unsafe {
-        if size == 0 {
-            free(old);
-            return std::ptr::null_mut();
+        let pool = &mut *pool.cast::<Pool>();
+        let Some(block) = NonNull::new(old.cast::<u8>()) else { return new_block(pool, size) };
+        match (old_size <= LARGEST, size) {
+            (false, LARGE..) => resize_large(block, size),
+            (true, 1..=LARGEST) if same_block(old_size, size) => old,
+            (_, 0) => {
+                free_block(pool, block, old_size);
+                std::ptr::null_mut()
+            }
+            _ => {
+                let new = new_block(pool, size);
+                if !new.is_null() {
+                    std::ptr::copy_nonoverlapping(old, new, old_size.min(size));
+                    free_block(pool, block, old_size);
+                }
+                new
+            }
         }
-        if size > MAX_BLOCK {
-            return std::ptr::null_mut();
+    }
+}
+
+const LARGE: usize = LARGEST + 1;
+
+unsafe extern "C" {
+    fn realloc(block: *mut c_void, size: usize) -> *mut c_void;
+    fn free(block: *mut c_void);
+}
+
+/// A new block; null for none of no size and for one that is too large.
+unsafe fn new_block(pool: &mut Pool, size: usize) -> *mut c_void {
+    match size {
+        0 => std::ptr::null_mut(),
+        1..=LARGEST => pool.take(size).as_ptr().cast(),
+        // SAFETY: no block is resized.
+        _ => unsafe { resize(std::ptr::null_mut(), size) },
+    }
+}
+
+unsafe fn resize_large(block: NonNull<u8>, size: usize) -> *mut c_void {
+    // SAFETY: large blocks come from libc.
+    unsafe { resize(block.as_ptr().cast(), size) }
+}
+
+unsafe fn resize(block: *mut c_void, size: usize) -> *mut c_void {
+    if size > MAX_BLOCK {
+        return std::ptr::null_mut();
+    }
+    // SAFETY: null or a block of libc's.
+    let block = unsafe { realloc(block, size) };
+    if block.is_null() {
+        std::process::abort();
+    }
+    block
+}
+
+unsafe fn free_block(pool: &mut Pool, block: NonNull<u8>, size: usize) {
+    // SAFETY: small blocks come from the pool, large ones from libc.
+    unsafe {
+        match size {
+            ..=LARGEST => pool.give(block, size),
+            _ => free(block.as_ptr().cast()),
         }
-        let block = realloc(old, size);
-        if block.is_null() {
-            std::process::abort();
-        }
-        block
     }
 }

@@ -8,6 +8,7 @@ use super::{PropertyValue, Quaternion};
 use crate::scene::pose::quaternion_to_array;
 use crate::scene::{CustomData, Data, Kept};
 use crate::script::app_storage::AppStorage;
+use crate::script::aux_consoles::AuxiliaryConsoles;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::events::Protocol;
 use crate::script::random::Random;
@@ -34,6 +35,7 @@ pub(crate) struct AppData {
     pub closed_scenes: i64,
     /// Numbered switches, numbers and texts that have no effect here, as scripts set them.
     pub idle_params: IdleParams,
+    pub consoles: AuxiliaryConsoles,
 }
 
 /// Parameters of the user interface and the like, by number.

@@ -1,0 +1,63 @@
+//! `sim.tube*`: tubes between two scripts, as V-REP had them.
+
+use api_macro::api;
+
+use super::{ApiFn, Cx, Result, functions};
+use crate::script::{Bytes, Number};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![tube_open, tube_write, tube_read, tube_status, tube_close];
+
+/// No such tube.
+const FAILED: i64 = -1;
+
+/// Opens one end of a tube; the other one is opened with the same header and name.
+///
+/// @param dataHeader a number of your own
+/// @param dataName a name of your own
+/// @param readBufferSize packets that wait at most, the oldest one makes room; 0: any number
+/// @return tubeHandle
+#[api("sim.tubeOpen")]
+fn tube_open(cx: &mut Cx, data_header: Number, data_name: Bytes, read_buffer_size: Number) -> Result<i64> {
+    let capacity = usize::try_from(read_buffer_size.0).unwrap_or(0);
+    Ok(cx.sim().tubes.borrow_mut().open(data_header.0, data_name.0, capacity, cx.script().id))
+}
+
+/// Writes a packet into a tube.
+///
+/// @param tubeHandle from sim.tubeOpen
+/// @param data the packet
+/// @return result 1, 0 if nobody has opened the other end (the packet is lost), -1 if there is no such tube
+#[api("sim.tubeWrite")]
+fn tube_write(cx: &mut Cx, tube_handle: Number, data: Bytes) -> Result<i64> {
+    Ok(cx.sim().tubes.borrow_mut().write(tube_handle.0, data.0).map_or(FAILED, i64::from))
+}
+
+/// Takes the oldest packet out of a tube.
+///
+/// @param tubeHandle from sim.tubeOpen
+/// @return data nothing if no packet waits
+#[api("sim.tubeRead")]
+fn tube_read(cx: &mut Cx, tube_handle: Number) -> Result<Option<Bytes>> {
+    Ok(cx.sim().tubes.borrow_mut().read(tube_handle.0).map(Bytes))
+}
+
+/// How it is with a tube.
+///
+/// @param tubeHandle from sim.tubeOpen
+/// @return result 1 if both ends are open, 0 if only this one is, -1 if there is no such tube
+/// @return readPacketsCount packets that wait here
+/// @return writePacketsCount packets that wait at the other end
+#[api("sim.tubeStatus")]
+fn tube_status(cx: &Cx, tube_handle: Number) -> Result<(i64, i64, i64)> {
+    let status = cx.sim().tubes.borrow().status(tube_handle.0);
+    Ok(status.map_or((FAILED, 0, 0), |s| (i64::from(s.connected), s.to_read as i64, s.written as i64)))
+}
+
+/// Closes one end of a tube.
+///
+/// @param tubeHandle from sim.tubeOpen
+/// @return result 1, or -1 if there is no such tube
+#[api("sim.tubeClose")]
+fn tube_close(cx: &mut Cx, tube_handle: Number) -> Result<i64> {
+    Ok(if cx.sim().tubes.borrow_mut().close(tube_handle.0) { 1 } else { FAILED })
+}

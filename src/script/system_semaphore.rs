@@ -1,0 +1,42 @@
+//! Semaphores of the whole machine (`sim.systemSemaphore`): at most one program holds the one of a name.
+//!
+//! Each is a locked file in the folder for temporary files, so that it is free again when its holder dies.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+
+use fs4::FileExt;
+
+/// File names are not longer, in bytes of the key.
+const LONGEST_KEY: usize = 100;
+
+/// Those this simulator holds, by key.
+#[derive(Default)]
+pub(crate) struct SystemSemaphores(BTreeMap<Vec<u8>, File>);
+
+impl SystemSemaphores {
+    /// Waits until no other program holds the semaphore; at once if this simulator does already.
+    ///
+    /// # Errors
+    /// When the key is too long or its file cannot be made.
+    pub(crate) fn acquire(&mut self, key: Vec<u8>) -> Result<(), String> {
+        if self.0.contains_key(&key) {
+            return Ok(());
+        }
+        if key.len() > LONGEST_KEY {
+            return Err(format!("the key is longer than {LONGEST_KEY} bytes."));
+        }
+        let hex: String = key.iter().map(|byte| format!("{byte:02x}")).collect();
+        let path = std::env::temp_dir().join(format!("swanilda-semaphore-{hex}"));
+        let failed = |error| format!("cannot use {}: {error}", path.display());
+        let file = File::options().create(true).truncate(false).write(true).open(&path).map_err(failed)?;
+        FileExt::lock(&file).map_err(failed)?;
+        self.0.insert(key, file);
+        Ok(())
+    }
+
+    /// Gives a semaphore back, if it is held.
+    pub(crate) fn release(&mut self, key: &[u8]) {
+        self.0.remove(key);
+    }
+}
