@@ -45,7 +45,7 @@ pub(super) fn text() -> String {
          | state | what it is | properties |\n|---|---|---|\n\
          | works | has its meaning | {} |\n\
          | kept | is stored and read back, and has no effect | {} |\n\
-         | constant | reads as the value a fresh CoppeliaSim has | {} |\n",
+         | constant | always reads as the same value | {} |\n",
         lines.len(),
         count("works"),
         count("kept"),

@@ -142,11 +142,12 @@ impl PartForm {
 }
 
 fn surface(scene: &Scene, handle: Handle, shape: &Shape) -> Surface {
+    let (friction, restitution) = shape.material.contact_values(scene.settings().dynamics.engine);
     Surface {
         root: scene.root_of(handle),
         mask: shape.dynamics.respondable_mask as u16,
-        friction: shape.material.friction,
-        restitution: shape.material.restitution,
+        friction,
+        restitution,
         linear_damping: shape.material.linear_damping,
         angular_damping: shape.material.angular_damping,
     }

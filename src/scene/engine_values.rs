@@ -1,11 +1,13 @@
 //! The values of engine parameters. Those the physics here uses are fields of materials and joints; all others are kept beside them as
 //! they were set.
 
-use super::engine_params::{ENGINES, EngineOwner, EngineParam, Numbered, numbered};
+use super::engine_params::{ENGINES, EngineOwner, EngineParam, Numbered, engine_params, numbered};
 use super::joint::Joint;
 use super::shape::Material;
 use super::{Data, Field, Handle, Kept, Object, Scene, SceneError, SceneResult};
 
+/// The version of Bullet that has the newer friction; version 0 is Bullet 2.78.
+const BULLET_283: i64 = 283;
 /// The step size of each engine: one for all here.
 const STEP_SIZES: [i64; 4] = [1, 9001, 18001, 27001];
 
@@ -156,6 +158,24 @@ impl Material {
         })
     }
 
+    /// Friction and restitution that the selected engine, number and version (`sim.physics_*`), would use.
+    pub fn contact_values(&self, engine: [i64; 2]) -> (f64, f64) {
+        let value =
+            |name: &str| self.named_value(name).as_ref().and_then(|value| element(value, 0)).unwrap_or_default();
+        match engine {
+            [1, _] => (value("ode.friction"), 0.0),
+            [2, _] => (value("vortex.linearPrimaryAxisFrictionValue"), value("vortex.restitution")),
+            [3, _] => (value("newton.kineticFriction"), value("newton.restitution")),
+            [4, _] => (value("mujoco.friction"), 0.0),
+            [0, BULLET_283] => (value("bullet.friction"), self.restitution),
+            _ => (self.friction, self.restitution),
+        }
+    }
+
+    fn named_value(&self, name: &str) -> Option<Data> {
+        engine_params(EngineOwner::Material).find(|param| param.name == name).map(|param| self.engine_value(param))
+    }
+
     fn engine_value(&self, param: &EngineParam) -> Data {
         match param.name {
             "bullet.restitution" => self.restitution.into(),
@@ -201,7 +221,6 @@ fn engine_of_gains(param: &EngineParam) -> Option<usize> {
 mod tests {
     use super::*;
     use crate::scene::Kind;
-    use crate::scene::engine_params::engine_params;
     use crate::scene::joint::{JointMode, JointType};
 
     #[test]
@@ -214,6 +233,15 @@ mod tests {
         let named = engine_params(EngineOwner::Joint).find(|param| param.name == "ode.posPid").expect("it has a row");
         assert_eq!(scene.engine_value(named, Some(joint)), Ok(vec![0.1, 0.5, 0.0].into()));
         assert_eq!(scene.engine_param(6003, Some(joint)), Err(SceneError::WrongType("shape")));
+    }
+
+    #[test]
+    fn the_selected_engine_decides_about_contacts() {
+        let grip = Material::rest_stack_grasp();
+        assert_eq!(grip.contact_values([0, 0]), (1.0, 0.0));
+        assert_eq!(grip.contact_values([0, BULLET_283]), (0.5, 0.0));
+        assert_eq!(Material::default().contact_values([1, 0]), (0.71, 0.0));
+        assert_eq!(Material::default().contact_values([4, 0]), (1.0, 0.0));
     }
 
     #[test]

@@ -103,7 +103,7 @@ impl Default for ShapeDynamics {
 /// Surface properties: those the physics here uses, and those of other engines as they were set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
-    /// What the physics here uses; Bullet 2.78's ("old") friction.
+    /// Bullet 2.78's ("old") friction.
     pub friction: f64,
     pub restitution: f64,
     pub linear_damping: f64,

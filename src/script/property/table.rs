@@ -16,8 +16,8 @@ use crate::scene::{Data, Kind, ValueType};
 /// `part<TAB>name<TAB>type<TAB>flags<TAB>state<TAB>default`, in the order of enumeration within a part.
 ///
 /// The state is `works`, `kept` (stored and read back, no effect) or `constant` (always the default); what works has an accessor, and
-/// what needs more than storage may have one. An empty default is false, 0, no text, an empty list, the origin or no rotation; numbers in lists are separated by spaces. A list that has a
-/// default keeps its length.
+/// what needs more than storage may have one. An empty default is false, 0, no text, an empty list, the origin or no rotation; numbers
+/// in lists are separated by spaces. A list that has a default keeps its length.
 const STATIC: &str = include_str!("static.tsv");
 
 /// Bits of the flags of a property.
