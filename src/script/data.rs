@@ -123,7 +123,8 @@ fn read_key(stack: Stack<'_>, index: c_int) -> Key {
 /// Pushes `data`.
 pub(crate) fn push_data(stack: Stack<'_>, data: &Data) {
     // One level of nesting takes three slots; when Lua's stack is full the inner value is dropped rather than the program.
-    if !stack.reserve(8) {
+    let nests = matches!(data, Data::Array(_) | Data::Map(_) | Data::Buffer(_));
+    if nests && !stack.reserve(8) {
         return stack.push_nil();
     }
     match data {
