@@ -242,7 +242,11 @@ impl<'a> Reader<'a> {
         match Head::read(self.bytes, self.at) {
             Ok((head, end)) if head.major == major::BYTES && head.info != INDEFINITE && is_typed(tag) => {
                 self.at = end;
-                push_typed(self.stack, tag, self.piece(head.argument)?);
+                let bytes = self.piece(head.argument)?;
+                if bytes.len() as i64 > MAX_ITEMS {
+                    return self.bad(format!("a typed array of more than {MAX_ITEMS} bytes"));
+                }
+                push_typed(self.stack, tag, bytes);
                 Ok(true)
             }
             _ => Ok(false),
@@ -298,7 +302,7 @@ fn push_typed(stack: Stack<'_>, tag: u64, bytes: &[u8]) {
 fn push_numbers<const N: usize>(stack: Stack<'_>, bytes: &[u8], push: impl Fn(&[u8; N])) {
     let (numbers, _) = bytes.as_chunks::<N>();
     stack.new_table(numbers.len(), 0);
-    for (i, number) in numbers.iter().enumerate().take(MAX_ITEMS as usize) {
+    for (i, number) in numbers.iter().enumerate() {
         push(number);
         stack.raw_set_index(-2, i as i64 + 1);
     }

@@ -16,6 +16,9 @@ const NULL: u8 = 0xf6;
 /// Nulls written for holes of one array. Lua's `#` may be astronomic for a table with a few elements.
 const MAX_HOLES: i64 = 1 << 16;
 
+/// Bytes of one value: as many as a Lua string may have. A table that holds another many times grows beyond all memory.
+const MAX_BYTES: usize = 1 << 29;
+
 /// Why a value was not written.
 enum Stop {
     /// It has a metatable, or a type of which Lua decides.
@@ -53,16 +56,26 @@ fn write(stack: Stack<'_>, index: c_int, out: &mut Vec<u8>, depth: usize) -> Wri
             Some(integer) => push_int(out, integer),
             None => push_float(out, stack.number(index).unwrap_or_default()),
         },
-        Type::String => write_string(out, stack.bytes(index).unwrap_or_default()),
+        Type::String => write_string(out, stack.bytes(index).unwrap_or_default())?,
         Type::Table => write_table(stack, stack.absolute(index), out, depth)?,
         _ => return Err(Stop::NeedsLua),
     }
-    Ok(())
+    check_size(out.len())
 }
 
-fn write_string(out: &mut Vec<u8>, bytes: &[u8]) {
-    push_head(out, if is_text(bytes) { major::TEXT } else { major::BYTES }, bytes.len() as u64);
+fn check_size(size: usize) -> Written {
+    if size > MAX_BYTES { Err(Stop::Bad("Cannot encode: more than 512 MiB")) } else { Ok(()) }
+}
+
+fn write_string(out: &mut Vec<u8>, bytes: &[u8]) -> Written {
+    write_bytes(out, if is_text(bytes) { major::TEXT } else { major::BYTES }, bytes)
+}
+
+fn write_bytes(out: &mut Vec<u8>, major: u8, bytes: &[u8]) -> Written {
+    check_size(out.len() + bytes.len())?;
+    push_head(out, major, bytes.len() as u64);
     out.extend_from_slice(bytes);
+    Ok(())
 }
 
 fn write_table(stack: Stack<'_>, table: c_int, out: &mut Vec<u8>, depth: usize) -> Written {
@@ -72,9 +85,7 @@ fn write_table(stack: Stack<'_>, table: c_int, out: &mut Vec<u8>, depth: usize) 
     if stack.push_metatable(table) {
         stack.pop(1);
         let bytes = read_buffer(stack, table).ok_or(Stop::NeedsLua)?;
-        push_head(out, major::BYTES, bytes.len() as u64);
-        out.extend_from_slice(&bytes);
-        return Ok(());
+        return write_bytes(out, major::BYTES, &bytes);
     }
     match stack.raw_len(table) {
         0 => write_map(stack, table, out, depth),

@@ -35,3 +35,6 @@ print(select(2, cbor.pencode(nested)):match('nested.*'))
 local endless = setmetatable({}, {__tocbor = function(self) return cbor.encode({self}) end})
 print((pcall(cbor.encode, endless)))
 print((pcall(cbor.encode, setmetatable({}, {__metatable = 'locked'}))), (pcall(cbor.encode, coroutine.create(print))))
+local laughs = {big}
+for _ = 1, 40 do laughs = {laughs, laughs} end
+print(select(2, cbor.pencode(laughs)):match('Cannot.*'))

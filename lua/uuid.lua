@@ -1,0 +1,34 @@
+--[[
+Random identifiers: v4() gives 'xxxxxxxx-xxxx-4xxx-yxxx-xxxxxxxxxxxx' (RFC 9562).
+
+    set_rng(f)          f(n) gives a string of n random bytes
+    rng.math_random()   such an f; it draws from the generator of the script, so that runs can be repeated
+
+Calling the module is v4. Without set_rng it draws from that generator too.
+]]
+
+local uuid = {rng = {}}
+
+function uuid.rng.math_random()
+    local random = (package.loaded.sim or require 'sim').getRandom
+    return function(n)
+        local bytes = {}
+        for i = 1, n do bytes[i] = string.char(math.min(255, math.floor(random() * 256))) end
+        return table.concat(bytes)
+    end
+end
+
+local generate
+
+function uuid.set_rng(f) generate = f end
+
+function uuid.v4()
+    generate = generate or uuid.rng.math_random()
+    local bytes = {generate(16):byte(1, 16)}
+    if #bytes ~= 16 then error('uuid: the generator gave fewer than 16 bytes', 2) end
+    bytes[7] = bytes[7] & 0x0f | 0x40
+    bytes[9] = bytes[9] & 0x3f | 0x80
+    return (('%02x'):rep(4) .. ('-' .. ('%02x'):rep(2)):rep(3) .. '-' .. ('%02x'):rep(6)):format(table.unpack(bytes))
+end
+
+return setmetatable(uuid, {__call = function() return uuid.v4() end})
