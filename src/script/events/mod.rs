@@ -139,13 +139,15 @@ impl Sim {
         }
         let mut events = self.events.queue.borrow_mut().take();
         self.fill_in_lists(&mut events);
-        events.push(Event::new(
-            "msgDispatchTime",
-            Source::NONE,
-            vec![int_entry("time", wall_clock::unix_milliseconds())],
-        ));
+        let now = int_entry("time", wall_clock::unix_milliseconds());
+        events.push(Event::new("msgDispatchTime", Source::NONE, vec![now]));
         let first = self.events.next_seq.get();
         self.events.next_seq.set(first + events.len() as i64);
+        self.deliver_events(&events, first);
+    }
+
+    /// Delivers events numbered from `first` to everyone who listens, as much of them as each wants.
+    fn deliver_events(self: &Rc<Self>, events: &[Event], first: i64) {
         let mut whole: Option<Data> = None;
         for script in self.everyone().iter() {
             let Some(runtime) = script.current_runtime() else { continue };
@@ -153,17 +155,13 @@ impl Sim {
                 continue;
             }
             let filters = runtime.env.event_filters.borrow().clone();
-            let batch = |filters| queue::batch(&events, first, filters).map(Data::Buffer);
-            match filters {
-                None => {
-                    let all = whole.get_or_insert_with(|| batch(None).unwrap_or(Data::Nil));
-                    self.deliver(script, SysCall::Event, std::slice::from_ref(all));
-                }
-                Some(filters) => {
-                    if let Some(some) = batch(Some(&filters)) {
-                        self.deliver(script, SysCall::Event, &[some]);
-                    }
-                }
+            let batch = |filters| queue::batch(events, first, filters).map(Data::Buffer);
+            let wanted = match &filters {
+                None => Some(whole.get_or_insert_with(|| batch(None).unwrap_or(Data::Nil)).clone()),
+                some => batch(some.as_ref()),
+            };
+            if let Some(batch) = wanted {
+                self.deliver(script, SysCall::Event, &[batch]);
             }
         }
     }

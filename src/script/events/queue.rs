@@ -145,13 +145,9 @@ fn write_event(event: &Event, seq: i64, filters: Option<&Filters>, out: &mut Vec
         Some(keys) => keys,
         None => None,
     };
-    let wanted = |entry: &&Entry| keys.is_none_or(|keys| keys.contains(&entry.key));
-    if let Content::Entries(entries) = &event.data
-        && !entries.is_empty()
-        && !entries.iter().any(|entry| wanted(&entry))
-    {
+    let Some(data) = encoded_data(&event.data, |entry| keys.is_none_or(|keys| keys.contains(&entry.key))) else {
         return;
-    }
+    };
     out.push(encode::MAP);
     member(out, "event", |out| encode::text(out, event.name.as_bytes()));
     for (key, number) in [("uid", event.source.uid), ("handle", event.source.handle)] {
@@ -159,19 +155,25 @@ fn write_event(event: &Event, seq: i64, filters: Option<&Filters>, out: &mut Vec
             member(out, key, |out| encode::int(out, number));
         }
     }
-    member(out, "data", |out| match &event.data {
-        Content::User(map) => out.extend(map),
-        Content::Entries(entries) => {
-            out.push(encode::MAP);
-            for entry in entries.iter().filter(wanted) {
-                encode::text(out, entry.key.as_bytes());
-                out.extend(&entry.value);
-            }
-            out.push(encode::END);
-        }
-    });
+    member(out, "data", |out| out.extend(data));
     member(out, "seq", |out| encode::int(out, seq));
     out.push(encode::END);
+}
+
+/// The wanted members as a map; None when there are members, but none of them is wanted.
+fn encoded_data(content: &Content, wanted: impl Fn(&Entry) -> bool) -> Option<Vec<u8>> {
+    let entries = match content {
+        Content::User(map) => return Some(map.clone()),
+        Content::Entries(entries) => entries,
+    };
+    let mut map = vec![encode::MAP];
+    for entry in entries.iter().filter(|entry| wanted(entry)) {
+        encode::text(&mut map, entry.key.as_bytes());
+        map.extend(&entry.value);
+    }
+    let nothing_left = map.len() == 1 && !entries.is_empty();
+    map.push(encode::END);
+    (!nothing_left).then_some(map)
 }
 
 fn member(out: &mut Vec<u8>, key: &str, value: impl FnOnce(&mut Vec<u8>)) {
