@@ -3,9 +3,10 @@
 //! Tables are written with indefinite length, as CoppeliaSim does. A Lua string is written as text even when it is not UTF-8, and a
 //! buffer as bytes, so that both come back as they were.
 
-use ciborium_io::{Read, Write};
-use ciborium_ll::{Decoder, Encoder, Header, simple};
+use ciborium_io::Read;
+use ciborium_ll::{Decoder, Header, simple};
 
+use super::cbor_head::{BREAK, FALSE, INDEFINITE, NULL, TRUE, major, push_float, push_head, push_int};
 use crate::scene::{Data, Key};
 
 /// How deep arrays and maps may be nested.
@@ -19,60 +20,50 @@ pub struct Malformed;
 /// `data` as CBOR.
 pub fn encode(data: &Data) -> Vec<u8> {
     let mut bytes = Vec::new();
-    write(&mut Encoder::from(&mut bytes), data).expect("writing to memory cannot fail");
+    write(&mut bytes, data);
     bytes
 }
 
-type Out<'a> = Encoder<&'a mut Vec<u8>>;
-type Written = Result<(), std::io::Error>;
-
-fn write(out: &mut Out<'_>, data: &Data) -> Written {
+fn write(out: &mut Vec<u8>, data: &Data) {
     match data {
-        Data::Nil => out.push(Header::Simple(simple::NULL)),
+        Data::Nil => out.push(NULL),
         Data::Bool(b) => write_bool(out, *b),
-        Data::Int(i) => write_int(out, *i),
-        Data::Float(f) => out.push(Header::Float(*f)),
-        Data::Text(text) => write_text(out, text),
-        Data::Buffer(bytes) => {
-            out.push(Header::Bytes(Some(bytes.len())))?;
-            out.write_all(bytes)
-        }
+        Data::Int(i) => push_int(out, *i),
+        Data::Float(f) => push_float(out, *f),
+        Data::Text(text) => write_bytes(out, major::TEXT, text),
+        Data::Buffer(bytes) => write_bytes(out, major::BYTES, bytes),
         Data::Array(items) => {
-            out.push(Header::Array(None))?;
-            items.iter().try_for_each(|item| write(out, item))?;
-            out.push(Header::Break)
+            out.push(major::ARRAY | INDEFINITE);
+            items.iter().for_each(|item| write(out, item));
+            out.push(BREAK);
         }
         Data::Map(entries) => {
-            out.push(Header::Map(None))?;
+            out.push(major::MAP | INDEFINITE);
             for (key, value) in entries {
-                write_key(out, key)?;
-                write(out, value)?;
+                write_key(out, key);
+                write(out, value);
             }
-            out.push(Header::Break)
+            out.push(BREAK);
         }
     }
 }
 
-fn write_key(out: &mut Out<'_>, key: &Key) -> Written {
+fn write_key(out: &mut Vec<u8>, key: &Key) {
     match key {
         Key::Bool(b) => write_bool(out, *b),
-        Key::Int(i) => write_int(out, *i),
-        Key::Float(f) => out.push(Header::Float(*f)),
-        Key::Text(text) => write_text(out, text),
+        Key::Int(i) => push_int(out, *i),
+        Key::Float(f) => push_float(out, *f),
+        Key::Text(text) => write_bytes(out, major::TEXT, text),
     }
 }
 
-fn write_bool(out: &mut Out<'_>, value: bool) -> Written {
-    out.push(Header::Simple(if value { simple::TRUE } else { simple::FALSE }))
+fn write_bool(out: &mut Vec<u8>, value: bool) {
+    out.push(if value { TRUE } else { FALSE });
 }
 
-fn write_int(out: &mut Out<'_>, value: i64) -> Written {
-    out.push(if value < 0 { Header::Negative(!value as u64) } else { Header::Positive(value as u64) })
-}
-
-fn write_text(out: &mut Out<'_>, text: &[u8]) -> Written {
-    out.push(Header::Text(Some(text.len())))?;
-    out.write_all(text)
+fn write_bytes(out: &mut Vec<u8>, major: u8, bytes: &[u8]) {
+    push_head(out, major, bytes.len() as u64);
+    out.extend_from_slice(bytes);
 }
 
 /// The value `bytes` begin with; what follows it is ignored.

@@ -17,6 +17,13 @@ pub mod major {
 /// `info` of an item without a length, and of the break that ends it.
 pub const INDEFINITE: u8 = 31;
 
+/// Items of one byte.
+pub const FALSE: u8 = major::SIMPLE | 20;
+pub const TRUE: u8 = major::SIMPLE | 21;
+pub const NULL: u8 = major::SIMPLE | 22;
+/// What ends an item without a length.
+pub const BREAK: u8 = major::SIMPLE | INDEFINITE;
+
 /// The beginning of an item.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Head {

@@ -7,11 +7,7 @@ use super::super::data::read_buffer;
 use super::super::error::ApiResult;
 use super::super::lua::{Stack, Type};
 use super::{MAX_DEPTH, TOO_DEEP};
-use crate::wire::cbor_head::{is_text, major, push_float, push_head, push_int};
-
-const FALSE: u8 = 0xf4;
-const TRUE: u8 = 0xf5;
-const NULL: u8 = 0xf6;
+use crate::wire::cbor_head::{FALSE, NULL, TRUE, is_text, major, push_float, push_head, push_int};
 
 /// Nulls written for holes of one array. Lua's `#` may be astronomic for a table with a few elements.
 const MAX_HOLES: i64 = 1 << 16;

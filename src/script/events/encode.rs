@@ -1,21 +1,12 @@
 //! Values of properties as the event stream writes them (SPEC-6 6.2): CBOR with a few types of its own.
 //!
-//! Heads of items are written here and not by a library, because the stream asks for lengths and widths a canonical encoder would not
-//! choose: floats of 32 bits whatever their value, integers of 32 bits inside arrays.
+//! Items are put together here and not by a library, because the stream asks for widths a canonical encoder would not choose: floats
+//! of 32 bits whatever their value, integers of 32 bits inside arrays.
 
 use super::protocol::{Meaning, Protocol};
 use crate::scene::{Data, ValueType};
 use crate::wire::cbor;
-
-/// Major types of CBOR.
-mod major {
-    pub const UNSIGNED: u8 = 0;
-    pub const NEGATIVE: u8 = 1;
-    pub const BYTES: u8 = 2;
-    pub const TEXT: u8 = 3;
-    pub const ARRAY: u8 = 4;
-    pub const TAG: u8 = 6;
-}
+use crate::wire::cbor_head::{BREAK, FALSE, INDEFINITE, NULL, TRUE, major, push_head, push_int};
 
 /// Tags of protocol 4.
 mod tag {
@@ -30,48 +21,28 @@ mod tag {
     pub const HANDLE: u64 = 4_294_999_999;
 }
 
-const NULL: u8 = 0xf6;
-pub(super) const MAP: u8 = 0xbf;
-pub(super) const LIST: u8 = 0x9f;
-pub(super) const END: u8 = 0xff;
+/// A map and a list without a length, and what ends them.
+pub(super) const MAP: u8 = major::MAP | INDEFINITE;
+pub(super) const LIST: u8 = major::ARRAY | INDEFINITE;
+pub(super) const END: u8 = BREAK;
 
-/// The head of an item: its major type and `n` in the shortest form.
-fn head(out: &mut Vec<u8>, major: u8, n: u64) {
-    let major = major << 5;
-    match n {
-        0..=23 => out.push(major | n as u8),
-        24..=0xff => out.extend([major | 24, n as u8]),
-        0x100..=0xffff => {
-            out.push(major | 25);
-            out.extend((n as u16).to_be_bytes());
-        }
-        0x1_0000..=0xffff_ffff => {
-            out.push(major | 26);
-            out.extend((n as u32).to_be_bytes());
-        }
-        _ => {
-            out.push(major | 27);
-            out.extend(n.to_be_bytes());
-        }
-    }
-}
-
-pub(super) fn int(out: &mut Vec<u8>, i: i64) {
-    if i < 0 { head(out, major::NEGATIVE, !i as u64) } else { head(out, major::UNSIGNED, i as u64) }
-}
+/// The first bytes of what has a width of its own, however small the number.
+const INT_32: u8 = major::UNSIGNED | 26;
+const INT_64: u8 = major::UNSIGNED | 27;
+const FLOAT_32: u8 = major::SIMPLE | 26;
 
 pub(super) fn text(out: &mut Vec<u8>, text: &[u8]) {
-    head(out, major::TEXT, text.len() as u64);
+    push_head(out, major::TEXT, text.len() as u64);
     out.extend(text);
 }
 
 fn bytes(out: &mut Vec<u8>, bytes: &[u8]) {
-    head(out, major::BYTES, bytes.len() as u64);
+    push_head(out, major::BYTES, bytes.len() as u64);
     out.extend(bytes);
 }
 
 fn float(out: &mut Vec<u8>, f: f64) {
-    out.push(0xfa);
+    out.push(FLOAT_32);
     out.extend((f as f32).to_be_bytes());
 }
 
@@ -83,8 +54,8 @@ pub(super) fn value(protocol: Protocol, ty: ValueType, data: &Data, out: &mut Ve
         (Data::Array(items), _) if protocol == Protocol::V4 => tagged_array(ty, items, out),
         (Data::Array(items), _) => plain_array(items, out),
         (Data::Nil, _) => out.push(NULL),
-        (Data::Bool(b), _) => out.push(if *b { 0xf5 } else { 0xf4 }),
-        (Data::Int(i), _) => int(out, *i),
+        (Data::Bool(b), _) => out.push(if *b { TRUE } else { FALSE }),
+        (Data::Int(i), _) => push_int(out, *i),
         (Data::Float(f), _) => float(out, *f),
         (Data::Text(t), _) => text(out, t),
         (Data::Buffer(b), _) => bytes(out, b),
@@ -100,15 +71,15 @@ pub(super) fn null() -> Vec<u8> {
 /// Writes a value that protocol 4 takes to mean something else than protocol 3 does.
 pub(super) fn meant(meaning: Meaning, ty: ValueType, data: &Data, out: &mut Vec<u8>) {
     match (meaning, data) {
-        (Meaning::Not, Data::Bool(b)) => out.push(if *b { 0xf4 } else { 0xf5 }),
+        (Meaning::Not, Data::Bool(b)) => out.push(if *b { FALSE } else { TRUE }),
         (Meaning::Handle, Data::Int(handle)) => {
-            head(out, major::TAG, tag::HANDLE);
-            int(out, *handle);
+            push_head(out, major::TAG, tag::HANDLE);
+            push_int(out, *handle);
         }
         (Meaning::Handles, Data::Array(handles)) => {
-            head(out, major::TAG, tag::HANDLES);
-            head(out, major::ARRAY, handles.len() as u64);
-            handles.iter().filter_map(as_int).for_each(|handle| int(out, handle));
+            push_head(out, major::TAG, tag::HANDLES);
+            push_head(out, major::ARRAY, handles.len() as u64);
+            handles.iter().filter_map(as_int).for_each(|handle| push_int(out, handle));
         }
         _ => value(Protocol::V4, ty, data, out),
     }
@@ -130,14 +101,22 @@ fn plain_array(items: &[Data], out: &mut Vec<u8>) {
 }
 
 fn narrow_int(out: &mut Vec<u8>, i: i64) {
-    let magnitude = if i < 0 { !i } else { i };
-    out.push(if i < 0 { 0x3a } else { 0x1a });
-    out.extend((magnitude as u32).to_be_bytes());
+    out.push(INT_32 | sign(i));
+    out.extend((magnitude(i) as u32).to_be_bytes());
 }
 
 fn wide_int(out: &mut Vec<u8>, i: i64) {
-    out.push(if i < 0 { 0x3b } else { 0x1b });
-    out.extend((if i < 0 { !i } else { i }).to_be_bytes());
+    out.push(INT_64 | sign(i));
+    out.extend(magnitude(i).to_be_bytes());
+}
+
+fn sign(i: i64) -> u8 {
+    if i < 0 { major::NEGATIVE } else { major::UNSIGNED }
+}
+
+/// CBOR counts negative integers from -1 down.
+fn magnitude(i: i64) -> i64 {
+    if i < 0 { !i } else { i }
 }
 
 fn as_int(item: &Data) -> Option<i64> {
@@ -156,14 +135,14 @@ fn tagged_array(ty: ValueType, items: &[Data], out: &mut Vec<u8>) {
 }
 
 fn numbers(tag: u64, items: &[Data], out: &mut Vec<u8>) {
-    head(out, major::TAG, tag);
-    head(out, major::ARRAY, items.len() as u64);
+    push_head(out, major::TAG, tag);
+    push_head(out, major::ARRAY, items.len() as u64);
     items.iter().filter_map(Data::as_f64).for_each(|f| float(out, f));
 }
 
 /// Four bytes, red green blue alpha; the factor is the original's.
 fn colour(items: &[Data], out: &mut Vec<u8>) {
-    head(out, major::TAG, tag::COLOR);
+    push_head(out, major::TAG, tag::COLOR);
     let channels = items.iter().filter_map(Data::as_f64).map(|part| (part * 255.1) as u8);
     let rgba: Vec<u8> = channels.chain([255]).collect();
     bytes(out, &rgba);
@@ -171,12 +150,12 @@ fn colour(items: &[Data], out: &mut Vec<u8>) {
 
 /// A matrix of one column: `[[rows, columns], [values]]`.
 fn column(items: &[Data], out: &mut Vec<u8>) {
-    head(out, major::TAG, tag::MATRIX);
-    head(out, major::ARRAY, 2);
-    head(out, major::ARRAY, 2);
-    int(out, items.len() as i64);
-    int(out, 1);
-    head(out, major::ARRAY, items.len() as u64);
+    push_head(out, major::TAG, tag::MATRIX);
+    push_head(out, major::ARRAY, 2);
+    push_head(out, major::ARRAY, 2);
+    push_int(out, items.len() as i64);
+    push_int(out, 1);
+    push_head(out, major::ARRAY, items.len() as u64);
     items.iter().filter_map(Data::as_f64).for_each(|f| float(out, f));
 }
 
@@ -194,7 +173,7 @@ fn doubles(items: &[Data], out: &mut Vec<u8>) {
 }
 
 fn packed(tag: u64, content: Vec<u8>, out: &mut Vec<u8>) {
-    head(out, major::TAG, tag);
+    push_head(out, major::TAG, tag);
     bytes(out, &content);
 }
 

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::encode;
 use super::filter::Filters;
 use crate::scene::{Handle, Uid, special};
+use crate::wire::cbor_head::push_int;
 
 /// A name that is nearly always known at compile time.
 pub(super) type Name = Cow<'static, str>;
@@ -152,11 +153,11 @@ fn write_event(event: &Event, seq: i64, filters: Option<&Filters>, out: &mut Vec
     member(out, "event", |out| encode::text(out, event.name.as_bytes()));
     for (key, number) in [("uid", event.source.uid), ("handle", event.source.handle)] {
         if number != -1 {
-            member(out, key, |out| encode::int(out, number));
+            member(out, key, |out| push_int(out, number));
         }
     }
     member(out, "data", |out| out.extend(data));
-    member(out, "seq", |out| encode::int(out, seq));
+    member(out, "seq", |out| push_int(out, seq));
     out.push(encode::END);
 }
 
