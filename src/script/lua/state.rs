@@ -1,4 +1,4 @@
-//! An owned Lua state.
+//! An owned Lua state and its memory.
 
 use std::ffi::c_void;
 use std::marker::PhantomData;
@@ -123,5 +123,61 @@ unsafe fn free_block(pool: &mut Pool, block: NonNull<u8>, size: usize) {
             ..=LARGEST => pool.give(block, size),
             _ => free(block.as_ptr().cast()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ffi::c_void;
+    use std::ptr::{NonNull, null_mut};
+
+    use super::{LARGEST, MAX_BLOCK, Pool, allocate};
+
+    /// Changes the size of a block as Lua does; what both sizes have keeps its bytes.
+    fn resize(pool: &mut Pool, block: *mut c_void, old_size: usize, size: usize) -> *mut c_void {
+        let pool = NonNull::from(pool);
+        // SAFETY: the tests give a block of that size, or null, and forget it.
+        let new = unsafe { allocate(pool.as_ptr().cast(), block, old_size, size) };
+        assert_eq!(new as usize % 16, 0);
+        for i in 0..old_size.min(size) {
+            // SAFETY: both sizes are larger than `i`, and `fill` wrote the old one.
+            assert_eq!(unsafe { new.cast::<u8>().add(i).read() }, i as u8);
+        }
+        new
+    }
+
+    fn fill(block: *mut c_void, size: usize) {
+        // SAFETY: the block has that size.
+        (0..size).for_each(|i| unsafe { block.cast::<u8>().add(i).write(i as u8) });
+    }
+
+    #[test]
+    fn blocks_keep_their_bytes_when_they_grow_and_shrink() {
+        let mut pool = Pool::new();
+        let sizes = [1, 16, 17, LARGEST, LARGEST + 1, 70_000, 1 << 20, 600, 513, LARGEST, 40, 33, 3];
+        for (old_size, size) in sizes.iter().flat_map(|&a| sizes.map(|b| (a, b))) {
+            let old = resize(&mut pool, null_mut(), 0, old_size);
+            fill(old, old_size);
+            let new = resize(&mut pool, old, old_size, size);
+            fill(new, size);
+            assert!(resize(&mut pool, new, size, 0).is_null());
+        }
+    }
+
+    #[test]
+    fn a_block_that_may_not_grow_stays_as_it_was() {
+        let mut pool = Pool::new();
+        for size in [8, 1000] {
+            let block = resize(&mut pool, null_mut(), 0, size);
+            fill(block, size);
+            // SAFETY: a block of that size.
+            let grown = unsafe { allocate(NonNull::from(&mut pool).as_ptr().cast(), block, size, MAX_BLOCK + 1) };
+            assert!(grown.is_null());
+            let block = resize(&mut pool, block, size, size);
+            assert!(resize(&mut pool, block, size, 0).is_null());
+        }
+        assert!(
+            resize(&mut pool, null_mut(), 0, MAX_BLOCK + 1).is_null() && resize(&mut pool, null_mut(), 0, 0).is_null()
+        );
     }
 }
