@@ -25,6 +25,9 @@ pub enum Key {
 }
 
 impl Data {
+    /// Items of a list, or entries of a map, that decoders accept: more would not fit the memory a script may ask for at once.
+    pub const MAX_ITEMS: usize = 1 << 25;
+
     /// The text `text`, as a script would write it.
     pub fn text(text: &str) -> Self {
         Self::Text(text.as_bytes().to_vec())

@@ -3,7 +3,7 @@
 use super::args::{Bytes, Table};
 use super::data::{push_buffer, push_data};
 use super::error::{ApiError, ApiResult};
-use super::lua::Stack;
+use super::lua::{LONGEST_LIST, Stack};
 use crate::scene::{Data, Handle};
 
 /// A type that scripts get back.
@@ -42,10 +42,10 @@ values! {
     Data, "any", |value, stack| push_data(stack, &value);
     Table, "table", |value, stack| push_data(stack, &value.0);
     Nil, "nil", |_value, stack| stack.push_nil();
-    Vec<f64>, "float[]", |value, stack| push_list(stack, &value, |&v| stack.push_number(v));
-    Vec<i64>, "int[]", |value, stack| push_list(stack, &value, |&v| stack.push_int(v));
-    Vec<Handle>, "int[]", |value, stack| push_list(stack, &value, |v| stack.push_int(v.raw()));
-    Vec<String>, "string[]", |value, stack| push_list(stack, &value, |v| stack.push_bytes(v.as_bytes()));
+    Vec<f64>, "float[]", |value, stack| push_list(stack, &value, |&v| stack.push_number(v))?;
+    Vec<i64>, "int[]", |value, stack| push_list(stack, &value, |&v| stack.push_int(v))?;
+    Vec<Handle>, "int[]", |value, stack| push_list(stack, &value, |v| stack.push_int(v.raw()))?;
+    Vec<String>, "string[]", |value, stack| push_list(stack, &value, |v| stack.push_bytes(v.as_bytes()))?;
 }
 
 /// Nothing.
@@ -58,12 +58,16 @@ impl IntoScript for () {
     }
 }
 
-fn push_list<T>(stack: Stack<'_>, list: &[T], push: impl Fn(&T)) {
+fn push_list<T>(stack: Stack<'_>, list: &[T], push: impl Fn(&T)) -> ApiResult<()> {
+    if list.len() > LONGEST_LIST {
+        return Err(ApiError::Other("not enough memory".into()));
+    }
     stack.new_table(list.len(), 0);
     for (i, item) in list.iter().enumerate() {
         push(item);
         stack.raw_set_index(-2, i as i64 + 1);
     }
+    Ok(())
 }
 
 macro_rules! number_arrays {
@@ -72,8 +76,7 @@ macro_rules! number_arrays {
             const TYPE: &'static str = $name;
             #[allow(private_interfaces)]
             fn into_script(self, stack: Stack<'_>) -> ApiResult<()> {
-                push_list(stack, &self, |&v| stack.push_number(v));
-                Ok(())
+                push_list(stack, &self, |&v| stack.push_number(v))
             }
         }
     )* };

@@ -69,7 +69,7 @@ fn write_bytes(out: &mut Vec<u8>, major: u8, bytes: &[u8]) {
 /// The value `bytes` begin with; what follows it is ignored.
 ///
 /// # Errors
-/// When they are not CBOR, or nested too deeply.
+/// When they are not CBOR, nested too deeply, or a list of more than [`Data::MAX_ITEMS`].
 pub fn decode(bytes: &[u8]) -> Result<Data, Malformed> {
     let mut input = Input { decoder: Decoder::from(bytes), size: bytes.len() };
     let header = input.pull()?;
@@ -138,6 +138,9 @@ impl Input<'_> {
     fn next(&mut self, len: Option<usize>, read: usize) -> Result<Option<Header>, Malformed> {
         if len == Some(read) {
             return Ok(None);
+        }
+        if read >= Data::MAX_ITEMS {
+            return Err(Malformed);
         }
         match self.pull()? {
             Header::Break if len.is_none() => Ok(None),

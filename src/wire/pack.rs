@@ -146,7 +146,7 @@ fn sorted(entries: &[(Key, Data)]) -> Vec<&(Key, Data)> {
 /// The table `bytes` are.
 ///
 /// # Errors
-/// When they are none, or one that is nested too deeply. What follows the table is not looked at beyond the flags of its strings.
+/// When they are none, or one that is nested too deeply or has more than [`Data::MAX_ITEMS`]. What follows the table is not looked at beyond the flags of its strings.
 pub fn decode(bytes: &[u8]) -> Result<Data, Malformed> {
     let (&version, rest) = bytes.split_first().ok_or(Malformed)?;
     if !is_packed(bytes) {
@@ -170,6 +170,9 @@ impl Input<'_> {
         }
         let kind = self.byte()?;
         let count = self.length()?;
+        if count > Data::MAX_ITEMS {
+            return Err(Malformed);
+        }
         match kind {
             LIST => (0..count).map(|_| self.item(depth)).collect::<Result<_, _>>().map(Data::Array),
             MAP if count % 2 == 0 => (0..count / 2).map(|_| self.entry(depth)).collect::<Result<_, _>>().map(Data::Map),

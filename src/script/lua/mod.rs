@@ -9,7 +9,9 @@
 //! - A [`Stack`] is a view of one coroutine of a living state. It checks indices and types before it follows them, so that a mistake
 //!   is a wrong answer and not a wild pointer.
 //! - Lua raises errors by `longjmp`. Only [`Stack::protected_call`] runs code that may raise; callbacks raise as their very last
-//!   act, from a frame that owns nothing ([`callback`]). Allocation failure aborts (see `allocate`), so that pushing never raises.
+//!   act, from a frame that owns nothing ([`callback`]). Allocation failure aborts (see `allocate`), so that pushing never raises
+//!   as long as what is pushed fits Lua's largest block: strings are cut to it, longer lists are refused before they are pushed
+//!   ([`LONGEST_LIST`], `Data::MAX_ITEMS`).
 
 mod callback;
 mod calls;
@@ -26,4 +28,4 @@ pub(crate) use coroutine::{HOOK_INTERVAL, install_coroutine_hooks, set_count_hoo
 pub(crate) use file::FileLock;
 pub(crate) use stack::{Stack, Type};
 pub(crate) use state::State;
-pub(crate) use tables::FunctionRef;
+pub(crate) use tables::{FunctionRef, LONGEST_LIST};

@@ -5,6 +5,7 @@ use std::ffi::{CStr, c_int};
 use mlua_sys as ffi;
 
 use super::stack::{Stack, Type};
+use super::state::MAX_BLOCK;
 
 /// A Lua function kept alive in the registry of its state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,6 +13,9 @@ pub(crate) struct FunctionRef(c_int);
 
 /// Size hints beyond this are not worth their memory: tables grow by themselves.
 const MAX_HINT: usize = 1 << 16;
+
+/// Items of the longest list that fits one block (16 bytes each): for one more, Lua would raise.
+pub(crate) const LONGEST_LIST: usize = MAX_BLOCK / 16;
 
 impl Stack<'_> {
     /// Replaces the key on top by `table[key]`.
@@ -31,6 +35,7 @@ impl Stack<'_> {
 
     pub(crate) fn new_table(self, array: usize, fields: usize) {
         let hint = |n: usize| n.min(MAX_HINT) as c_int;
+        // SAFETY: pushes one value, see `push_nil`.
         unsafe { ffi::lua_createtable(self.raw(), hint(array), hint(fields)) }
     }
 
