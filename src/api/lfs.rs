@@ -13,6 +13,7 @@ use api_macro::api;
 use super::{ApiFn, Cx, Result, functions};
 use crate::scene::{Data, Key};
 use crate::script::Results;
+use crate::script::file_lock::system_words;
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![current_dir, change_dir, make_dir, remove_dir, link, touch, attributes, list, real_path, temp_dir];
@@ -21,7 +22,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] =
 fn outcome(result: io::Result<()>) -> Results {
     match result {
         Ok(()) => Results(vec![Data::Bool(true)]),
-        Err(error) => failure(&reason(&error), &error),
+        Err(error) => failure(&system_words(&error), &error),
     }
 }
 
@@ -29,16 +30,10 @@ fn failure(text: &str, error: &io::Error) -> Results {
     Results(vec![Data::Nil, Data::text(text), Data::Int(error.raw_os_error().unwrap_or_default().into())])
 }
 
-/// The system's words, without the number Rust adds.
-fn reason(error: &io::Error) -> String {
-    let text = error.to_string();
-    text.split(" (os error").next().unwrap_or_default().to_owned()
-}
-
 fn path_text(path: io::Result<std::path::PathBuf>) -> Results {
     match path {
         Ok(path) => Results(vec![Data::text(&path.to_string_lossy())]),
-        Err(error) => failure(&reason(&error), &error),
+        Err(error) => failure(&system_words(&error), &error),
     }
 }
 
@@ -53,7 +48,9 @@ fn current_dir(_cx: &Cx) -> Result<Results> {
 fn change_dir(_cx: &Cx, path: String) -> Result<Results> {
     Ok(match std::env::set_current_dir(&path) {
         Ok(()) => outcome(Ok(())),
-        Err(error) => failure(&format!("Unable to change working directory to '{path}'\n{}\n", reason(&error)), &error),
+        Err(error) => {
+            failure(&format!("Unable to change working directory to '{path}'\n{}\n", system_words(&error)), &error)
+        }
     })
 }
 
@@ -111,7 +108,9 @@ fn attributes(_cx: &Cx, path: String, follow: bool) -> Result<Results> {
     let known = if follow { fs::metadata(&path) } else { fs::symlink_metadata(&path) };
     Ok(match known {
         Ok(metadata) => Results(vec![Data::Map(fields(&path, &metadata))]),
-        Err(error) => failure(&format!("cannot obtain information from file '{path}': {}", reason(&error)), &error),
+        Err(error) => {
+            failure(&format!("cannot obtain information from file '{path}': {}", system_words(&error)), &error)
+        }
     })
 }
 
@@ -203,7 +202,7 @@ fn list(_cx: &Cx, path: String) -> Result<Results> {
             names.sort();
             Results(vec![Data::Array(names.iter().map(|name| Data::text(name)).collect())])
         }
-        Err(error) => failure(&format!("cannot open {path}: {}", reason(&error)), &error),
+        Err(error) => failure(&format!("cannot open {path}: {}", system_words(&error)), &error),
     })
 }
 

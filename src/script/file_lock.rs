@@ -34,11 +34,16 @@ fn lock(args: &mut Args<'_>) -> ApiResult<c_int> {
             Ok(1)
         }
         Err(error) => {
-            let text = error.to_string();
             stack.push_nil();
-            stack.push_bytes(text.split(" (os error").next().unwrap_or_default().as_bytes());
+            stack.push_bytes(system_words(&error).as_bytes());
             stack.push_int(error.raw_os_error().unwrap_or_default().into());
             Ok(3)
         }
     }
+}
+
+/// What the system says of an error, without the number Rust adds.
+pub(crate) fn system_words(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or_default().to_owned()
 }

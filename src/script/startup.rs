@@ -44,6 +44,13 @@ const LAST: &[&str] = &["cbor", "class", "json"];
 /// Puts the scene's folders first into `package.path`, and the embedded library into `package.searchers`.
 fn install_package(sim: &Sim, stack: Stack<'_>) {
     stack.push_global("package");
+    install_path(sim, stack);
+    install_searchers(stack);
+    stack.pop(1);
+}
+
+/// The table `package` is on top.
+fn install_path(sim: &Sim, stack: Stack<'_>) {
     stack.raw_get_field(-1, "path");
     let default = stack.text(-1).unwrap_or_default();
     stack.pop(1);
@@ -54,6 +61,10 @@ fn install_package(sim: &Sim, stack: Stack<'_>) {
     }
     stack.push_bytes(&[path.as_bytes(), &default].concat());
     stack.raw_set_field(-2, "path");
+}
+
+/// The table `package` is on top. Its first searcher, that of `package.preload`, stays the first.
+fn install_searchers(stack: Stack<'_>) {
     stack.raw_get_field(-1, "searchers");
     let last = stack.raw_len(-1) as i64;
     for i in (2..=last).rev() {
@@ -64,7 +75,7 @@ fn install_package(sim: &Sim, stack: Stack<'_>) {
     stack.raw_set_index(-2, 2);
     push_callback(stack, search_last, std::ptr::null());
     stack.raw_set_index(-2, last + 2);
-    stack.pop(2);
+    stack.pop(1);
 }
 
 /// Finds the modules that come with the simulator and go before a script's own files.

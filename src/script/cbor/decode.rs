@@ -15,6 +15,9 @@ const MAX_ITEMS: i64 = 1 << 24;
 /// Room made for elements before they are read: a head may promise more than follows.
 const MAX_HINT: usize = 1 << 10;
 
+/// What the library calls the major types that hold one kind of value, in their order.
+const TYPES: [&str; 6] = ["UINT", "NINT", "BIN", "TEXT", "ARRAY", "MAP"];
+
 /// Why there is no value.
 enum Stop {
     /// A tag has a decoder in Lua.
@@ -105,34 +108,17 @@ impl<'a> Reader<'a> {
         if depth > MAX_DEPTH || !self.stack.reserve(8) {
             return self.bad(TOO_DEEP);
         }
-        Ok(Kind::Name(match head.major {
-            major::UNSIGNED => {
-                self.stack.push_int(head.argument as i64);
-                "UINT"
-            }
-            major::NEGATIVE => {
-                self.stack.push_int(!(head.argument as i64));
-                "NINT"
-            }
-            major::BYTES => {
-                self.bytes_item(head, is_key)?;
-                "BIN"
-            }
-            major::TEXT => {
-                self.string(head, push_text)?;
-                "TEXT"
-            }
-            major::ARRAY => {
-                self.array(head, depth)?;
-                "ARRAY"
-            }
-            major::MAP => {
-                self.map(head, depth)?;
-                "MAP"
-            }
+        match head.major {
+            major::UNSIGNED => self.stack.push_int(head.argument as i64),
+            major::NEGATIVE => self.stack.push_int(!(head.argument as i64)),
+            major::BYTES => self.bytes_item(head, is_key)?,
+            major::TEXT => self.string(head, push_text)?,
+            major::ARRAY => self.array(head, depth)?,
+            major::MAP => self.map(head, depth)?,
             major::TAG => return self.tagged(head.argument, depth, is_key),
             _ => return self.simple(head),
-        }))
+        }
+        Ok(Kind::Name(TYPES[usize::from(head.major >> 5)]))
     }
 
     fn bytes_item(&mut self, head: Head, is_key: bool) -> Read<()> {

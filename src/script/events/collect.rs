@@ -12,7 +12,7 @@ use crate::script::property::Target;
 use crate::script::sim::Sim;
 
 /// Lists of the scene, told when objects come, go, change parents or are selected.
-const LISTS: [&str; 3] = ["objectHandles", "orphanHandles", "selectionHandles"];
+pub(super) const LISTS: [&str; 3] = ["objectHandles", "orphanHandles", "selectionHandles"];
 
 /// What an advance of the clock changes, in the order it is told.
 const CLOCK: [&str; 3] = ["stepCount", "simulationTime", "simulationState"];

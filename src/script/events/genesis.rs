@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use super::collect::LISTS;
 use super::data_entry;
 use super::protocol::Protocol;
 use super::queue::{Class, Event, Source};
@@ -26,7 +27,7 @@ impl Sim {
             let watched = self.scene.borrow().object(handle).map(|object| Watched::object(object, &nobody));
             events.extend(watched.into_iter().flat_map(|mut watched| self.added(&mut watched)));
         }
-        events.extend(["objectHandles", "orphanHandles", "selectionHandles"].map(Event::list));
+        events.extend(LISTS.map(Event::list));
         events.extend(main.into_iter().map(|mut script| self.detached_added(&mut script)));
         events.push(Event::new("genesisEnd", Source::NONE, Vec::new()));
         self.fill_in_lists(&mut events);

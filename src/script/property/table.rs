@@ -112,10 +112,27 @@ impl Hasher for NameHasher {
 type ClassSpec =
     (&'static str, &'static str, &'static [&'static str], &'static [&'static str], &'static [&'static str]);
 
-const APP: usize = 0;
-const SCENE: usize = 1;
-const SCRIPT: usize = 2;
-const MESH: usize = 15;
+/// The classes, in the order of [`CLASSES`].
+#[derive(Clone, Copy)]
+enum ClassId {
+    App,
+    Scene,
+    /// Scripts that are no objects.
+    Script,
+    Shape,
+    Joint,
+    Graph,
+    Camera,
+    Dummy,
+    ProximitySensor,
+    VisionSensor,
+    ForceSensor,
+    Light,
+    OcTree,
+    PointCloud,
+    ScriptObject,
+    Mesh,
+}
 
 /// The path of the part all objects have.
 const OBJECT_PATH: &str = "app.scene.object";
@@ -142,47 +159,51 @@ const CLASSES: [ClassSpec; 16] = [
 ];
 
 pub(crate) fn app_class() -> &'static Class {
-    class(APP)
+    class(ClassId::App)
 }
 
 pub(crate) fn scene_class() -> &'static Class {
-    class(SCENE)
+    class(ClassId::Scene)
 }
 
 /// The class of scripts that are no objects.
 pub(crate) fn script_class() -> &'static Class {
-    class(SCRIPT)
+    class(ClassId::Script)
 }
 
 /// The class of the meshes of shapes.
 pub(crate) fn mesh_class() -> &'static Class {
-    class(MESH)
+    class(ClassId::Mesh)
 }
 
 /// The class of objects of that kind.
 pub(crate) fn object_class(kind: &Kind) -> &'static Class {
     class(match kind {
-        Kind::Shape(_) => 3,
-        Kind::Joint(_) => 4,
-        Kind::Graph(_) => 5,
-        Kind::Camera(_) => 6,
-        Kind::Dummy(_) => 7,
-        Kind::ProximitySensor(_) => 8,
-        Kind::VisionSensor(_) => 9,
-        Kind::ForceSensor(_) => 10,
-        Kind::Light(_) => 11,
-        Kind::OcTree(_) => 12,
-        Kind::PointCloud(_) => 13,
-        Kind::Script(_) => 14,
+        Kind::Shape(_) => ClassId::Shape,
+        Kind::Joint(_) => ClassId::Joint,
+        Kind::Graph(_) => ClassId::Graph,
+        Kind::Camera(_) => ClassId::Camera,
+        Kind::Dummy(_) => ClassId::Dummy,
+        Kind::ProximitySensor(_) => ClassId::ProximitySensor,
+        Kind::VisionSensor(_) => ClassId::VisionSensor,
+        Kind::ForceSensor(_) => ClassId::ForceSensor,
+        Kind::Light(_) => ClassId::Light,
+        Kind::OcTree(_) => ClassId::OcTree,
+        Kind::PointCloud(_) => ClassId::PointCloud,
+        Kind::Script(_) => ClassId::ScriptObject,
     })
 }
 
-fn class(index: usize) -> &'static Class {
+fn class(id: ClassId) -> &'static Class {
+    &classes()[id as usize]
+}
+
+fn classes() -> &'static [Class] {
     static ALL: LazyLock<Vec<Class>> = LazyLock::new(|| {
         let parts = parts();
         CLASSES.iter().map(|spec| build(spec, &parts)).collect()
     });
-    &ALL[index]
+    &ALL
 }
 
 fn build(&(word, path, outer, before, after): &ClassSpec, parts: &Parts) -> Class {
@@ -272,62 +293,64 @@ fn engine_row(param: &'static EngineParam) -> Row {
 
 type Accessors = HashMap<(&'static str, &'static str), &'static Accessor>;
 
+/// The accessors of the files, by part.
+const FILES: &[(&str, &[Accessor])] = &[
+    ("app", app::APP),
+    ("app", app::VERBOSITY_WORDS),
+    ("app", app::PATHS),
+    ("app", app::RANDOM),
+    ("dynamics", engine::SCENE),
+    ("material", engine::MATERIAL),
+    ("joint", engine::JOINT),
+    ("dummy", engine::DUMMY),
+    ("simulation", scene::SIMULATION),
+    ("simulation", scene::SIMULATION_SETTINGS),
+    ("environment", scene::ENVIRONMENT),
+    ("container", scene::CONTAINER),
+    ("environment", scene::IDENTITY),
+    ("dynamics", scene::DYNAMICS),
+    ("dynamics", scene::PHYSICS),
+    ("object", object::OWN),
+    ("object", object::PLACED),
+    ("object", object::FLAGS),
+    ("object", object::FLAG_SETS),
+    ("object", object::MOVEMENT),
+    ("object", object::MOVEMENT_FLAGS),
+    ("object", model_hash::MODEL_HASH),
+    ("script", script::SCRIPT),
+    ("scriptObject", script::SCRIPT_OBJECT),
+    ("dummy", dummy::DUMMY),
+    ("dummy", dummy::LINK),
+    ("colour", colour::COLOUR),
+    ("rayColour", colour::RAY_COLOUR),
+    ("lightColour", colour::LIGHT_COLOUR),
+    ("mesh", mesh::MESH),
+    ("proximitySensor", proximity_sensor::PROXIMITY_SENSOR),
+    ("volume", proximity_sensor::VOLUME),
+    ("viewable", view::VIEWABLE),
+    ("visionSensor", view::VISION_SENSOR),
+    ("camera", view::CAMERA),
+    ("camera", view::TRACKED),
+    ("forceSensor", force_sensor::FORCE_SENSOR),
+    ("light", display::LIGHT),
+    ("graph", display::GRAPH),
+    ("ocTree", display::OCTREE),
+    ("pointCloud", display::POINT_CLOUD),
+    ("shape", shape::SHAPE),
+    ("shape", shape::APPLY),
+    ("mass", shape::MASS),
+    ("joint", joint::JOINT),
+    ("joint", joint::CONTROL),
+    ("joint", joint::STATE),
+];
+
 fn accessors() -> Accessors {
-    let files: &[(&'static str, &'static [Accessor])] = &[
-        ("app", app::APP),
-        ("app", app::VERBOSITY_WORDS),
-        ("app", app::PATHS),
-        ("app", app::RANDOM),
-        ("dynamics", engine::SCENE),
-        ("material", engine::MATERIAL),
-        ("joint", engine::JOINT),
-        ("dummy", engine::DUMMY),
-        ("simulation", scene::SIMULATION),
-        ("simulation", scene::SIMULATION_SETTINGS),
-        ("environment", scene::ENVIRONMENT),
-        ("container", scene::CONTAINER),
-        ("environment", scene::IDENTITY),
-        ("dynamics", scene::DYNAMICS),
-        ("dynamics", scene::PHYSICS),
-        ("object", object::OWN),
-        ("object", object::PLACED),
-        ("object", object::FLAGS),
-        ("object", object::FLAG_SETS),
-        ("object", object::MOVEMENT),
-        ("object", object::MOVEMENT_FLAGS),
-        ("object", model_hash::MODEL_HASH),
-        ("script", script::SCRIPT),
-        ("scriptObject", script::SCRIPT_OBJECT),
-        ("dummy", dummy::DUMMY),
-        ("dummy", dummy::LINK),
-        ("colour", colour::COLOUR),
-        ("rayColour", colour::RAY_COLOUR),
-        ("lightColour", colour::LIGHT_COLOUR),
-        ("mesh", mesh::MESH),
-        ("proximitySensor", proximity_sensor::PROXIMITY_SENSOR),
-        ("volume", proximity_sensor::VOLUME),
-        ("viewable", view::VIEWABLE),
-        ("visionSensor", view::VISION_SENSOR),
-        ("camera", view::CAMERA),
-        ("camera", view::TRACKED),
-        ("forceSensor", force_sensor::FORCE_SENSOR),
-        ("light", display::LIGHT),
-        ("graph", display::GRAPH),
-        ("ocTree", display::OCTREE),
-        ("pointCloud", display::POINT_CLOUD),
-        ("shape", shape::SHAPE),
-        ("shape", shape::APPLY),
-        ("mass", shape::MASS),
-        ("joint", joint::JOINT),
-        ("joint", joint::CONTROL),
-        ("joint", joint::STATE),
-    ];
-    files.iter().flat_map(|&(part, rows)| rows.iter().map(move |row| ((part, row.name), row))).collect()
+    FILES.iter().flat_map(|&(part, rows)| rows.iter().map(move |row| ((part, row.name), row))).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{CLASSES, Source, accessors, app_class, class, flags, lines, parts};
+    use super::{Source, accessors, app_class, classes, flags, lines, parts};
 
     #[test]
     fn every_accessor_has_its_row() {
@@ -358,10 +381,10 @@ mod tests {
 
     #[test]
     fn rows_are_found_by_name() {
-        for at in 0..CLASSES.len() {
-            let (before, after) = class(at).rows();
+        for class in classes() {
+            let (before, after) = class.rows();
             for row in before.iter().chain(after) {
-                assert_eq!(class(at).find(row.name).map(|found| found.ty), Some(row.ty), "{}", row.name);
+                assert_eq!(class.find(row.name).map(|found| found.ty), Some(row.ty), "{}", row.name);
             }
         }
         assert_eq!(app_class().without_words("app.sessionId"), "sessionId");
