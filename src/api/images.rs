@@ -1,7 +1,5 @@
 //! `sim.*`: images in memory and in files.
 
-use std::path::Path;
-
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
@@ -81,9 +79,12 @@ fn save_image(
     if stem.is_empty() {
         return Ok(Some(Bytes(file)));
     }
-    let written = std::fs::write(Path::new(&filename), file);
-    written.map_err(|error| ApiError::Other(format!("cannot write {filename}: {error}.")))?;
+    write_file(&filename, &file)?;
     Ok(None)
+}
+
+fn write_file(name: &str, content: &[u8]) -> Result<()> {
+    std::fs::write(name, content).map_err(|error| ApiError::Other(format!("cannot write {name}: {error}.")))
 }
 
 /// An image in another size.

@@ -150,23 +150,23 @@ fn transform_buffer(
     out_format: Number,
 ) -> Result<Data> {
     let mapping = Mapping { multiplier, offset, clamp: out_format.0 & format::CLAMP != 0 };
-    let bytes = match in_format.0 {
-        format::BASE64 => from_base64(&in_buffer.0)?,
-        _ => in_buffer.0,
+    let (bytes, from) = match in_format.0 {
+        format::BASE64 => (from_base64(&in_buffer.0)?, Format::U8),
+        number => (in_buffer.0, number_format(number)?),
     };
-    let from = if in_format.0 == format::BASE64 { Format::U8 } else { number_format(in_format.0)? };
     match out_format.0 & !format::CLAMP {
         format::SPLIT => split(&bytes, offset),
         format::BASE64 => Ok(Data::Buffer(base64::prelude::BASE64_STANDARD.encode(bytes).into_bytes())),
-        number => {
-            let to = number_format(number)?;
-            if bytes.len() / from.size() > MAX_BUFFER / to.size() {
-                return Err(too_large());
-            }
-            let out = transform(&bytes, from, mapping, to);
-            Ok(Data::Buffer(out.ok_or_else(|| ApiError::Other("incorrect buffer size.".into()))?))
-        }
+        number => convert(&bytes, from, mapping, number_format(number)?),
     }
+}
+
+fn convert(bytes: &[u8], from: Format, mapping: Mapping, to: Format) -> Result<Data> {
+    if bytes.len() / from.size() > MAX_BUFFER / to.size() {
+        return Err(too_large());
+    }
+    let out = transform(bytes, from, mapping, to);
+    Ok(Data::Buffer(out.ok_or_else(|| ApiError::Other("incorrect buffer size.".into()))?))
 }
 
 fn number_format(number: i64) -> Result<Format> {

@@ -18,6 +18,13 @@ pub enum Format {
     Argb,
 }
 
+/// Where the channels of a pixel stand in it: red, green, blue; alpha.
+#[derive(Clone, Copy)]
+struct Channels {
+    colours: [usize; 3],
+    alpha: Option<usize>,
+}
+
 const FORMATS: [Format; 12] = {
     use Format::{Argb, Bgr, F32, F64, I8, I16, I32, Rgb, Rgba, U8, U16, U32};
     [U8, I8, U16, I16, U32, I32, F32, F64, Rgb, Bgr, Rgba, Argb]
@@ -40,13 +47,13 @@ impl Format {
         }
     }
 
-    /// The places of red, green, blue and alpha in a pixel; None for numbers.
-    fn channels(self) -> Option<([usize; 3], Option<usize>)> {
+    /// The channels of a pixel; None for numbers.
+    fn channels(self) -> Option<Channels> {
         match self {
-            Self::Rgb => Some(([0, 1, 2], None)),
-            Self::Bgr => Some(([2, 1, 0], None)),
-            Self::Rgba => Some(([0, 1, 2], Some(3))),
-            Self::Argb => Some(([1, 2, 3], Some(0))),
+            Self::Rgb => Some(Channels { colours: [0, 1, 2], alpha: None }),
+            Self::Bgr => Some(Channels { colours: [2, 1, 0], alpha: None }),
+            Self::Rgba => Some(Channels { colours: [0, 1, 2], alpha: Some(3) }),
+            Self::Argb => Some(Channels { colours: [1, 2, 3], alpha: Some(0) }),
             _ => None,
         }
     }
@@ -111,16 +118,11 @@ pub fn transform(bytes: &[u8], from: Format, mapping: Mapping, to: Format) -> Op
     let items = bytes.len() / from.size();
     let mut out = Vec::with_capacity(items * to.size());
     match (from.channels(), to.channels()) {
-        (Some((colours, alpha)), Some((places, alpha_place))) => {
+        (Some(channels), Some(places)) => {
             for pixel in bytes.chunks_exact(from.size()) {
                 let start = out.len();
                 out.resize(start + to.size(), 0);
-                for (&channel, place) in colours.iter().zip(places) {
-                    out[start + place] = mapped_byte(pixel[channel], mapping);
-                }
-                if let Some(place) = alpha_place {
-                    out[start + place] = alpha.map_or(u8::MAX, |channel| pixel[channel]);
-                }
+                write_pixel((pixel, channels), (&mut out[start..], places), mapping);
             }
         }
         _ => {
@@ -131,6 +133,15 @@ pub fn transform(bytes: &[u8], from: Format, mapping: Mapping, to: Format) -> Op
         }
     }
     Some(out)
+}
+
+fn write_pixel((from, channels): (&[u8], Channels), (to, places): (&mut [u8], Channels), mapping: Mapping) {
+    for (channel, place) in channels.colours.into_iter().zip(places.colours) {
+        to[place] = mapped_byte(from[channel], mapping);
+    }
+    if let Some(place) = places.alpha {
+        to[place] = channels.alpha.map_or(u8::MAX, |channel| from[channel]);
+    }
 }
 
 fn mapped_byte(byte: u8, mapping: Mapping) -> u8 {
