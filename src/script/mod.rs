@@ -4,7 +4,7 @@
 
 mod app_storage;
 mod args;
-mod aux_consoles;
+mod auxiliary_consoles;
 mod binding;
 mod callback;
 mod calls;
@@ -56,7 +56,7 @@ pub use sim::Options;
 pub use threads::LevelChange;
 
 pub(crate) use app_storage::Section;
-pub(crate) use aux_consoles::AuxiliaryConsole;
+pub(crate) use auxiliary_consoles::AuxiliaryConsole;
 pub(crate) use binding::{Bound, Member, Registry};
 pub(crate) use embedded::{Embedded, FILES};
 pub(crate) use env::Hook;

@@ -8,7 +8,7 @@ use super::{PropertyValue, Quaternion};
 use crate::scene::pose::quaternion_to_array;
 use crate::scene::{CustomData, Data, Kept};
 use crate::script::app_storage::AppStorage;
-use crate::script::aux_consoles::AuxiliaryConsoles;
+use crate::script::auxiliary_consoles::AuxiliaryConsoles;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::events::Protocol;
 use crate::script::random::Random;
