@@ -152,7 +152,7 @@ impl Doc {
 fn lua_literal(rust: &str) -> String {
     match rust {
         "None" | "Data::Nil" => "nil".to_owned(),
-        "Options::default()" | "Vec::new()" => "{}".to_owned(),
+        "Options::default()" | "Vec::new()" | "Data::Array(Vec::new())" | "Rest(Vec::new())" => "{}".to_owned(),
         "Frame::World" | "Frame::default()" => "sim.handle_world".to_owned(),
         _ if rust.starts_with("special::") => rust.replace("special::", "sim.handle_").to_lowercase(),
         _ if rust.starts_with('[') => rust.replace('[', "{").replace(']', "}"),
@@ -161,5 +161,17 @@ fn lua_literal(rust: &str) -> String {
             .filter(|(name, _)| *name == "Number")
             .map_or(rust, |(_, n)| n.trim_end_matches(')'))
             .to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn defaults_are_in_luas_spelling() {
+        for function in super::super::functions() {
+            for default in function.parameters.iter().filter_map(|parameter| parameter.default.as_ref()) {
+                assert!(!default.contains("::") && default != "None", "{}: {default}", function.name);
+            }
+        }
     }
 }
