@@ -1,6 +1,7 @@
 //! `sim.*`: scene and model files.
 //!
-//! A scene is a Lua file on top of the default scene, or the default scene alone. Reading and writing CoppeliaSim's own formats is not built; asking for it says so.
+//! A scene is a Lua file on top of the default scene, or the default scene alone. Reading and writing CoppeliaSim's own
+//! formats is not built; asking for it says so.
 
 use std::rc::Rc;
 

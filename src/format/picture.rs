@@ -47,8 +47,7 @@ impl Picture {
     /// # Errors
     /// When the resolution is impossible, or the bytes do not fit it.
     pub(crate) fn new(bytes: Vec<u8>, [width, height]: [i64; 2], layout: Layout) -> Result<Self, PictureError> {
-        let side = |n: i64| u32::try_from(n).ok().filter(|n| (1..=MAX_SIDE).contains(n));
-        let (Some(width), Some(height)) = (side(width), side(height)) else { return Err(PictureError::Resolution) };
+        let (width, height) = (side(width)?, side(height)?);
         let expected = width as usize * height as usize * layout as usize;
         if bytes.len() != expected {
             return Err(PictureError::Length { found: bytes.len(), expected });
@@ -98,8 +97,6 @@ impl Picture {
     /// # Errors
     /// When the resolution is impossible.
     pub(crate) fn scaled(&self, size: [i64; 2], keep_aspect: bool, layout: Layout) -> Result<Self, PictureError> {
-        let side =
-            |n: i64| u32::try_from(n).ok().filter(|n| (1..=MAX_SIDE).contains(n)).ok_or(PictureError::Resolution);
         let (width, height) = (side(size[0])?, side(size[1])?);
         let picture = self.to_dynamic();
         let scaled = match keep_aspect {
@@ -147,6 +144,10 @@ impl Picture {
         };
         Self { width: picture.width(), height: picture.height(), layout, bytes }
     }
+}
+
+fn side(pixels: i64) -> Result<u32, PictureError> {
+    u32::try_from(pixels).ok().filter(|side| (1..=MAX_SIDE).contains(side)).ok_or(PictureError::Resolution)
 }
 
 #[cfg(test)]

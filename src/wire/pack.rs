@@ -146,7 +146,8 @@ fn sorted(entries: &[(Key, Data)]) -> Vec<&(Key, Data)> {
 /// The table `bytes` are.
 ///
 /// # Errors
-/// When they are none, or one that is nested too deeply or has more than [`Data::MAX_ITEMS`]. What follows the table is not looked at beyond the flags of its strings.
+/// When they are none, or one that is nested too deeply or has more than [`Data::MAX_ITEMS`]. What follows the table is not looked at
+/// beyond the flags of its strings.
 pub fn decode(bytes: &[u8]) -> Result<Data, Malformed> {
     let (&version, rest) = bytes.split_first().ok_or(Malformed)?;
     if !is_packed(bytes) {

@@ -9,9 +9,9 @@ CBOR (RFC 8949) for scripts, with the interface of the library of that name whic
     TYPE, TAG, SIMPLE                         functions that encode one kind: TYPE.MAP({1, 2}), TAG._epoch(0), SIMPLE.undefined()
     __ENCODE_MAP                              encoder by Lua type; may be extended
 
-Only the first argument is needed. conv has functions by type: {BIN = function(value, iskey) return tobuffer(value) end, TAG_85 = ...}. A table with a metatable is
-encoded by its __tocbor(value, sref, stref), else as an array (__len) or a map (__pairs). With a table as sref, a table met twice is
-written once; with one as stref, a string.
+Only the first argument is needed. conv has functions by type: {BIN = function(value, iskey) return tobuffer(value) end, TAG_85 = ...}.
+A table with a metatable is encoded by its __tocbor(value, sref, stref), else as an array (__len) or a map (__pairs). With a table as
+sref, a table met twice is written once; with one as stref, a string.
 
 Below it lies org.conman.cbor_c: encode(type, n, x) makes the head of an item (x: a float), decode(packet, pos) reads one and gives
 major type, info, number and next position.

@@ -155,10 +155,10 @@ impl Sim {
                 continue;
             }
             let filters = runtime.env.event_filters.borrow().clone();
-            let batch = |filters| queue::batch(events, first, filters).map(Data::Buffer);
+            let batch = |filters: Option<&Filters>| queue::batch(events, first, filters).map(Data::Buffer);
             let wanted = match &filters {
                 None => Some(whole.get_or_insert_with(|| batch(None).unwrap_or(Data::Nil)).clone()),
-                some => batch(some.as_ref()),
+                Some(filters) => batch(Some(filters)),
             };
             if let Some(batch) = wanted {
                 self.deliver(script, SysCall::Event, &[batch]);
