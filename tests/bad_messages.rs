@@ -38,6 +38,17 @@ fn long_strings() {
 }
 
 #[test]
+fn more_elements_than_memory() {
+    let output = run("
+        local lists = '\\x9f' .. ('\\x80'):rep(17 * 1000 * 1000)
+        local packed = '\\5\\1\\0\\0\\0\\1' .. ('\\0'):rep(17 * 1000 * 1000)
+        for _, decode in ipairs{sim.unpackTable, require('org.conman.cbor').decode} do print(pcall(decode, lists)) end
+        print(pcall(sim.unpackTable, packed))");
+    let lines: Vec<&str> = output.lines().collect();
+    assert!(lines.len() == 3 && lines.iter().all(|line| line.contains("more than 16777216 elements")), "{output}");
+}
+
+#[test]
 fn strange_tables() {
     let output = run("
         local cycle = {id = 'x'} cycle.self = cycle

@@ -127,8 +127,8 @@ fn pack_table(_cx: &Cx, a_table: Table, #[default(0)] scheme: Number) -> Result<
 /// @return aTable
 #[api("sim.unpackTable")]
 fn unpack_table(_cx: &Cx, data: Bytes, #[default(0)] _scheme: Number) -> Result<Data> {
-    let table = if pack::is_packed(&data.0) { pack::decode(&data.0).ok() } else { cbor::decode(&data.0).ok() };
-    Ok(table.ok_or(SceneError::InvalidData)?)
+    let table = if pack::is_packed(&data.0) { pack::decode(&data.0) } else { cbor::decode(&data.0) };
+    table.map_err(|why| ApiError::Other(why.to_string()))
 }
 
 /// Converts a buffer of numbers or pixels to another format; each number becomes number * multiplier + offset.

@@ -25,8 +25,9 @@ pub enum Key {
 }
 
 impl Data {
-    /// Items of a list, or entries of a map, that decoders accept: more would not fit the memory a script may ask for at once.
-    pub const MAX_ITEMS: usize = 1 << 25;
+    /// Values in one piece of data, of all depths, that decoders accept: a byte may become a table of a hundred, and longer lists would
+    /// not fit the memory a script may ask for at once.
+    pub const MAX_ITEMS: usize = 1 << 24;
 
     /// The text `text`, as a script would write it.
     pub fn text(text: &str) -> Self {

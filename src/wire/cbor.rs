@@ -6,16 +6,12 @@
 use ciborium_io::Read;
 use ciborium_ll::{Decoder, Header, simple};
 
+use super::Unreadable;
 use super::cbor_head::{BREAK, FALSE, INDEFINITE, NULL, TRUE, major, push_float, push_head, push_int};
 use crate::scene::{Data, Key};
 
 /// How deep arrays and maps may be nested.
 const MAX_DEPTH: usize = 100;
-
-/// Bytes that are not CBOR, or more of it than is understood here.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("invalid CBOR data.")]
-pub struct Malformed;
 
 /// `data` as CBOR.
 pub fn encode(data: &Data) -> Vec<u8> {
@@ -69,9 +65,9 @@ fn write_bytes(out: &mut Vec<u8>, major: u8, bytes: &[u8]) {
 /// The value `bytes` begin with; what follows it is ignored.
 ///
 /// # Errors
-/// When they are not CBOR, nested too deeply, or a list of more than [`Data::MAX_ITEMS`].
-pub fn decode(bytes: &[u8]) -> Result<Data, Malformed> {
-    let mut input = Input { decoder: Decoder::from(bytes), size: bytes.len() };
+/// When they are not CBOR, nested too deeply, or of more than [`Data::MAX_ITEMS`] elements.
+pub fn decode(bytes: &[u8]) -> Result<Data, Unreadable> {
+    let mut input = Input { decoder: Decoder::from(bytes), size: bytes.len(), items: 0 };
     let header = input.pull()?;
     input.value(header, 0)
 }
@@ -80,17 +76,23 @@ struct Input<'a> {
     decoder: Decoder<&'a [u8]>,
     /// No string is longer than all input.
     size: usize,
+    /// Values read, of all depths.
+    items: usize,
 }
 
 impl Input<'_> {
-    fn pull(&mut self) -> Result<Header, Malformed> {
-        self.decoder.pull().map_err(|_| Malformed)
+    fn pull(&mut self) -> Result<Header, Unreadable> {
+        self.decoder.pull().map_err(|_| Unreadable::Malformed)
     }
 
-    fn value(&mut self, header: Header, depth: usize) -> Result<Data, Malformed> {
+    fn value(&mut self, header: Header, depth: usize) -> Result<Data, Unreadable> {
         if depth > MAX_DEPTH {
-            return Err(Malformed);
+            return Err(Unreadable::Malformed);
         }
+        if self.items == Data::MAX_ITEMS {
+            return Err(Unreadable::TooMany);
+        }
+        self.items += 1;
         Ok(match header {
             Header::Positive(n) => i64::try_from(n).map_or(Data::Float(n as f64), Data::Int),
             Header::Negative(n) => i64::try_from(n).map_or(Data::Float(-1.0 - n as f64), |n| Data::Int(!n)),
@@ -106,12 +108,12 @@ impl Input<'_> {
                 let tagged = self.pull()?;
                 self.value(tagged, depth + 1)?
             }
-            Header::Break => return Err(Malformed),
+            Header::Break => return Err(Unreadable::Malformed),
         })
     }
 
     /// The bytes of a string: in one piece, or in several up to a break.
-    fn string(&mut self, len: Option<usize>) -> Result<Vec<u8>, Malformed> {
+    fn string(&mut self, len: Option<usize>) -> Result<Vec<u8>, Unreadable> {
         if let Some(len) = len {
             return self.piece(len);
         }
@@ -120,27 +122,24 @@ impl Input<'_> {
             match self.pull()? {
                 Header::Break => return Ok(bytes),
                 Header::Text(Some(len)) | Header::Bytes(Some(len)) => bytes.extend(self.piece(len)?),
-                _ => return Err(Malformed),
+                _ => return Err(Unreadable::Malformed),
             }
         }
     }
 
-    fn piece(&mut self, len: usize) -> Result<Vec<u8>, Malformed> {
+    fn piece(&mut self, len: usize) -> Result<Vec<u8>, Unreadable> {
         if len > self.size {
-            return Err(Malformed);
+            return Err(Unreadable::Malformed);
         }
         let mut bytes = vec![0; len];
-        self.decoder.read_exact(&mut bytes).map_err(|_| Malformed)?;
+        self.decoder.read_exact(&mut bytes).map_err(|_| Unreadable::Malformed)?;
         Ok(bytes)
     }
 
     /// The next header of a list of known or open length; None at its end.
-    fn next(&mut self, len: Option<usize>, read: usize) -> Result<Option<Header>, Malformed> {
+    fn next(&mut self, len: Option<usize>, read: usize) -> Result<Option<Header>, Unreadable> {
         if len == Some(read) {
             return Ok(None);
-        }
-        if read >= Data::MAX_ITEMS {
-            return Err(Malformed);
         }
         match self.pull()? {
             Header::Break if len.is_none() => Ok(None),
@@ -148,7 +147,7 @@ impl Input<'_> {
         }
     }
 
-    fn array(&mut self, len: Option<usize>, depth: usize) -> Result<Vec<Data>, Malformed> {
+    fn array(&mut self, len: Option<usize>, depth: usize) -> Result<Vec<Data>, Unreadable> {
         let mut items = Vec::new();
         while let Some(header) = self.next(len, items.len())? {
             items.push(self.value(header, depth + 1)?);
@@ -156,7 +155,7 @@ impl Input<'_> {
         Ok(items)
     }
 
-    fn map(&mut self, len: Option<usize>, depth: usize) -> Result<Vec<(Key, Data)>, Malformed> {
+    fn map(&mut self, len: Option<usize>, depth: usize) -> Result<Vec<(Key, Data)>, Unreadable> {
         let mut entries = Vec::new();
         while let Some(header) = self.next(len, entries.len())? {
             let key = match self.value(header, depth + 1)? {
@@ -164,7 +163,7 @@ impl Input<'_> {
                 Data::Int(i) => Key::Int(i),
                 Data::Float(f) if !f.is_nan() => Key::Float(f),
                 Data::Text(text) | Data::Buffer(text) => Key::Text(text),
-                _ => return Err(Malformed),
+                _ => return Err(Unreadable::Malformed),
             };
             let header = self.pull()?;
             entries.push((key, self.value(header, depth + 1)?));
@@ -175,7 +174,7 @@ impl Input<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Data, Key, Malformed, decode, encode};
+    use super::{Data, Key, Unreadable, decode, encode};
 
     #[test]
     fn tables_are_written_open_ended() {
@@ -197,8 +196,14 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused() {
-        assert_eq!(decode(b""), Err(Malformed));
-        assert_eq!(decode(b"\x7b\xff\xff\xff\xff\xff\xff\xff\xff"), Err(Malformed));
-        assert_eq!(decode(&[0x81; 5000]), Err(Malformed));
+        assert_eq!(decode(b""), Err(Unreadable::Malformed));
+        assert_eq!(decode(b"\x7b\xff\xff\xff\xff\xff\xff\xff\xff"), Err(Unreadable::Malformed));
+        assert_eq!(decode(&[0x81; 5000]), Err(Unreadable::Malformed));
+    }
+
+    #[test]
+    fn elements_are_bounded_at_all_depths() {
+        let lists = [&[0x9f][..], &vec![0x80; Data::MAX_ITEMS], &[0xff]].concat();
+        assert_eq!(decode(&lists), Err(Unreadable::TooMany));
     }
 }

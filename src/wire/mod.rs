@@ -4,3 +4,15 @@ pub mod cbor;
 pub mod cbor_head;
 pub mod number_buffer;
 pub mod pack;
+
+use crate::scene::Data;
+
+/// Bytes that are not taken for data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Unreadable {
+    /// Not of the format, or nested too deeply.
+    #[error("invalid data.")]
+    Malformed,
+    #[error("the data has more than {} elements.", Data::MAX_ITEMS)]
+    TooMany,
+}

@@ -12,6 +12,7 @@
 
 use std::cmp::Ordering;
 
+use super::Unreadable;
 use crate::scene::{Data, Key};
 
 const VERSION: u8 = 5;
@@ -34,11 +35,6 @@ const END_OF_FLAGS: u8 = 255;
 
 /// How deep tables may be nested.
 const MAX_DEPTH: usize = 100;
-
-/// Bytes that are no packed table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("invalid packed table.")]
-pub struct Malformed;
 
 /// Whether `bytes` may be such a table, as opposed to a table in CBOR.
 pub fn is_packed(bytes: &[u8]) -> bool {
@@ -148,51 +144,56 @@ fn sorted(entries: &[(Key, Data)]) -> Vec<&(Key, Data)> {
 /// # Errors
 /// When they are none, or one that is nested too deeply or has more than [`Data::MAX_ITEMS`]. What follows the table is not looked at
 /// beyond the flags of its strings.
-pub fn decode(bytes: &[u8]) -> Result<Data, Malformed> {
-    let (&version, rest) = bytes.split_first().ok_or(Malformed)?;
+pub fn decode(bytes: &[u8]) -> Result<Data, Unreadable> {
+    let (&version, rest) = bytes.split_first().ok_or(Unreadable::Malformed)?;
     if !is_packed(bytes) {
-        return Err(Malformed);
+        return Err(Unreadable::Malformed);
     }
-    let mut input = Input(rest);
+    let mut input = Input { bytes: rest, items: 0 };
     let mut table = input.table(0)?;
     if version != OLD_VERSION {
-        mark_buffers(&mut table, &mut input.0.iter());
+        mark_buffers(&mut table, &mut input.bytes.iter());
     }
     Ok(table)
 }
 
 /// What is left to read.
-struct Input<'a>(&'a [u8]);
+struct Input<'a> {
+    bytes: &'a [u8],
+    /// Values read, of all depths.
+    items: usize,
+}
 
 impl Input<'_> {
-    fn table(&mut self, depth: usize) -> Result<Data, Malformed> {
+    fn table(&mut self, depth: usize) -> Result<Data, Unreadable> {
         if depth > MAX_DEPTH {
-            return Err(Malformed);
+            return Err(Unreadable::Malformed);
         }
         let kind = self.byte()?;
         let count = self.length()?;
-        if count > Data::MAX_ITEMS {
-            return Err(Malformed);
-        }
         match kind {
             LIST => (0..count).map(|_| self.item(depth)).collect::<Result<_, _>>().map(Data::Array),
             MAP if count % 2 == 0 => (0..count / 2).map(|_| self.entry(depth)).collect::<Result<_, _>>().map(Data::Map),
-            _ => Err(Malformed),
+            _ => Err(Unreadable::Malformed),
         }
     }
 
-    fn entry(&mut self, depth: usize) -> Result<(Key, Data), Malformed> {
+    fn entry(&mut self, depth: usize) -> Result<(Key, Data), Unreadable> {
         let key = match self.item(depth)? {
             Data::Bool(b) => Key::Bool(b),
             Data::Int(i) => Key::Int(i),
             Data::Float(f) if !f.is_nan() => Key::Float(f),
             Data::Text(text) => Key::Text(text),
-            _ => return Err(Malformed),
+            _ => return Err(Unreadable::Malformed),
         };
         Ok((key, self.item(depth)?))
     }
 
-    fn item(&mut self, depth: usize) -> Result<Data, Malformed> {
+    fn item(&mut self, depth: usize) -> Result<Data, Unreadable> {
+        if self.items == Data::MAX_ITEMS {
+            return Err(Unreadable::TooMany);
+        }
+        self.items += 1;
         Ok(match self.byte()? {
             NIL => Data::Nil,
             BOOL => Data::Bool(self.byte()? != 0),
@@ -203,29 +204,29 @@ impl Input<'_> {
                 Data::Text(self.take(length)?.to_vec())
             }
             TABLE => self.table(depth + 1)?,
-            _ => return Err(Malformed),
+            _ => return Err(Unreadable::Malformed),
         })
     }
 
-    fn byte(&mut self) -> Result<u8, Malformed> {
+    fn byte(&mut self) -> Result<u8, Unreadable> {
         self.array::<1>().map(|[byte]| byte)
     }
 
     /// A length; what it is the length of has at least as many bytes.
-    fn length(&mut self) -> Result<usize, Malformed> {
-        let length = usize::try_from(i32::from_le_bytes(self.array()?)).map_err(|_| Malformed)?;
-        if length <= self.0.len() { Ok(length) } else { Err(Malformed) }
+    fn length(&mut self) -> Result<usize, Unreadable> {
+        let length = usize::try_from(i32::from_le_bytes(self.array()?)).map_err(|_| Unreadable::Malformed)?;
+        if length <= self.bytes.len() { Ok(length) } else { Err(Unreadable::Malformed) }
     }
 
-    fn array<const N: usize>(&mut self) -> Result<[u8; N], Malformed> {
-        let (array, rest) = self.0.split_first_chunk().ok_or(Malformed)?;
-        self.0 = rest;
+    fn array<const N: usize>(&mut self) -> Result<[u8; N], Unreadable> {
+        let (array, rest) = self.bytes.split_first_chunk().ok_or(Unreadable::Malformed)?;
+        self.bytes = rest;
         Ok(*array)
     }
 
-    fn take(&mut self, length: usize) -> Result<&[u8], Malformed> {
-        let (taken, rest) = self.0.split_at_checked(length).ok_or(Malformed)?;
-        self.0 = rest;
+    fn take(&mut self, length: usize) -> Result<&[u8], Unreadable> {
+        let (taken, rest) = self.bytes.split_at_checked(length).ok_or(Unreadable::Malformed)?;
+        self.bytes = rest;
         Ok(taken)
     }
 }
@@ -251,7 +252,7 @@ fn mark_buffers<'a>(data: &mut Data, flags: &mut impl Iterator<Item = &'a u8>) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Data, Key, MAX_DEPTH, Malformed, decode, encode};
+    use super::{Data, Key, MAX_DEPTH, Unreadable, decode, encode};
 
     /// Custom data of scenes that CoppeliaSim saved: `sizes` of a floor (3.6), a state (4.7), part of a schema (4.9).
     const SAVED: [(&[u8], bool); 3] = [
@@ -307,7 +308,7 @@ mod tests {
         let nested = [&[5][..], &[1, 1, 0, 0, 0, 4].repeat(MAX_DEPTH + 2)].concat();
         let huge_count = [5, 1, 0xff, 0xff, 0xff, 0x7f, 0];
         for bytes in [&b""[..], b"\x05", b"\x05\0\x01\0\0\0\0\0", b"\x05\x02\0\0\0\0", &nested, &huge_count] {
-            assert_eq!(decode(bytes), Err(Malformed), "{bytes:?}");
+            assert_eq!(decode(bytes), Err(Unreadable::Malformed), "{bytes:?}");
         }
         assert_eq!(encode(&Data::Int(1)), None);
     }

@@ -8,10 +8,9 @@ use super::super::error::{ApiError, ApiResult};
 use super::super::lua::{Stack, Type};
 use super::low_level::packet;
 use super::{MAX_DEPTH, TOO_DEEP};
+use crate::scene::Data;
 use crate::wire::cbor_head::{Head, INDEFINITE, major};
 
-/// Elements of one array or map; Lua's largest table is a few times that.
-const MAX_ITEMS: i64 = 1 << 24;
 /// Room made for elements before they are read: a head may promise more than follows.
 const MAX_HINT: usize = 1 << 10;
 
@@ -43,7 +42,7 @@ pub(super) fn decode(args: &mut Args<'_>) -> ApiResult<c_int> {
     if stack.kind(3) != Type::Table {
         return Err(ApiError::NotA { position: 3, expected: "table" });
     }
-    let mut reader = Reader { stack, bytes, at, rich: stack.truthy(4) };
+    let mut reader = Reader { stack, bytes, at, rich: stack.truthy(4), items: 0 };
     Ok(match reader.any(0, false) {
         Ok(kind) => reader.push_results(kind),
         Err(Stop::NeedsLua) => 0,
@@ -62,6 +61,8 @@ struct Reader<'a> {
     at: usize,
     /// Byte strings become buffers, typed arrays tables.
     rich: bool,
+    /// Values read, of all depths.
+    items: usize,
 }
 
 impl<'a> Reader<'a> {
@@ -103,11 +104,17 @@ impl<'a> Reader<'a> {
         self.item(head, depth, is_key)
     }
 
+    fn count(&mut self, items: usize) -> Read<()> {
+        self.items += items;
+        if self.items > Data::MAX_ITEMS { self.bad(format!("more than {} elements", Data::MAX_ITEMS)) } else { Ok(()) }
+    }
+
     /// Pushes the item that began with `head`.
     fn item(&mut self, head: Head, depth: usize, is_key: bool) -> Read<Kind> {
         if depth > MAX_DEPTH || !self.stack.reserve(8) {
             return self.bad(TOO_DEEP);
         }
+        self.count(1)?;
         match head.major {
             major::UNSIGNED => self.stack.push_int(head.argument as i64),
             major::NEGATIVE => self.stack.push_int(!(head.argument as i64)),
@@ -170,9 +177,6 @@ impl<'a> Reader<'a> {
         if promised == Some(read as usize) {
             return Ok(None);
         }
-        if read >= MAX_ITEMS {
-            return self.bad(format!("more than {MAX_ITEMS} elements"));
-        }
         let head = self.head()?;
         Ok(if promised.is_none() && head.is_break() { None } else { Some(head) })
     }
@@ -229,9 +233,7 @@ impl<'a> Reader<'a> {
             Ok((head, end)) if head.major == major::BYTES && head.info != INDEFINITE && is_typed(tag) => {
                 self.at = end;
                 let bytes = self.piece(head.argument)?;
-                if bytes.len() as i64 > MAX_ITEMS {
-                    return self.bad(format!("a typed array of more than {MAX_ITEMS} bytes"));
-                }
+                self.count(bytes.len())?;
                 push_typed(self.stack, tag, bytes);
                 Ok(true)
             }

@@ -139,8 +139,12 @@ impl Sim {
         match &row.source {
             Source::Works(accessor) => {
                 let write = accessor.write.ok_or(ApiError::PropertyNotWritable)?;
-                write(&Subject { sim: self, target }, value)
-                    .map_err(|error| refusal(error, ApiError::PropertyNotWritable))
+                let written = write(&Subject { sim: self, target }, value.clone());
+                // What is there already is no change, so that all that was read may be written back.
+                written.or_else(|error| match self.read_row(target, row) {
+                    Ok(current) if current == value => Ok(()),
+                    _ => Err(refusal(error, ApiError::PropertyNotWritable)),
+                })
             }
             Source::Kept(default) => {
                 let value = row.ty.accept(default, value).ok_or(ApiError::PropertyNotWritable)?;

@@ -103,7 +103,7 @@ pub(super) const SIMULATION_SETTINGS: &[Accessor] = settings! {
     "pauseSimulationAtTime": bool, |s| s.pause_at_time, |s, on| s.pause_at_time = on;
     "pauseSimulationAtError": bool, |s| s.pause_at_error, |s, on| s.pause_at_error = on;
     "timeToPause": f64, |s| s.time_to_pause, |s, time| s.time_to_pause = time;
-    "realtimeModifier": f64, |s| s.real_time_factor, |s, factor| s.real_time_factor = factor.clamp(0.0, 100.0);
+    "realtimeModifier": f64, |s| s.real_time_factor, |s, factor| s.real_time_factor = factor.clamp(0.001, 100.0);
 };
 
 pub(super) const ENVIRONMENT: &[Accessor] = settings! {
