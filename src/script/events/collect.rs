@@ -41,7 +41,7 @@ impl Sim {
             Change::Removed(handle, uid) => self.collect_removed(watch, handle, uid),
             Change::Modified(handle, field) => self.collect_modified(watch, handle, field),
             Change::Selection => self.collect_selection(watch),
-            Change::Settings => self.collect_differences(&mut watch.scene, None),
+            Change::Settings => self.collect_settings(watch),
             Change::Stored { holder, namespace, name } => self.collect_stored(holder, namespace, &name),
         }
     }
@@ -80,6 +80,20 @@ impl Sim {
 
     pub(super) fn clock_values(&self) -> (f64, u64, i64) {
         (self.clock.time.get(), self.clock.steps.get(), self.clock.state.get() as i64)
+    }
+
+    fn collect_settings(self: &Rc<Self>, watch: &mut Watch) {
+        self.collect_differences(&mut watch.scene, None);
+        let engine = self.scene.borrow().settings().dynamics.engine;
+        if std::mem::replace(&mut watch.engine, engine) == engine {
+            return;
+        }
+        let handles = self.scene.borrow().all_breadth_first();
+        for handle in handles {
+            if let Some(watched) = watch.objects.get_mut(&handle) {
+                self.collect_one(watched, "engineProperties");
+            }
+        }
     }
 
     fn collect_added(self: &Rc<Self>, watch: &mut Watch, handle: Handle) {

@@ -199,6 +199,7 @@ impl Sim {
     pub(crate) fn genesis_events(self: &Rc<Self>) -> Vec<u8> {
         if self.events.listening.get() {
             self.collect_events();
+            self.collect_quiet_changes();
             self.deliver_pending_events();
         }
         let events = self.genesis();

@@ -222,6 +222,8 @@ pub(super) struct Watch {
     pub scripts: BTreeMap<i64, Watched>,
     pub named_params: BTreeMap<String, Vec<u8>>,
     pub selection: Vec<Handle>,
+    /// Physics engine: `engineProperties` of objects are those of the one selected.
+    pub engine: [i64; 2],
 }
 
 impl Watch {
@@ -236,6 +238,7 @@ impl Watch {
             scripts: scripts.into_iter().map(|w| (w.source.handle, w)).collect(),
             named_params: sim.app.borrow().named_params.clone(),
             selection: sim.scene.borrow().selection().to_vec(),
+            engine: sim.scene.borrow().settings().dynamics.engine,
             audience,
         };
         let Watch { app, scene, objects, scripts, .. } = &mut watch;
