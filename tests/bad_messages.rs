@@ -41,7 +41,7 @@ fn long_strings() {
 fn more_elements_than_memory() {
     let output = run("
         local lists = '\\x9f' .. ('\\x80'):rep(17 * 1000 * 1000)
-        local packed = '\\5\\1\\0\\0\\0\\1' .. ('\\0'):rep(17 * 1000 * 1000)
+        local packed = '\\5\\1\\1\\0\\0\\1' .. ('\\0'):rep(17 * 1000 * 1000)
         for _, decode in ipairs{sim.unpackTable, require('org.conman.cbor').decode} do print(pcall(decode, lists)) end
         print(pcall(sim.unpackTable, packed))");
     let lines: Vec<&str> = output.lines().collect();
