@@ -118,6 +118,15 @@ local function pivotRow(m, from, col)
     return best
 end
 
+-- Clears a column below its pivot; if `jordan`, above it too, and the pivot becomes 1.
+local function eliminate(m, row, col, jordan)
+    if jordan then m:setrow(row, m:row(row) / m:get(row, col)) end
+    for i = jordan and 1 or row + 1, m._rows do
+        local factor = i ~= row and m:get(i, col) / m:get(row, col) or 0
+        if factor ~= 0 then m:setrow(i, m:row(i) - m:row(row) * factor) end
+    end
+end
+
 --- Row echelon form by elimination with pivoting, reduced if `jordan`; and the determinant of the first square part.
 function Matrix:gauss(jordan)
     local m, row, det = self * 1.0, 1, 1.0
@@ -133,11 +142,7 @@ function Matrix:gauss(jordan)
                 det = -det
             end
             det = det * value
-            if jordan then m:setrow(row, m:row(row) / value) end
-            for i = jordan and 1 or row + 1, m._rows do
-                local factor = i ~= row and m:get(i, col) / m:get(row, col) or 0
-                if factor ~= 0 then m:setrow(i, m:row(i) - m:row(row) * factor) end
-            end
+            eliminate(m, row, col, jordan)
             row = row + 1
         end
     end

@@ -3,65 +3,7 @@
 //! A value is stored under a tag: the mark of its type followed by its name. Buffers have no mark, so that raw custom data of a name
 //! and its buffer property are the same.
 
-use super::{Data, Handle, Scene, SceneResult};
-
-macro_rules! value_types {
-    ($($variant:ident = $code:literal $word:literal $mark:literal;)*) => {
-        /// Type of a property; its number is `sim.propertytype_*`.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-        pub enum ValueType { $($variant = $code),* }
-
-        impl ValueType {
-            const ALL: &'static [Self] = &[$(Self::$variant),*];
-
-            /// The type whose constant is `sim.propertytype_<word>`.
-            pub fn from_word(word: &str) -> Option<Self> {
-                match word { $($word => Some(Self::$variant),)* _ => None }
-            }
-
-            /// What follows `sim.propertytype_` in the name of its constant.
-            pub fn word(self) -> &'static str {
-                match self { $(Self::$variant => $word),* }
-            }
-
-            /// What precedes the name in a tag.
-            fn mark(self) -> &'static str {
-                match self { $(Self::$variant => $mark),* }
-            }
-        }
-    };
-}
-
-value_types! {
-    Bool = 0 "bool" "&bool&.";
-    Int = 1 "int" "&int&.";
-    Float = 2 "float" "&dbl&.";
-    String = 3 "string" "&str&.";
-    Buffer = 4 "buffer" "";
-    Vector3 = 5 "vector3" "&vect3&.";
-    Quaternion = 6 "quaternion" "&quat&.";
-    Pose = 7 "pose" "&pose&.";
-    Color = 10 "color" "&col&.";
-    FloatArray = 11 "floatarray" "&vect&.";
-    Table = 12 "table" "&tbl&.";
-    IntArray = 13 "intarray" "&ivect&.";
-    Vector2 = 14 "vector2" "&vect2&.";
-    IntArray2 = 15 "intarray2" "&ivect2&.";
-    Long = 16 "long" "&lng&.";
-}
-
-impl ValueType {
-    /// The tag of the value `name` of this type.
-    pub fn tag(self, name: &str) -> String {
-        format!("{}{name}", self.mark())
-    }
-
-    /// Type and name of a tag.
-    pub fn split_tag(tag: &str) -> (Self, &str) {
-        let marked = Self::ALL.iter().filter(|ty| !ty.mark().is_empty());
-        marked.filter_map(|&ty| Some((ty, tag.strip_prefix(ty.mark())?))).next().unwrap_or((Self::Buffer, tag))
-    }
-}
+use super::{Data, Handle, Scene, SceneResult, ValueType};
 
 /// What is done to named values. Names are without, tags with the mark of a type.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,6 +4,57 @@ use super::force_sensor::ForceSensor;
 use super::sensors::{Camera, Light, ProximitySensor, View, VisionSensor};
 use super::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
 
+/// `sim.visionintparam_*`, `sim.visionfloatparam_*`.
+mod vision {
+    pub const NEAR_CLIPPING: i64 = 1000;
+    pub const FAR_CLIPPING: i64 = 1001;
+    pub const RESOLUTION_X: i64 = 1002;
+    pub const RESOLUTION_Y: i64 = 1003;
+    pub const PERSPECTIVE_ANGLE: i64 = 1004;
+    pub const ORTHO_SIZE: i64 = 1005;
+    pub const ENTITY_TO_RENDER: i64 = 1008;
+    pub const RENDER_MODE: i64 = 1017;
+    pub const PERSPECTIVE_OPERATION: i64 = 1018;
+    pub const RGB_IGNORED: i64 = 1020;
+    pub const DEPTH_IGNORED: i64 = 1021;
+}
+
+/// `sim.proxintparam_*`.
+mod prox {
+    pub const VOLUME_TYPE: i64 = 4001;
+    pub const ENTITY_TO_DETECT: i64 = 4002;
+}
+
+/// `sim.forcefloatparam_*`.
+mod force {
+    pub const ERROR_X: i64 = 5000;
+    pub const ERROR_Z: i64 = 5002;
+    pub const ERROR_POS: i64 = 5006;
+    pub const ERROR_ANGLE: i64 = 5007;
+}
+
+/// `sim.lightintparam_*`, `sim.lightfloatparam_*`.
+mod light {
+    pub const POV_CASTS_SHADOWS: i64 = 8000;
+    pub const SPOT_EXPONENT: i64 = 8001;
+    pub const SPOT_CUTOFF: i64 = 8002;
+    pub const CONST_ATTENUATION: i64 = 8003;
+    pub const QUAD_ATTENUATION: i64 = 8005;
+}
+
+/// `sim.cameraintparam_*`, `sim.camerafloatparam_*`.
+mod camera {
+    pub const PERSPECTIVE_ANGLE: i64 = 9001;
+    pub const ORTHO_SIZE: i64 = 9002;
+    pub const NEAR_CLIPPING: i64 = 9008;
+    pub const FAR_CLIPPING: i64 = 9009;
+    pub const PERSPECTIVE_OPERATION: i64 = 9010;
+    pub const TRACKED_OBJECT: i64 = 9011;
+}
+
+/// `sim.octreefloatparam_voxelsize`.
+const OCTREE_VOXEL_SIZE: i64 = 13000;
+
 impl View {
     fn float_param(&self, id: i64, [near, far, angle, ortho]: [i64; 4]) -> Option<f64> {
         Some(match id {
@@ -28,18 +79,21 @@ impl View {
 }
 
 /// Numbers of near and far plane, angle and size.
-const OF_VISION_SENSOR: [i64; 4] = [1000, 1001, 1004, 1005];
-const OF_CAMERA: [i64; 4] = [9008, 9009, 9001, 9002];
+const OF_VISION_SENSOR: [i64; 4] =
+    [vision::NEAR_CLIPPING, vision::FAR_CLIPPING, vision::PERSPECTIVE_ANGLE, vision::ORTHO_SIZE];
+const OF_CAMERA: [i64; 4] =
+    [camera::NEAR_CLIPPING, camera::FAR_CLIPPING, camera::PERSPECTIVE_ANGLE, camera::ORTHO_SIZE];
 
 impl VisionSensor {
     fn int_param(&self, id: i64) -> Option<i64> {
         Some(match id {
-            1002 | 1003 => self.view.resolution[(id - 1002) as usize].into(),
-            1008 => self.entity,
-            1017 => self.render_mode,
-            1018 => self.view.perspective.into(),
-            1020 => self.ignore_image.into(),
-            1021 => self.ignore_depth.into(),
+            vision::RESOLUTION_X => self.view.resolution[0].into(),
+            vision::RESOLUTION_Y => self.view.resolution[1].into(),
+            vision::ENTITY_TO_RENDER => self.entity,
+            vision::RENDER_MODE => self.render_mode,
+            vision::PERSPECTIVE_OPERATION => self.view.perspective.into(),
+            vision::RGB_IGNORED => self.ignore_image.into(),
+            vision::DEPTH_IGNORED => self.ignore_depth.into(),
             _ => return None,
         })
     }
@@ -47,13 +101,13 @@ impl VisionSensor {
     fn set_int_param(&mut self, id: i64, value: i64) -> bool {
         let [width, height] = self.view.resolution.map(i64::from);
         match id {
-            1002 => self.set_resolution([value, height]),
-            1003 => self.set_resolution([width, value]),
-            1008 => self.entity = value,
-            1017 => self.render_mode = value,
-            1018 => self.view.perspective = value != 0,
-            1020 => self.ignore_image = value != 0,
-            1021 => self.ignore_depth = value != 0,
+            vision::RESOLUTION_X => self.set_resolution([value, height]),
+            vision::RESOLUTION_Y => self.set_resolution([width, value]),
+            vision::ENTITY_TO_RENDER => self.entity = value,
+            vision::RENDER_MODE => self.render_mode = value,
+            vision::PERSPECTIVE_OPERATION => self.view.perspective = value != 0,
+            vision::RGB_IGNORED => self.ignore_image = value != 0,
+            vision::DEPTH_IGNORED => self.ignore_depth = value != 0,
             _ => return false,
         }
         true
@@ -63,8 +117,8 @@ impl VisionSensor {
 impl ProximitySensor {
     fn int_param(&self, id: i64) -> Option<i64> {
         match id {
-            4001 => Some(self.volume_type),
-            4002 => Some(self.entity),
+            prox::VOLUME_TYPE => Some(self.volume_type),
+            prox::ENTITY_TO_DETECT => Some(self.entity),
             _ => None,
         }
     }
@@ -73,18 +127,22 @@ impl ProximitySensor {
 impl Light {
     fn float_param(&self, id: i64) -> Option<f64> {
         Some(match id {
-            8001 => self.spot_exponent as f64,
-            8002 => self.spot_cutoff,
-            8003..=8005 => self.attenuation[(id - 8003) as usize],
+            light::SPOT_EXPONENT => self.spot_exponent as f64,
+            light::SPOT_CUTOFF => self.spot_cutoff,
+            light::CONST_ATTENUATION..=light::QUAD_ATTENUATION => {
+                self.attenuation[(id - light::CONST_ATTENUATION) as usize]
+            }
             _ => return None,
         })
     }
 
     fn set_float_param(&mut self, id: i64, value: f64) -> bool {
         match id {
-            8001 => self.spot_exponent = value as i64,
-            8002 => self.spot_cutoff = value,
-            8003..=8005 => self.attenuation[(id - 8003) as usize] = value,
+            light::SPOT_EXPONENT => self.spot_exponent = value as i64,
+            light::SPOT_CUTOFF => self.spot_cutoff = value,
+            light::CONST_ATTENUATION..=light::QUAD_ATTENUATION => {
+                self.attenuation[(id - light::CONST_ATTENUATION) as usize] = value
+            }
             _ => return false,
         }
         true
@@ -96,9 +154,9 @@ impl ForceSensor {
     fn float_param(&self, id: i64) -> Option<f64> {
         let error = self.error.unwrap_or_else(Pose::identity);
         Some(match id {
-            5000..=5002 => error.translation.vector[(id - 5000) as usize],
-            5006 => error.translation.vector.norm(),
-            5007 => error.rotation.angle(),
+            force::ERROR_X..=force::ERROR_Z => error.translation.vector[(id - force::ERROR_X) as usize],
+            force::ERROR_POS => error.translation.vector.norm(),
+            force::ERROR_ANGLE => error.rotation.angle(),
             _ => return None,
         })
     }
@@ -107,8 +165,8 @@ impl ForceSensor {
 impl Camera {
     fn int_param(&self, id: i64) -> Option<i64> {
         match id {
-            9010 => Some(self.view.perspective.into()),
-            9011 => Some(self.tracked.map_or(-1, Handle::raw)),
+            camera::PERSPECTIVE_OPERATION => Some(self.view.perspective.into()),
+            camera::TRACKED_OBJECT => Some(self.tracked.map_or(-1, Handle::raw)),
             _ => None,
         }
     }
@@ -121,7 +179,7 @@ impl Object {
             Kind::VisionSensor(sensor) => sensor.int_param(id),
             Kind::ProximitySensor(sensor) => sensor.int_param(id),
             Kind::Camera(camera) => camera.int_param(id),
-            Kind::Light(light) if id == 8000 => Some(light.casts_shadows.into()),
+            Kind::Light(light) if id == light::POV_CASTS_SHADOWS => Some(light.casts_shadows.into()),
             _ => None,
         }
     }
@@ -130,9 +188,9 @@ impl Object {
     fn set_display_int_param(&mut self, id: i64, value: i64) -> bool {
         match &mut self.kind {
             Kind::VisionSensor(sensor) => return sensor.set_int_param(id, value),
-            Kind::ProximitySensor(sensor) if id == 4002 => sensor.entity = value,
-            Kind::Camera(camera) if id == 9010 => camera.view.perspective = value != 0,
-            Kind::Light(light) if id == 8000 => light.casts_shadows = value != 0,
+            Kind::ProximitySensor(sensor) if id == prox::ENTITY_TO_DETECT => sensor.entity = value,
+            Kind::Camera(camera) if id == camera::PERSPECTIVE_OPERATION => camera.view.perspective = value != 0,
+            Kind::Light(light) if id == light::POV_CASTS_SHADOWS => light.casts_shadows = value != 0,
             _ => return false,
         }
         true
@@ -145,7 +203,7 @@ impl Object {
             Kind::Camera(camera) => camera.view.float_param(id, OF_CAMERA),
             Kind::Light(light) => light.float_param(id),
             Kind::ForceSensor(sensor) => sensor.float_param(id),
-            Kind::OcTree(octree) if id == 13000 => Some(octree.voxel_size),
+            Kind::OcTree(octree) if id == OCTREE_VOXEL_SIZE => Some(octree.voxel_size),
             _ => None,
         }
     }
@@ -174,7 +232,7 @@ impl Scene {
     }
 
     pub(super) fn set_display_int(&mut self, handle: Handle, id: i64, value: i64) -> SceneResult<bool> {
-        if id == 9011 && self.object(handle)?.camera().is_ok() {
+        if id == camera::TRACKED_OBJECT && self.object(handle)?.camera().is_ok() {
             return self.track(handle, value).map(|()| true);
         }
         self.modify(handle, Field::Sensor, |object| object.set_display_int_param(id, value))
