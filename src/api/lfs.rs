@@ -135,18 +135,7 @@ fn seconds(time: SystemTime) -> i64 {
 
 #[cfg(unix)]
 fn system_fields(metadata: &Metadata) -> Vec<(&'static str, Data)> {
-    use std::os::unix::fs::{FileTypeExt, MetadataExt};
-    let kind = metadata.file_type();
-    let mode = match () {
-        () if kind.is_file() => "file",
-        () if kind.is_dir() => "directory",
-        () if kind.is_symlink() => "link",
-        () if kind.is_socket() => "socket",
-        () if kind.is_fifo() => "named pipe",
-        () if kind.is_char_device() => "char device",
-        () if kind.is_block_device() => "block device",
-        () => "other",
-    };
+    use std::os::unix::fs::MetadataExt;
     let numbers = [
         ("dev", metadata.dev()),
         ("ino", metadata.ino()),
@@ -158,12 +147,27 @@ fn system_fields(metadata: &Metadata) -> Vec<(&'static str, Data)> {
         ("blksize", metadata.blksize()),
     ];
     let mut fields = vec![
-        ("mode", Data::text(mode)),
+        ("mode", Data::text(kind_word(metadata.file_type()))),
         ("permissions", Data::text(&permissions(metadata.mode()))),
         ("change", Data::Int(metadata.ctime())),
     ];
     fields.extend(numbers.map(|(name, number)| (name, Data::Int(number.cast_signed()))));
     fields
+}
+
+#[cfg(unix)]
+fn kind_word(kind: fs::FileType) -> &'static str {
+    use std::os::unix::fs::FileTypeExt;
+    match () {
+        () if kind.is_file() => "file",
+        () if kind.is_dir() => "directory",
+        () if kind.is_symlink() => "link",
+        () if kind.is_socket() => "socket",
+        () if kind.is_fifo() => "named pipe",
+        () if kind.is_char_device() => "char device",
+        () if kind.is_block_device() => "block device",
+        () => "other",
+    }
 }
 
 #[cfg(not(unix))]

@@ -80,13 +80,7 @@ fn row(line: &'static str) -> Row {
     let ty = ValueType::from_word(ty).expect("engine_params.tsv holds known types");
     let integer = |text: &str| -> i64 { text.parse().expect("engine_params.tsv holds numbers as integers") };
     let param = EngineParam {
-        owner: match owner {
-            "dynamics" => EngineOwner::Scene,
-            "material" => EngineOwner::Material,
-            "joint" => EngineOwner::Joint,
-            "dummy" => EngineOwner::Dummy,
-            _ => panic!("an unknown owner in engine_params.tsv: {line}"),
-        },
+        owner: owner_of(owner).unwrap_or_else(|| panic!("an unknown owner in engine_params.tsv: {line}")),
         name,
         ty,
         flags: integer(flags),
@@ -96,6 +90,17 @@ fn row(line: &'static str) -> Row {
     };
     let bit = bit.split_once(':').map(|(number, bit)| (integer(number), integer(bit)));
     (param, numbers.split_whitespace().map(integer).collect(), bit)
+}
+
+/// The owner whose part of the table of properties has that name.
+fn owner_of(part: &str) -> Option<EngineOwner> {
+    Some(match part {
+        "dynamics" => EngineOwner::Scene,
+        "material" => EngineOwner::Material,
+        "joint" => EngineOwner::Joint,
+        "dummy" => EngineOwner::Dummy,
+        _ => return None,
+    })
 }
 
 /// What `number` stands for (`sim.bullet_*`, `sim.ode_*` and so on).

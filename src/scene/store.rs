@@ -57,13 +57,9 @@ impl Scene {
     /// Adds `object` as the last root, under a new handle and identifier and without family.
     pub(super) fn insert(&mut self, mut object: Object) -> SceneResult<Handle> {
         let handle = self.free_handle()?;
-        (object.handle, object.uid, object.parent) = (handle, self.new_uid(), None);
+        (object.handle, object.parent) = (handle, None);
         object.children.clear();
-        object.persistent_uid = identity::persistent_uid(object.uid);
-        if object.dna.is_empty() {
-            object.dna = identity::dna(object.uid);
-        }
-        self.name_meshes(&mut object);
+        self.identify(&mut object);
         let index = handle.index();
         if index >= self.slots.len() {
             self.slots.resize_with(index + 1, || None);
@@ -79,6 +75,16 @@ impl Scene {
         self.changes.note(Change::Added(handle));
         self.store_state_of_new(handle)?;
         Ok(handle)
+    }
+
+    /// Gives an object that comes into the scene its identifiers. A copy keeps the DNA of its original.
+    fn identify(&mut self, object: &mut Object) {
+        object.uid = self.new_uid();
+        object.persistent_uid = identity::persistent_uid(object.uid);
+        if object.dna.is_empty() {
+            object.dna = identity::dna(object.uid);
+        }
+        self.name_meshes(object);
     }
 
     /// Gives the meshes of a shape that comes into the scene their identifiers.

@@ -31,7 +31,7 @@ use super::instance::Script;
 use super::sim::Sim;
 use crate::scene::script_object::ScriptType;
 use crate::scene::{Data, FIRST_MESH_UID, Handle, Namespace, Uid, ValueType, special};
-use access::Subject;
+use access::{Accessor, Subject};
 use table::Source;
 
 pub(crate) use app::AppData;
@@ -137,15 +137,7 @@ impl Sim {
             return Err(ApiError::PropertyNotWritable);
         }
         match &row.source {
-            Source::Works(accessor) => {
-                let write = accessor.write.ok_or(ApiError::PropertyNotWritable)?;
-                let written = write(&Subject { sim: self, target }, value.clone());
-                // What is there already is no change, so that all that was read may be written back.
-                written.or_else(|error| match self.read_row(target, row) {
-                    Ok(current) if current == value => Ok(()),
-                    _ => Err(refusal(error, ApiError::PropertyNotWritable)),
-                })
-            }
+            Source::Works(accessor) => self.write_through(accessor, target, row, value),
             Source::Kept(default) => {
                 let value = row.ty.accept(default, value).ok_or(ApiError::PropertyNotWritable)?;
                 self.write_kept(target, row.name, value)
@@ -156,6 +148,16 @@ impl Sim {
                 set.map_err(|_| ApiError::PropertyNotWritable)
             }
         }
+    }
+
+    /// What is there already is no change, so that all that was read may be written back.
+    fn write_through(self: &Rc<Self>, accessor: &Accessor, target: &Target, row: &Row, value: Data) -> ApiResult<()> {
+        let write = accessor.write.ok_or(ApiError::PropertyNotWritable)?;
+        let written = write(&Subject { sim: self, target }, value.clone());
+        written.or_else(|error| match self.read_row(target, row) {
+            Ok(current) if current == value => Ok(()),
+            _ => Err(refusal(error, ApiError::PropertyNotWritable)),
+        })
     }
 
     /// Removes custom data, a signal or a named parameter.
