@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::access::{Accessor, subject_properties};
 use super::{Sim, Target, flags};
-use crate::scene::{Data, Handle, Kind, Namespace, Uid};
+use crate::scene::{Data, Handle, Key, Kind, Namespace, Uid};
 use crate::script::error::ApiResult;
 
 pub(super) const MODEL_HASH: &[Accessor] = subject_properties! {
@@ -46,10 +46,19 @@ impl Fnv {
             Data::Map(entries) => {
                 self.part(b'm', &(entries.len() as u64).to_le_bytes());
                 for (key, value) in entries {
-                    self.part(b'k', format!("{key:?}").as_bytes());
+                    self.key(key);
                     self.data(value);
                 }
             }
+        }
+    }
+
+    fn key(&mut self, key: &Key) {
+        match key {
+            Key::Bool(on) => self.part(b'B', &[u8::from(*on)]),
+            Key::Int(number) => self.part(b'I', &number.to_le_bytes()),
+            Key::Float(number) => self.part(b'F', &number.to_bits().to_le_bytes()),
+            Key::Text(text) => self.part(b'T', text),
         }
     }
 }
