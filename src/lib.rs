@@ -5,6 +5,7 @@ pub mod cli;
 pub mod docs;
 mod dynamics;
 mod format;
+mod remote;
 pub mod scene;
 pub mod script;
 mod simulator;

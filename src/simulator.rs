@@ -1,12 +1,20 @@
 //! The embedding API: a simulator as a value.
 
 use std::cell::{Ref, RefMut};
+use std::net::{SocketAddr, TcpListener};
 use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 use crate::api;
+use crate::remote::zmq::ZmqServer;
 use crate::scene::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, Scene};
 use crate::script::{ApiError, Console, Detached, Options, Script, Silent, Sim, SimulationState, SysCall};
+
+/// The add-on that serves clients by ZeroMQ.
+const ZMQ_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.zmq'";
 
 /// Why a request to a [`Simulator`] failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -68,6 +76,30 @@ impl Simulator {
         let sandbox = sim.add_detached(ScriptType::Sandbox, detached("sandboxScript", b"sim = require 'sim'"));
         sim.deliver(&sandbox, SysCall::Init, &[]);
         Self { sim }
+    }
+
+    /// Lets the clients that connect to `listener` by ZeroMQ call functions: the remote API. Returns the address it listens at.
+    /// A client may make a pass last as long as it likes; set `stop` to end such a pass.
+    ///
+    /// # Errors
+    /// When the server cannot start.
+    pub fn serve_zmq(&mut self, listener: TcpListener, stop: Arc<AtomicBool>) -> std::io::Result<SocketAddr> {
+        let address = listener.local_addr()?;
+        self.sim.set_remote_port(Rc::new(ZmqServer::start(listener, stop)?));
+        let port = address.port().to_string().into_bytes();
+        self.sim.app.borrow_mut().named_params.insert("zmqRemoteApi.rpcPort".to_owned(), port);
+        let add_on = self.sim.add_detached(ScriptType::AddOn, detached("ZMQ remote API@addOnScript", ZMQ_ADD_ON));
+        self.sim.start_detached(&add_on);
+        Ok(address)
+    }
+
+    /// Waits until a client asks for something, at most that long; false at once when there are no clients to be served.
+    pub fn wait_for_request(&self, patience: Duration) -> bool {
+        let port = self.sim.remote_port();
+        port.is_some_and(|port| {
+            port.wait(patience);
+            true
+        })
     }
 
     /// Adds a script. Customization scripts, add-ons and the sandbox start at once; a simulation script starts with the simulation.

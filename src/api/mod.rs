@@ -29,6 +29,7 @@ mod param;
 mod param_property;
 mod pose_maths;
 mod property;
+mod remote;
 mod ruckig;
 mod scene_file;
 mod script_old;
@@ -110,6 +111,7 @@ const LIBRARIES: &[(&str, &[ApiFn])] = &[
     ("lfs", lfs::FUNCTIONS),
     ("lfs", file_lock::FUNCTIONS),
     ("lfsx", lfs::FUNCTIONS),
+    ("remote.zmq", remote::FUNCTIONS),
 ];
 
 /// `name<TAB>value` of every constant of `sim`.

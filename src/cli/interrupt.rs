@@ -25,6 +25,11 @@ impl Interrupt {
         Self { requested }
     }
 
+    /// Becomes true when the end is asked for.
+    pub(super) fn flag(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.requested)
+    }
+
     pub(super) fn is_requested(&self) -> bool {
         self.requested.load(Ordering::Relaxed)
     }

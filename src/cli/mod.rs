@@ -8,8 +8,11 @@ mod init;
 mod interrupt;
 mod output;
 mod progress;
+mod remote;
 mod run;
+mod serve;
 mod session;
+mod setup;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -33,6 +36,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(run::Args),
+    Serve(serve::Args),
     Api(api::Args),
     Init(init::Args),
     /// Print a completion script for a shell
@@ -56,6 +60,7 @@ impl Command {
     fn execute(self) -> ExitCode {
         match self {
             Self::Run(args) => run::run(&args),
+            Self::Serve(args) => serve::serve(&args),
             Self::Api(args) => api::api(&args),
             Self::Init(args) => init::init(&args),
             Self::Completions { shell } => {

@@ -1,6 +1,7 @@
 //! What a run says: prints to stdout, the log to stderr; or everything as JSON lines on stdout.
 
 use std::io::Write;
+use std::net::SocketAddr;
 use std::time::Duration;
 
 use indicatif::ProgressBar;
@@ -35,6 +36,16 @@ impl Output {
     /// A word of the command line itself, in the name the simulator has in the log.
     pub(super) fn note(&self, text: &str, time: f64) {
         self.write_log(&LogLine { origin: "CoppeliaSim", level: verbosity::SCRIPT_INFOS, text, time, chatter: true });
+    }
+
+    /// Tells where a server listens.
+    pub(super) fn listening(&self, api: &str, address: SocketAddr) {
+        match self.format {
+            Format::Text => write_stdout(format!("{api} remote API at {address}").as_bytes()),
+            Format::Json => write_json(&json!({
+                "type": "listening", "api": api, "address": address.ip(), "port": address.port(),
+            })),
+        }
     }
 
     /// The last line: what the run did and how long it took.

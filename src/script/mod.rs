@@ -29,6 +29,7 @@ mod lua;
 mod order;
 mod property;
 mod random;
+mod remote;
 mod removal;
 mod returns;
 mod scene_switch;
@@ -64,6 +65,7 @@ pub(crate) use events::Filters;
 pub(crate) use instance::Detached;
 pub(crate) use order::Group;
 pub(crate) use property::{Target, table as property_table};
+pub(crate) use remote::{Incoming, Peer, RemotePort};
 pub(crate) use sim::Sim;
 pub(crate) use threads::{auto_level, changed_level, set_auto_level};
 

@@ -12,6 +12,7 @@ use super::instance::{Detached, Script};
 use super::order::OrderCache;
 use super::property::{AppData, SignalOwners};
 use super::random::Random;
+use super::remote::RemotePort;
 use super::system_semaphore::SystemSemaphores;
 use super::tubes::Tubes;
 use super::verbosity;
@@ -81,6 +82,7 @@ pub(crate) struct Sim {
     pub tubes: RefCell<Tubes>,
     pub semaphores: RefCell<SystemSemaphores>,
     pub events: EventStream,
+    remote: RefCell<Option<Rc<dyn RemotePort>>>,
     next_detached: Cell<i64>,
     once: RefCell<HashSet<(String, i64, String)>>,
     started: std::time::Instant,
@@ -110,6 +112,7 @@ impl Sim {
             tubes: RefCell::default(),
             semaphores: RefCell::default(),
             events: EventStream::new(),
+            remote: RefCell::default(),
             next_detached: Cell::new(FIRST_DETACHED),
             once: RefCell::default(),
             started: super::wall_clock::now(),
@@ -140,6 +143,15 @@ impl Sim {
     /// The one script of that type without an object: main or sandbox.
     pub(crate) fn detached(&self, script_type: ScriptType) -> Option<Rc<Script>> {
         self.scripts.borrow().values().find(|s| s.object.is_none() && s.script_type == script_type).cloned()
+    }
+
+    /// Opens the door for programs outside.
+    pub(crate) fn set_remote_port(&self, port: Rc<dyn RemotePort>) {
+        self.remote.replace(Some(port));
+    }
+
+    pub(crate) fn remote_port(&self) -> Option<Rc<dyn RemotePort>> {
+        self.remote.borrow().clone()
     }
 
     /// All scripts that are no objects, in the order of their creation.

@@ -1,0 +1,86 @@
+//! The native part of the remote API (`lua/remote/zmq.lua`): messages of programs outside.
+
+use std::collections::HashMap;
+use std::sync::LazyLock;
+use std::time::Duration;
+
+use api_macro::api;
+
+use super::{ApiFn, CATEGORIES, Cx, Result, functions, lua_files, registry};
+use crate::script::{Bytes, Incoming, Text};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, returns, members];
+
+/// Longest wait, seconds: the simulator must look after itself from time to time.
+const LONGEST_WAIT: f64 = 1.0;
+
+/// The next message, or news that a connection is gone.
+///
+/// @param patience seconds to wait for one
+/// @return peer, message nothing when none came; no message when the connection is gone
+#[api("remote.zmq.receive")]
+fn receive(cx: &mut Cx, patience: f64) -> Result<Option<(i64, Option<Text>)>> {
+    let patience = Duration::from_secs_f64(patience.clamp(0.0, LONGEST_WAIT));
+    let port = cx.sim().remote_port();
+    Ok(port.and_then(|port| port.receive(patience)).map(|incoming| match incoming {
+        Incoming::Request(peer, message) => (peer as i64, Some(Text(message))),
+        Incoming::Gone(peer) => (peer as i64, None),
+    }))
+}
+
+/// Answers a connection.
+///
+/// @param peer the connection
+/// @param message the answer
+#[api("remote.zmq.reply")]
+fn reply(cx: &mut Cx, peer: i64, message: Bytes) -> Result<()> {
+    if let Some(port) = cx.sim().remote_port() {
+        port.reply(peer as u64, message.0);
+    }
+    Ok(())
+}
+
+/// Whether the program is about to end, so that nobody must be waited for.
+///
+/// @return closed
+#[api("remote.zmq.closed")]
+fn closed(cx: &Cx) -> Result<bool> {
+    Ok(cx.sim().remote_port().is_none_or(|port| port.is_closed()))
+}
+
+/// The types a function is declared to return.
+///
+/// @param name of the function, with its module
+/// @return types nothing when the function declares none
+#[api("remote.zmq.returns")]
+fn returns(_cx: &Cx, name: String) -> Result<Option<Vec<String>>> {
+    static DECLARED: LazyLock<HashMap<&str, Vec<String>>> = LazyLock::new(declared);
+    Ok(DECLARED.get(name.as_str()).cloned())
+}
+
+/// The names `sim` has, in alphabetical order; the table itself fills at first use.
+///
+/// @return names
+#[api("remote.zmq.members")]
+fn members(_cx: &Cx) -> Result<Vec<String>> {
+    let mut names: Vec<String> = registry().members.keys().map(|&name| name.to_owned()).collect();
+    names.sort_unstable();
+    Ok(names)
+}
+
+/// Types of the results by function: of native ones from their rows, of those in Lua from the comments above them.
+fn declared() -> HashMap<&'static str, Vec<String>> {
+    let rows = CATEGORIES.iter().flat_map(|(_, functions)| functions.iter());
+    let native = rows.map(|function| (function.name, function.returns.iter().map(|&ty| ty.to_owned()).collect()));
+    let lines = lua_files().flat_map(|(_, source)| source.lines()).filter_map(|line| line.strip_prefix("-- @api "));
+    native.chain(lines.filter_map(declared_in_comment)).filter(|(_, types): &(_, Vec<_>)| !types.is_empty()).collect()
+}
+
+/// `int a, float[3] b = sim.name(...)`.
+fn declared_in_comment(line: &'static str) -> Option<(&'static str, Vec<String>)> {
+    let (results, call) = line.split_once(" = sim.")?;
+    let start = line.len() - call.len() - "sim.".len();
+    let name = line[start..].split('(').next()?;
+    let types = results.split(',').filter_map(|result| result.trim().split(' ').next()).map(str::to_owned).collect();
+    Some((name, types))
+}

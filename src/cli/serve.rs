@@ -1,0 +1,71 @@
+//! `swanilda serve`: an idle simulator that programs outside drive.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Duration;
+
+use super::interrupt::Interrupt;
+use super::progress::Progress;
+use super::refuse;
+use super::remote::Remote;
+use super::session::Limits;
+use super::setup::Setup;
+use crate::{ScriptKind, Simulator};
+
+/// How long to wait for a request before looking after everything else.
+const NAP: Duration = Duration::from_millis(50);
+/// The same while a step is soon due in real-time mode.
+const SHORT_NAP: Duration = Duration::from_millis(1);
+/// Exit code after a second ctrl-c.
+const INTERRUPTED: u8 = 130;
+
+/// Serve programs that drive the simulator: an idle simulator with the ZeroMQ remote API
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// The Lua file of the scene [default: the default scene]
+    scene: Option<PathBuf>,
+    /// Serve nobody: only scripts drive the simulator
+    #[arg(long, conflicts_with = "remote_api")]
+    no_remote_api: bool,
+    #[command(flatten)]
+    remote: Remote,
+    #[command(flatten)]
+    setup: Setup,
+}
+
+/// Serves until ctrl-c, SIGTERM or `quitSimulator()`.
+pub(super) fn serve(args: &Args) -> ExitCode {
+    let scene = args.scene.as_deref();
+    let sources = match args.setup.sources(scene) {
+        Ok(sources) => sources,
+        Err(reason) => return refuse(&reason),
+    };
+    let interrupt = Interrupt::install(INTERRUPTED);
+    let output = args.setup.output(&Progress::new(Limits { steps: None, time: None }, true));
+    let mut sim = Simulator::with_console(args.setup.options(scene), Box::new(output.clone()));
+    args.setup.fill(&mut sim, &sources, ScriptKind::Customization, scene);
+    if !args.no_remote_api
+        && let Err(reason) = args.remote.serve(&args.setup, &mut sim, &output, &interrupt)
+    {
+        return refuse(&reason);
+    }
+    while !interrupt.is_requested() && !sim.quit_requested() {
+        let steps = sim.steps();
+        sim.pass();
+        if !sim.state().is_advancing() {
+            nap(&sim, NAP);
+        } else if sim.steps() == steps {
+            nap(&sim, SHORT_NAP);
+        }
+    }
+    sim.stop();
+    sim.clear_scene();
+    ExitCode::SUCCESS
+}
+
+/// Rests until there is something to do.
+fn nap(sim: &Simulator, longest: Duration) {
+    if !sim.wait_for_request(longest) {
+        std::thread::sleep(longest);
+    }
+}

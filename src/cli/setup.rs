@@ -1,0 +1,155 @@
+//! What `run` and `serve` have in common: the simulator they are given and its scene.
+
+use std::path::{Path, PathBuf};
+
+use super::output::{Format, Output};
+use super::progress::Progress;
+use crate::script::verbosity;
+use crate::{Options, ScriptKind, Simulator};
+
+/// How the simulator is set up
+#[derive(clap::Args)]
+pub(super) struct Setup {
+    /// Start from nothing instead of the default scene
+    #[arg(long)]
+    pub empty: bool,
+    /// Length of a simulation step
+    #[arg(long, value_name = "SECONDS", value_parser = step_length)]
+    dt: Option<f64>,
+    /// Keep pace with the wall clock
+    #[arg(long)]
+    realtime: bool,
+    /// Seed of the scripts' random numbers
+    #[arg(long)]
+    seed: Option<u32>,
+    /// Lua instructions that stand for a millisecond of a thread's time slice
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    instructions_per_ms: Option<u64>,
+    /// A named parameter scripts can read (sim.getNamedStringParam); may be repeated
+    #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = named_param)]
+    define: Vec<(String, String)>,
+    /// Folder of the data scripts keep beyond a run [default: where the system keeps the user's]
+    #[arg(long, value_name = "FOLDER")]
+    data_dir: Option<PathBuf>,
+    /// A Lua file to load as an add-on first; may be repeated
+    #[arg(long, value_name = "FILE")]
+    addon: Vec<PathBuf>,
+    /// Highest level of log lines to show: none, errors, warnings, loadinfos, scripterrors, scriptwarnings, scriptinfos, infos,
+    /// debug or trace
+    #[arg(long, value_name = "LEVEL", value_parser = level)]
+    verbosity: Option<i64>,
+    /// One JSON object per line printed or logged, then a summary, all on standard output
+    #[arg(long)]
+    pub json: bool,
+    /// No chatter of the simulator and no summary
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// A script file: its name without extension, and its text.
+type Source = (String, Vec<u8>);
+
+/// The files of the command line, read.
+pub(super) struct Sources {
+    scene: Option<Source>,
+    add_ons: Vec<Source>,
+}
+
+impl Setup {
+    /// Reads the files of the command line.
+    ///
+    /// # Errors
+    /// When one cannot be read.
+    pub(super) fn sources(&self, scene: Option<&Path>) -> Result<Sources, String> {
+        let add_ons = self.addon.iter().map(read).collect::<Result<_, _>>()?;
+        Ok(Sources { scene: scene.map(read).transpose()?, add_ons })
+    }
+
+    /// The named parameter of the command line.
+    pub(super) fn param(&self, name: &str) -> Option<&str> {
+        self.define.iter().rev().find(|(defined, _)| defined == name).map(|(_, value)| value.as_str())
+    }
+
+    pub(super) fn output(&self, progress: &Progress) -> Output {
+        Output::new(if self.json { Format::Json } else { Format::Text }, self.quiet, progress.bar())
+    }
+
+    pub(super) fn options(&self, scene: Option<&Path>) -> Options {
+        let mut options = Options {
+            named_params: self.define.iter().cloned().collect(),
+            data_dir: self.data_dir.clone(),
+            package_dirs: scene.map(folder_of).into_iter().collect(),
+            ..Options::default()
+        };
+        options.seed = self.seed.unwrap_or(options.seed);
+        options.instructions_per_ms = self.instructions_per_ms.unwrap_or(options.instructions_per_ms);
+        options.verbosity = self.verbosity.unwrap_or(options.verbosity);
+        options
+    }
+
+    /// Add-ons come with the application, so they start first; then the scene and its script.
+    pub(super) fn fill(&self, sim: &mut Simulator, sources: &Sources, kind: ScriptKind, scene: Option<&Path>) {
+        for (name, code) in &sources.add_ons {
+            // A script that fails has said so in the log, and is counted.
+            let _ = sim.add_script(ScriptKind::AddOn, name, code);
+        }
+        sim.scene_mut().modify_settings(|settings| {
+            settings.time_step = self.dt.unwrap_or(settings.time_step);
+            settings.real_time |= self.realtime;
+            if let Some(scene) = scene {
+                settings.path = std::path::absolute(scene).unwrap_or_default().to_string_lossy().into_owned();
+            }
+        });
+        if !self.empty {
+            // An add-on that fills the scene leaves no room for more: nothing is missing then.
+            let _ = sim.scene_mut().add_default_objects();
+        }
+        if let Some((name, code)) = &sources.scene {
+            let _ = sim.add_script(kind, name, code);
+        }
+        if kind == ScriptKind::AddOn && self.empty {
+            // What an add-on made before there was a scene does not belong to it.
+            sim.clear_scene();
+        }
+    }
+}
+
+fn read(path: impl AsRef<Path>) -> Result<Source, String> {
+    let path = path.as_ref();
+    let code = std::fs::read(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+    let name = path.file_stem().map_or_else(|| "Script".into(), |stem| stem.to_string_lossy().into_owned());
+    Ok((name, code))
+}
+
+/// The folder a file lies in; scripts find their modules there.
+fn folder_of(file: &Path) -> PathBuf {
+    match file.parent() {
+        Some(folder) if folder != Path::new("") => folder.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
+
+/// A number of seconds, zero or more.
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds >= 0.0 && seconds.is_finite() => Ok(seconds),
+        _ => Err("a number of seconds is needed".into()),
+    }
+}
+
+fn step_length(text: &str) -> Result<f64, String> {
+    let dt = seconds(text)?;
+    if (0.0001..=10.0).contains(&dt) { Ok(dt) } else { Err("a step lasts 0.0001 to 10 seconds".into()) }
+}
+
+fn named_param(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() => Ok((name.to_owned(), value.to_owned())),
+        _ => Err("NAME=VALUE is needed".into()),
+    }
+}
+
+fn level(text: &str) -> Result<i64, String> {
+    let number = || text.parse().ok().filter(|level| (0..=1000).contains(level));
+    verbosity::from_name(text).or_else(number).ok_or_else(|| "unknown level".into())
+}

@@ -1,0 +1,3 @@
+//! Servers for programs outside.
+
+pub(crate) mod zmq;
