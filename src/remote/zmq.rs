@@ -1,38 +1,45 @@
-//! The ZeroMQ end of the remote API: one thread that owns the sockets and passes whole messages on.
+//! The ZeroMQ end of the remote API.
 //!
-//! A ROUTER socket speaks to the clients' REQ sockets, so that it is known which connection sent what, and when one goes.
+//! The sockets live on the simulator's own thread and move while it receives: a request costs no change of threads, which takes longer
+//! than most requests. A ROUTER socket speaks to the clients' REQ sockets, so that it is known which connection sent what, and when one goes.
 
 use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 use std::net::TcpListener;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
 use bytes::Bytes;
-use futures::StreamExt;
-use tokio::sync::mpsc as queue;
-use zeromq::{RouterSendHalf, RouterSocket, Socket, SocketEvent, SocketRecv, SocketSend, ZmqMessage};
+use futures::channel::mpsc::Receiver;
+use futures::{FutureExt, StreamExt};
+use tokio::runtime::Runtime;
+use zeromq::{RouterRecvHalf, RouterSendHalf, RouterSocket, Socket, SocketEvent, SocketRecv, SocketSend, ZmqMessage};
 
 use crate::script::{Incoming, Peer, RemotePort};
 
 type Identity = Bytes;
 
-/// What the thread passes on.
+/// What the sockets have to say.
 enum Arrival {
     Request(Identity, Vec<u8>),
     Gone(Identity),
 }
 
-/// A server for REQ sockets. Its thread ends when this is dropped.
+/// A server for REQ sockets.
 pub(crate) struct ZmqServer {
-    arrivals: Receiver<Arrival>,
-    replies: queue::UnboundedSender<(Identity, Bytes)>,
+    runtime: Runtime,
+    sockets: RefCell<Sockets>,
     peers: RefCell<Peers>,
     /// What `wait` has seen and `receive` has not.
-    seen: RefCell<Option<Arrival>>,
+    seen: RefCell<VecDeque<Arrival>>,
     stop: Arc<AtomicBool>,
+}
+
+struct Sockets {
+    sender: RouterSendHalf,
+    receiver: RouterRecvHalf,
+    events: Receiver<SocketEvent>,
 }
 
 /// Numbers for connections.
@@ -65,32 +72,38 @@ impl ZmqServer {
     /// Serves the connections `listener` accepts. Once `stop` is set, nobody is waited for.
     ///
     /// # Errors
-    /// When there can be no thread or no event loop.
+    /// When there can be no event loop.
     pub(crate) fn start(listener: TcpListener, stop: Arc<AtomicBool>) -> std::io::Result<Self> {
-        let (arrived, arrivals) = channel();
-        let (replies, outgoing) = queue::unbounded_channel();
         let runtime = tokio::runtime::Builder::new_current_thread().enable_io().enable_time().build()?;
-        std::thread::Builder::new()
-            .name("remote API".into())
-            .spawn(move || runtime.block_on(serve(listener, arrived, outgoing)))?;
-        Ok(Self { arrivals, replies, peers: RefCell::default(), seen: RefCell::default(), stop })
+        let sockets = runtime.block_on(open(listener)).map_err(std::io::Error::other)?;
+        Ok(Self { runtime, sockets: RefCell::new(sockets), peers: RefCell::default(), seen: RefCell::default(), stop })
+    }
+
+    /// Moves the sockets until something has arrived, or for that long.
+    fn next(&self, patience: Duration) -> Option<Arrival> {
+        let mut sockets = self.sockets.borrow_mut();
+        self.runtime.block_on(async {
+            // The loop looks at the system's sockets only when there is nothing else to do.
+            tokio::task::yield_now().await;
+            if patience.is_zero() {
+                // A timer would take up to a millisecond.
+                return sockets.next().now_or_never().flatten();
+            }
+            tokio::time::timeout(patience, sockets.next()).await.ok().flatten()
+        })
     }
 }
 
-impl ZmqServer {
-    #[allow(clippy::disallowed_methods, reason = "without its thread there is nothing to wait for, but time must pass")]
-    fn next(&self, patience: Duration) -> Option<Arrival> {
-        if patience.is_zero() {
-            return self.arrivals.try_recv().ok();
-        }
-        match self.arrivals.recv_timeout(patience) {
-            Ok(arrival) => Some(arrival),
-            Err(RecvTimeoutError::Timeout) => None,
-            // A thread that has failed sends nothing; waiting for it must still take its time.
-            Err(RecvTimeoutError::Disconnected) => {
-                std::thread::sleep(patience);
-                None
-            }
+impl Sockets {
+    /// The next request or departure; None for anything else.
+    async fn next(&mut self) -> Option<Arrival> {
+        tokio::select! {
+            biased;
+            message = self.receiver.recv() => message.ok().and_then(request),
+            event = self.events.next() => match event {
+                Some(SocketEvent::Disconnected(peer)) => Some(Arrival::Gone(Bytes::copy_from_slice(&peer))),
+                _ => None,
+            },
         }
     }
 }
@@ -98,15 +111,15 @@ impl ZmqServer {
 impl RemotePort for ZmqServer {
     fn wait(&self, patience: Duration) {
         let mut seen = self.seen.borrow_mut();
-        if seen.is_none() {
-            *seen = self.next(patience);
+        if seen.is_empty() {
+            seen.extend(self.next(patience));
         }
     }
 
     fn receive(&self, patience: Duration) -> Option<Incoming> {
-        let arrival = self.seen.take().or_else(|| self.next(patience))?;
+        let seen = self.seen.borrow_mut().pop_front();
         let mut peers = self.peers.borrow_mut();
-        match arrival {
+        match seen.or_else(|| self.next(patience))? {
             Arrival::Request(identity, bytes) => Some(Incoming::Request(peers.number(&identity), bytes)),
             // One that never sent a request is nobody's loss.
             Arrival::Gone(identity) => peers.forget(&identity).map(Incoming::Gone),
@@ -118,51 +131,24 @@ impl RemotePort for ZmqServer {
     }
 
     fn reply(&self, peer: Peer, bytes: Vec<u8>) {
-        if let Some(identity) = self.peers.borrow().identities.get(&peer) {
-            // The thread outlives the sender, except when it failed: then there is nobody to answer.
-            let _ = self.replies.send((identity.clone(), bytes.into()));
-        }
+        let Some(identity) = self.peers.borrow().identities.get(&peer).cloned() else { return };
+        let content = Bytes::from(bytes);
+        let message = ZmqMessage::try_from(vec![identity, Bytes::new(), content]).expect("three frames are a message");
+        // A client that is gone is reported by the monitor.
+        let _ = self.runtime.block_on(self.sockets.borrow_mut().sender.send(message));
     }
 }
 
-async fn serve(
-    listener: TcpListener,
-    arrived: Sender<Arrival>,
-    mut outgoing: queue::UnboundedReceiver<(Identity, Bytes)>,
-) {
+async fn open(listener: TcpListener) -> zeromq::ZmqResult<Sockets> {
     let mut socket = RouterSocket::new();
-    let mut events = socket.monitor();
-    if socket.bind_listener(listener).await.is_err() {
-        return;
-    }
-    let (mut sender, mut receiver) = socket.split();
-    loop {
-        let passed_on = tokio::select! {
-            message = receiver.recv() => message.ok().and_then(request).map_or(Ok(()), |request| arrived.send(request)),
-            event = events.next() => match event {
-                Some(SocketEvent::Disconnected(peer)) => arrived.send(Arrival::Gone(Bytes::copy_from_slice(&peer))),
-                _ => Ok(()),
-            },
-            reply = outgoing.recv() => match reply {
-                Some((identity, bytes)) => { send(&mut sender, identity, bytes).await; Ok(()) }
-                // The server was dropped.
-                None => return,
-            },
-        };
-        if passed_on.is_err() {
-            return;
-        }
-    }
+    let events = socket.monitor();
+    socket.bind_listener(listener).await?;
+    let (sender, receiver) = socket.split();
+    Ok(Sockets { sender, receiver, events })
 }
 
 /// The frames of a REQ socket: who, an empty one, the message. Anything else is ignored.
 fn request(message: ZmqMessage) -> Option<Arrival> {
     let [identity, empty, content] = <[Bytes; 3]>::try_from(message.into_vec()).ok()?;
     empty.is_empty().then(|| Arrival::Request(identity, content.into()))
-}
-
-async fn send(socket: &mut RouterSendHalf, identity: Identity, content: Bytes) {
-    let message = ZmqMessage::try_from(vec![identity, Bytes::new(), content]).expect("three frames are a message");
-    // A client that is gone is reported by the monitor.
-    let _ = socket.send(message).await;
 }
