@@ -1,4 +1,4 @@
-//! Programs of others against `swanilda serve`: every Python file of `tests/interop` with a `main` of its own.
+//! Programs of others against `swanilda serve`: the Python files `zmq_*.py` of `tests/interop`.
 //!
 //! Needs python3 with `venv`, and the Python index once: the environment stays in `target/`. Without python3 the tests are skipped,
 //! except where `CI` is set.

@@ -35,6 +35,7 @@ local insideCallback = false -- in a callback that cannot yield: only its client
 
 local function newClient(request, now)
     local client = {
+        uuid = request.uuid,
         peers = {},
         tasks = {}, -- requests without answer, the innermost last
         level = 0, -- of stepping
@@ -52,9 +53,7 @@ local function forget(client)
     for i = #clients, 1, -1 do
         if clients[i] == client then table.remove(clients, i) end
     end
-    for uuid, other in pairs(byUuid) do
-        if other == client then byUuid[uuid] = nil end
-    end
+    byUuid[client.uuid] = nil
 end
 
 -- A connection is gone. A client may have several.
@@ -287,7 +286,7 @@ local function handle(peer, request)
     end
     local now = sim.getSystemTime()
     local client = byUuid[request.uuid] or newClient(request, now)
-    client.seen, client.uuid, client.peers[peer] = now, request.uuid, true
+    client.seen, client.peers[peer] = now, true
     if insideCallback and insideCallback ~= client then
         return native.reply(peer, cbor.encode({func = REPEAT, args = {}}))
     end

@@ -1,4 +1,4 @@
-"""A bare REQ socket that speaks the ZeroMQ remote API, and a way to compare."""
+"""A bare REQ socket that speaks the ZeroMQ remote API."""
 
 import sys
 
@@ -49,13 +49,3 @@ class Peer:
 
     def vanish(self):
         self.socket.close(0)
-
-
-def same(what, actual, expected):
-    if actual != expected:
-        sys.exit(f"{what}: {actual!r} instead of {expected!r}")
-
-
-def near(what, actual, expected):
-    if abs(actual - expected) > 1e-9:
-        sys.exit(f"{what}: {actual!r} instead of {expected!r}")

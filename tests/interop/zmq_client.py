@@ -7,16 +7,7 @@ if sys.argv[2] == "cbor":
 
 from coppeliasim_zmqremoteapi_client import RemoteAPIClient  # noqa: E402
 
-
-def same(what, actual, expected):
-    if actual != expected:
-        sys.exit(f"{what}: {actual!r} instead of {expected!r}")
-
-
-def near(what, actual, expected):
-    if abs(actual - expected) > 1e-9:
-        sys.exit(f"{what}: {actual!r} instead of {expected!r}")
-
+from compare import near, same  # noqa: E402
 
 client = RemoteAPIClient(port=int(sys.argv[1]))
 sim = client.require("sim")

@@ -5,7 +5,8 @@ import time
 
 import cbor2
 
-from raw import WAIT, Peer, near, same
+from compare import near, same
+from raw import WAIT, Peer
 
 VERSION = "The client ZeroMQ remote API version does not match CoppeliaSim's version"
 

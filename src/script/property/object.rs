@@ -78,20 +78,11 @@ pub(super) const FLAGS: &[Accessor] = bits! {
     "model.notVisible": model_property ModelProperty 0x100;
     "model.scriptsNotActive": model_property ModelProperty 0x200;
     "model.notInParentBB": model_property ModelProperty 0x400;
-    "modelNotCollidable": model_property ModelProperty 0x1;
-    "modelNotMeasurable": model_property ModelProperty 0x2;
-    "modelNotDetectable": model_property ModelProperty 0x8;
-    "modelNotDynamic": model_property ModelProperty 0x20;
-    "modelNotRespondable": model_property ModelProperty 0x40;
-    "modelNotVisible": model_property ModelProperty 0x100;
-    "modelScriptsNotActive": model_property ModelProperty 0x200;
-    "modelNotInParentBB": model_property ModelProperty 0x400;
 };
 
 pub(super) const FLAG_SETS: &[Accessor] = object_properties! {
     "objectPropertyFlags": i64, |o| o.object_property, ObjectProperty |o, flags| o.object_property = flags;
     "model.propertyFlags": i64, |o| o.model_property, ModelProperty |o, flags| o.set_model_property(flags);
-    "modelPropertyFlags": i64, |o| o.model_property, ModelProperty |o, flags| o.set_model_property(flags);
     "modelBase": bool, |o| o.is_model(), ModelProperty |o, on| {
         if on != o.is_model() {
             o.model_property = if on { 0 } else { NOT_MODEL };
@@ -99,19 +90,18 @@ pub(super) const FLAG_SETS: &[Accessor] = object_properties! {
     };
 };
 
-/// Rows of how a hand may move the object, under two names each.
+/// Rows of how a hand may move the object.
 macro_rules! movement {
-    ($($name:literal $old:literal: $ty:ty, $field:ident, |$v:ident| $set:expr, |$read:ident| $get:expr;)*) => { object_properties! { $(
+    ($($name:literal: $ty:ty, $field:ident, |$v:ident| $set:expr, |$read:ident| $get:expr;)*) => { object_properties! { $(
         $name: $ty, |o| { let $read = o.movement.$field; $get }, Kept |o, $v| o.movement.$field = $set;
-        $old: $ty, |o| { let $read = o.movement.$field; $get }, Kept |o, $v| o.movement.$field = $set;
     )* } };
 }
 
 pub(super) const MOVEMENT: &[Accessor] = movement! {
-    "mov.optionsFlags" "movementOptionsFlags": i64, options, |bits| bits, |bits| bits;
-    "mov.stepSize" "movementStepSize": Vec<f64>, step, |steps| pair(&steps)?, |steps| steps.to_vec();
-    "mov.relativity" "movementRelativity": Vec<i64>, relativity, |frames| int_pair(&frames)?, |frames| frames.to_vec();
-    "mov.preferredAxesFlags" "movementPreferredAxesFlags": i64, preferred_axes, |bits| bits & 0x3f, |bits| bits;
+    "mov.optionsFlags": i64, options, |bits| bits, |bits| bits;
+    "mov.stepSize": Vec<f64>, step, |steps| pair(&steps)?, |steps| steps.to_vec();
+    "mov.relativity": Vec<i64>, relativity, |frames| int_pair(&frames)?, |frames| frames.to_vec();
+    "mov.preferredAxesFlags": i64, preferred_axes, |bits| bits & 0x3f, |bits| bits;
 };
 
 /// Rows of properties that are a bit of the movement; `!` for bits that forbid what the property allows.
@@ -139,18 +129,6 @@ pub(super) const MOVEMENT_FLAGS: &[Accessor] = movement_bits! {
     "mov.prefRotX": preferred_axes = 0x8;
     "mov.prefRotY": preferred_axes = 0x10;
     "mov.prefRotZ": preferred_axes = 0x20;
-    "movTranslNoSim": options !Movement::TRANSLATION_STOPPED;
-    "movTranslInSim": options !Movement::TRANSLATION_RUNNING;
-    "movRotNoSim": options !Movement::ROTATION_STOPPED;
-    "movRotInSim": options !Movement::ROTATION_RUNNING;
-    "movAltTransl": options !Movement::OTHER_TRANSLATIONS;
-    "movAltRot": options !Movement::OTHER_ROTATIONS;
-    "movPrefTranslX": preferred_axes = 0x1;
-    "movPrefTranslY": preferred_axes = 0x2;
-    "movPrefTranslZ": preferred_axes = 0x4;
-    "movPrefRotX": preferred_axes = 0x8;
-    "movPrefRotY": preferred_axes = 0x10;
-    "movPrefRotZ": preferred_axes = 0x20;
 };
 
 /// Axis and speed (rad/s) of the measured rotation, world axes; zeros for an object that does not turn.

@@ -17,7 +17,8 @@ use crate::scene::{Data, Kind, ValueType};
 ///
 /// The state is `works`, `kept` (stored and read back, no effect) or `constant` (always the default); what works has an accessor, and
 /// what needs more than storage may have one. An empty default is false, 0, no text, an empty list, the origin or no rotation; numbers
-/// in lists are separated by spaces. A list that has a default keeps its length.
+/// in lists are separated by spaces. A list that has a default keeps its length. In place of a default, what works may have the name of the
+/// property it is an older word for.
 const STATIC: &str = include_str!("static.tsv");
 
 /// Bits of the flags of a property.
@@ -226,11 +227,12 @@ fn parts() -> Parts {
     let mut parts = Parts::new();
     for line in lines() {
         let Line { part, name, ty, flags, state, default } = line;
-        let default = ty.parse(default).expect("static.tsv holds defaults of the row's type");
-        let source = match (accessors.get(&(part, name)), state) {
+        let is_other_word = state == "works" && !default.is_empty();
+        let value = || ty.parse(default).expect("static.tsv holds defaults of the row's type");
+        let source = match (accessors.get(&(part, if is_other_word { default } else { name })), state) {
             (Some(accessor), _) => Source::Works(accessor),
-            (None, "kept") => Source::Kept(default),
-            (None, "constant") => Source::Constant(default),
+            (None, "kept") => Source::Kept(value()),
+            (None, "constant") => Source::Constant(value()),
             _ => panic!("a property in static.tsv that works has an accessor: {part} {name}"),
         };
         parts.entry(part).or_default().push(Row { name, ty, flags, source, class: "" });
