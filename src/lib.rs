@@ -5,7 +5,7 @@ pub mod cli;
 pub mod docs;
 mod dynamics;
 mod format;
-mod remote;
+mod io;
 pub mod scene;
 pub mod script;
 mod simulator;

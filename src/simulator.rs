@@ -8,7 +8,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use crate::api;
-use crate::remote::zmq::ZmqServer;
+use crate::io::ZmqServer;
 use crate::scene::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, Scene};
 use crate::script::{ApiError, Console, Detached, Options, Script, Silent, Sim, SimulationState, SysCall};
@@ -85,7 +85,7 @@ impl Simulator {
     /// When the server cannot start.
     pub fn serve_zmq(&mut self, listener: TcpListener, stop: Arc<AtomicBool>) -> std::io::Result<SocketAddr> {
         let address = listener.local_addr()?;
-        self.sim.set_remote_port(Rc::new(ZmqServer::start(listener, stop)?));
+        self.sim.zmq_server.replace(Some(Rc::new(ZmqServer::start(listener, stop)?)));
         let port = address.port().to_string().into_bytes();
         self.sim.app.borrow_mut().named_params.insert("zmqRemoteApi.rpcPort".to_owned(), port);
         let add_on = self.sim.add_detached(ScriptType::AddOn, detached("ZMQ remote API@addOnScript", ZMQ_ADD_ON));
@@ -95,9 +95,8 @@ impl Simulator {
 
     /// Waits until a client asks for something, at most that long; false at once when there are no clients to be served.
     pub fn wait_for_request(&self, patience: Duration) -> bool {
-        let port = self.sim.remote_port();
-        port.is_some_and(|port| {
-            port.wait(patience);
+        self.sim.zmq_server().is_some_and(|server| {
+            server.wait(patience);
             true
         })
     }

@@ -7,7 +7,8 @@ use std::time::Duration;
 use api_macro::api;
 
 use super::{ApiFn, CATEGORIES, Cx, Result, functions, lua_files, registry};
-use crate::script::{Bytes, Incoming, Text};
+use crate::io::Incoming;
+use crate::script::{Bytes, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, returns, members];
 
@@ -21,8 +22,8 @@ const LONGEST_WAIT: f64 = 1.0;
 #[api("remote.zmq.receive")]
 fn receive(cx: &mut Cx, patience: f64) -> Result<Option<(i64, Option<Text>)>> {
     let patience = Duration::from_secs_f64(patience.clamp(0.0, LONGEST_WAIT));
-    let port = cx.sim().remote_port();
-    Ok(port.and_then(|port| port.receive(patience)).map(|incoming| match incoming {
+    let server = cx.sim().zmq_server();
+    Ok(server.and_then(|server| server.receive(patience)).map(|incoming| match incoming {
         Incoming::Request(peer, message) => (peer as i64, Some(Text(message))),
         Incoming::Gone(peer) => (peer as i64, None),
     }))
@@ -34,8 +35,8 @@ fn receive(cx: &mut Cx, patience: f64) -> Result<Option<(i64, Option<Text>)>> {
 /// @param message the answer
 #[api("remote.zmq.reply")]
 fn reply(cx: &mut Cx, peer: i64, message: Bytes) -> Result<()> {
-    if let Some(port) = cx.sim().remote_port() {
-        port.reply(peer as u64, message.0);
+    if let Some(server) = cx.sim().zmq_server() {
+        server.reply(peer as u64, message.0);
     }
     Ok(())
 }
@@ -45,7 +46,7 @@ fn reply(cx: &mut Cx, peer: i64, message: Bytes) -> Result<()> {
 /// @return closed
 #[api("remote.zmq.closed")]
 fn closed(cx: &Cx) -> Result<bool> {
-    Ok(cx.sim().remote_port().is_none_or(|port| port.is_closed()))
+    Ok(cx.sim().zmq_server().is_none_or(|server| server.is_closed()))
 }
 
 /// The types a function is declared to return.

@@ -2,11 +2,14 @@
 //!
 //! A trajectory belongs to the script that made it and goes with it.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::ruckig::{BAD_CYCLE_TIME, RuckigError, Trajectory};
-use crate::script::Number;
+use crate::script::{ByHandle, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![ruckig_pos, ruckig_vel, ruckig_step, ruckig_remove];
 
@@ -41,7 +44,7 @@ fn ruckig_pos(
         &selection,
         &target_pos_vel,
     );
-    Ok(cx.env().trajectories.borrow_mut().add(trajectory.map_err(refusal)?))
+    Ok(trajectories(cx).borrow_mut().add(trajectory.map_err(refusal)?))
 }
 
 /// Plans a change of velocities.
@@ -75,7 +78,7 @@ fn ruckig_vel(
         &selection,
         &target_vel,
     );
-    Ok(cx.env().trajectories.borrow_mut().add(trajectory.map_err(refusal)?))
+    Ok(trajectories(cx).borrow_mut().add(trajectory.map_err(refusal)?))
 }
 
 /// Follows a trajectory.
@@ -87,7 +90,8 @@ fn ruckig_vel(
 /// @return synchronizationTime seconds left; negative in the last step
 #[api("sim.ruckigStep")]
 fn ruckig_step(cx: &mut Cx, handle: Number, cycle_time: f64) -> Result<(i64, Vec<f64>, f64)> {
-    let mut trajectories = cx.env().trajectories.borrow_mut();
+    let trajectories = trajectories(cx);
+    let mut trajectories = trajectories.borrow_mut();
     let step = trajectories.get_mut(handle.0).ok_or_else(unknown)?.step(cycle_time);
     match step.code {
         BAD_CYCLE_TIME => Err(ApiError::Other("specified cycle time is not a multiple of the base cycle time.".into())),
@@ -100,7 +104,12 @@ fn ruckig_step(cx: &mut Cx, handle: Number, cycle_time: f64) -> Result<(i64, Vec
 /// @param handle from sim.ruckigPos or sim.ruckigVel
 #[api("sim.ruckigRemove")]
 fn ruckig_remove(cx: &mut Cx, handle: Number) -> Result<()> {
-    cx.env().trajectories.borrow_mut().remove(handle.0).map(drop).ok_or_else(unknown)
+    trajectories(cx).borrow_mut().remove(handle.0).map(drop).ok_or_else(unknown)
+}
+
+/// Those of the calling script.
+fn trajectories(cx: &Cx) -> Rc<RefCell<ByHandle<Trajectory>>> {
+    cx.library_data()
 }
 
 fn axes(dofs: Number) -> usize {

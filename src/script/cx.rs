@@ -1,5 +1,6 @@
 //! The context of one API call.
 
+use std::any::TypeId;
 use std::cell::{Ref, RefMut};
 use std::rc::Rc;
 
@@ -38,6 +39,13 @@ impl<'a> Cx<'a> {
 
     pub(crate) fn sim(&self) -> &Rc<Sim> {
         &self.sim
+    }
+
+    /// What a library keeps for the calling script's state: made at the first call, dropped with the state.
+    pub(crate) fn library_data<T: Default + 'static>(&self) -> Rc<T> {
+        let mut all = self.env().library_data.borrow_mut();
+        let data = Rc::clone(all.entry(TypeId::of::<T>()).or_insert_with(|| Rc::new(T::default())));
+        data.downcast().expect("the key is the type")
     }
 
     pub(crate) fn scene(&self) -> Ref<'_, Scene> {

@@ -1,7 +1,8 @@
 //! What the host knows about one Lua state: whose it is, its yield levels, hooks, random numbers.
 
+use std::any::{Any, TypeId};
 use std::cell::{Cell, RefCell};
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::{Rc, Weak};
 
 use super::callback::SysCall;
@@ -10,7 +11,6 @@ use super::instance::Script;
 use super::lua::{FunctionRef, Stack, State};
 use super::random::Random;
 use super::sim::Sim;
-use super::trajectories::Trajectories;
 use super::verbosity;
 
 /// The host's side of one Lua state.
@@ -24,11 +24,12 @@ pub(crate) struct Env {
     pub depth: Cell<usize>,
     pub yields: Yields,
     pub random: RefCell<Random>,
-    pub trajectories: RefCell<Trajectories>,
     /// What the state wants to hear of; None for everything.
     pub event_filters: RefCell<Option<Filters>>,
     /// Whether anybody listens to events, so that changes must be told.
     pub events_wanted: Rc<Cell<bool>>,
+    /// What a library keeps for the state, by the library's own type; it goes with the state.
+    pub library_data: RefCell<HashMap<TypeId, Rc<dyn Any>>>,
     warned: RefCell<HashSet<&'static str>>,
 }
 
@@ -68,9 +69,9 @@ impl Env {
             depth: Cell::new(0),
             yields: Yields { auto: Cell::new(0), overall: Cell::new(0), delay_ms: Cell::new(2), used: Cell::new(0) },
             random: RefCell::new(Random::new(sim.options.seed)),
-            trajectories: RefCell::default(),
             event_filters: RefCell::default(),
             events_wanted: Rc::clone(&sim.events.listening),
+            library_data: RefCell::default(),
             warned: RefCell::default(),
         }
     }

@@ -12,11 +12,11 @@ use super::instance::{Detached, Script};
 use super::order::OrderCache;
 use super::property::{AppData, SignalOwners};
 use super::random::Random;
-use super::remote::RemotePort;
 use super::system_semaphore::SystemSemaphores;
 use super::tubes::Tubes;
 use super::verbosity;
 use crate::dynamics::Dynamics;
+use crate::io::ZmqServer;
 use crate::scene::script_object::ScriptType;
 use crate::scene::{Handle, Scene};
 
@@ -82,7 +82,8 @@ pub(crate) struct Sim {
     pub tubes: RefCell<Tubes>,
     pub semaphores: RefCell<SystemSemaphores>,
     pub events: EventStream,
-    remote: RefCell<Option<Rc<dyn RemotePort>>>,
+    /// Where programs outside call functions, by ZeroMQ.
+    pub zmq_server: RefCell<Option<Rc<ZmqServer>>>,
     next_detached: Cell<i64>,
     once: RefCell<HashSet<(String, i64, String)>>,
     started: std::time::Instant,
@@ -112,7 +113,7 @@ impl Sim {
             tubes: RefCell::default(),
             semaphores: RefCell::default(),
             events: EventStream::new(),
-            remote: RefCell::default(),
+            zmq_server: RefCell::default(),
             next_detached: Cell::new(FIRST_DETACHED),
             once: RefCell::default(),
             started: super::wall_clock::now(),
@@ -145,13 +146,8 @@ impl Sim {
         self.scripts.borrow().values().find(|s| s.object.is_none() && s.script_type == script_type).cloned()
     }
 
-    /// Opens the door for programs outside.
-    pub(crate) fn set_remote_port(&self, port: Rc<dyn RemotePort>) {
-        self.remote.replace(Some(port));
-    }
-
-    pub(crate) fn remote_port(&self) -> Option<Rc<dyn RemotePort>> {
-        self.remote.borrow().clone()
+    pub(crate) fn zmq_server(&self) -> Option<Rc<ZmqServer>> {
+        self.zmq_server.borrow().clone()
     }
 
     /// All scripts that are no objects, in the order of their creation.

@@ -16,7 +16,16 @@ use futures::{FutureExt, StreamExt};
 use tokio::runtime::Runtime;
 use zeromq::{RouterRecvHalf, RouterSendHalf, RouterSocket, Socket, SocketEvent, SocketRecv, SocketSend, ZmqMessage};
 
-use crate::script::{Incoming, Peer, RemotePort};
+/// A connection, as long as it lasts.
+pub(crate) type Peer = u64;
+
+/// What came in.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) enum Incoming {
+    Request(Peer, Vec<u8>),
+    /// The connection is gone.
+    Gone(Peer),
+}
 
 type Identity = Bytes;
 
@@ -92,6 +101,39 @@ impl ZmqServer {
             tokio::time::timeout(patience, sockets.next()).await.ok().flatten()
         })
     }
+
+    /// Waits until something has come in, at most that long.
+    pub(crate) fn wait(&self, patience: Duration) {
+        let mut seen = self.seen.borrow_mut();
+        if seen.is_empty() {
+            seen.extend(self.next(patience));
+        }
+    }
+
+    /// The next of what came in; waits for it at most that long.
+    pub(crate) fn receive(&self, patience: Duration) -> Option<Incoming> {
+        let seen = self.seen.borrow_mut().pop_front();
+        let mut peers = self.peers.borrow_mut();
+        match seen.or_else(|| self.next(patience))? {
+            Arrival::Request(identity, bytes) => Some(Incoming::Request(peers.number(&identity), bytes)),
+            // One that never sent a request is nobody's loss.
+            Arrival::Gone(identity) => peers.forget(&identity).map(Incoming::Gone),
+        }
+    }
+
+    /// Whether the program is about to end, so that nobody must be waited for.
+    pub(crate) fn is_closed(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Answers a connection; nothing happens when it is gone.
+    pub(crate) fn reply(&self, peer: Peer, bytes: Vec<u8>) {
+        let Some(identity) = self.peers.borrow().identities.get(&peer).cloned() else { return };
+        let content = Bytes::from(bytes);
+        let message = ZmqMessage::try_from(vec![identity, Bytes::new(), content]).expect("three frames are a message");
+        // A client that is gone is reported by the monitor.
+        let _ = self.runtime.block_on(self.sockets.borrow_mut().sender.send(message));
+    }
 }
 
 impl Sockets {
@@ -105,37 +147,6 @@ impl Sockets {
                 _ => None,
             },
         }
-    }
-}
-
-impl RemotePort for ZmqServer {
-    fn wait(&self, patience: Duration) {
-        let mut seen = self.seen.borrow_mut();
-        if seen.is_empty() {
-            seen.extend(self.next(patience));
-        }
-    }
-
-    fn receive(&self, patience: Duration) -> Option<Incoming> {
-        let seen = self.seen.borrow_mut().pop_front();
-        let mut peers = self.peers.borrow_mut();
-        match seen.or_else(|| self.next(patience))? {
-            Arrival::Request(identity, bytes) => Some(Incoming::Request(peers.number(&identity), bytes)),
-            // One that never sent a request is nobody's loss.
-            Arrival::Gone(identity) => peers.forget(&identity).map(Incoming::Gone),
-        }
-    }
-
-    fn is_closed(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
-    }
-
-    fn reply(&self, peer: Peer, bytes: Vec<u8>) {
-        let Some(identity) = self.peers.borrow().identities.get(&peer).cloned() else { return };
-        let content = Bytes::from(bytes);
-        let message = ZmqMessage::try_from(vec![identity, Bytes::new(), content]).expect("three frames are a message");
-        // A client that is gone is reported by the monitor.
-        let _ = self.runtime.block_on(self.sockets.borrow_mut().sender.send(message));
     }
 }
 

@@ -1,3 +1,0 @@
-//! Servers for programs outside.
-
-pub(crate) mod zmq;

@@ -1,0 +1,31 @@
+//! Things a script refers to by number.
+
+use std::collections::BTreeMap;
+
+/// Values by handle. Handles rise from 1 and are never given out twice.
+pub(crate) struct ByHandle<T> {
+    last: i64,
+    values: BTreeMap<i64, T>,
+}
+
+impl<T> Default for ByHandle<T> {
+    fn default() -> Self {
+        Self { last: 0, values: BTreeMap::new() }
+    }
+}
+
+impl<T> ByHandle<T> {
+    pub(crate) fn add(&mut self, value: T) -> i64 {
+        self.last += 1;
+        self.values.insert(self.last, value);
+        self.last
+    }
+
+    pub(crate) fn get_mut(&mut self, handle: i64) -> Option<&mut T> {
+        self.values.get_mut(&handle)
+    }
+
+    pub(crate) fn remove(&mut self, handle: i64) -> Option<T> {
+        self.values.remove(&handle)
+    }
+}
