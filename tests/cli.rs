@@ -274,3 +274,36 @@ fn completions_and_version() {
     let version = swanilda().arg("--version").output().expect("the command starts");
     assert_eq!(stdout(&version), format!("swanilda {}\n", env!("CARGO_PKG_VERSION")));
 }
+
+#[test]
+fn no_unsafe_takes_programs_from_scripts() {
+    let tells = "sim = require 'sim'
+for _, call in ipairs{function() os.execute('true') end, function() io.popen('true') end, function() package.loadlib('x', 'y') end} do
+    local ok, why = pcall(call)
+    print(ok, why:match('%-%-no%-unsafe') ~= nil)
+end
+print(sim.getBoolParam(sim.boolparam_execunsafe), sim.getBoolProperty(sim.handle_app, 'execUnsafeExt'))
+sim.quitSimulator()";
+    let refused = Scene::new(tells).run(&["--no-unsafe", "--no-start", "--empty"]);
+    assert_eq!(stdout(&refused), "false, true\nfalse, true\nfalse, true\nfalse, false\n");
+    let allowed = Scene::new("print(os.execute('true'))").run(&["--no-start", "--empty"]);
+    assert_eq!(stdout(&allowed), "true, exit, 0\n");
+}
+
+#[test]
+fn listening_at_other_addresses_switches_programs_off() {
+    let tells = "sim = require 'sim' print(sim.getBoolParam(sim.boolparam_execunsafe), sim.getBoolParam(sim.boolparam_execunsafeext))";
+    let scene = Scene::new(tells);
+    for (args, expected) in [
+        (&["--bind", "127.0.0.2"][..], "true, true\n"),
+        (&["--bind", "0.0.0.0"], "false, false\n"),
+        (&["--bind", "0.0.0.0", "--unsafe"], "true, true\n"),
+    ] {
+        assert_eq!(
+            stdout(&scene.run(&[&["--no-start", "--empty", "--loops", "1"], args].concat())),
+            expected,
+            "{args:?}"
+        );
+    }
+    assert_eq!(scene.run(&["--unsafe", "--no-unsafe"]).status.code(), Some(2));
+}

@@ -5,7 +5,7 @@ use std::net::{IpAddr, Ipv4Addr, TcpListener};
 use super::interrupt::Interrupt;
 use super::output::Output;
 use super::setup::Setup;
-use crate::Simulator;
+use crate::{Options, Simulator};
 
 /// The port of the first instance; others take the next free one.
 const FIRST_PORT: u16 = 23_000;
@@ -20,14 +20,26 @@ pub(super) struct Remote {
     /// Serve the ZeroMQ remote API, at a port of one's choice (0: any) [default port: the first free one from 23000]
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
     remote_api: Option<Option<u16>>,
-    /// Address to listen at; who connects there can do whatever a script can
+    /// Address to listen at; who connects there can do whatever a script can. Another than this machine's own implies --no-unsafe
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
+    /// Nobody starts programs or loads native libraries, and remote clients get no files
+    #[arg(long)]
+    no_unsafe: bool,
+    /// Trust those who connect from other machines: they may start programs and use files
+    #[arg(long = "unsafe", conflicts_with = "no_unsafe")]
+    allow_unsafe: bool,
 }
 
 impl Remote {
     pub(super) fn is_asked_for(&self) -> bool {
         self.remote_api.is_some()
+    }
+
+    /// The options as those who can connect make necessary.
+    pub(super) fn guard(&self, options: Options) -> Options {
+        let allowed = !self.no_unsafe && (self.bind.is_loopback() || self.allow_unsafe);
+        Options { exec_unsafe: allowed, exec_unsafe_ext: allowed, ..options }
     }
 
     /// Serves the ZeroMQ remote API and tells where.

@@ -76,7 +76,8 @@ pub(super) fn run(args: &Args) -> ExitCode {
     let progress = Progress::new(args.limits(), args.setup.quiet || args.setup.json || args.no_start);
     let output = args.setup.output(&progress);
     let begun = Instant::now();
-    let mut sim = Simulator::with_console(args.setup.options(Some(&args.scene)), Box::new(output.clone()));
+    let options = args.remote.guard(args.setup.options(Some(&args.scene)));
+    let mut sim = Simulator::with_console(options, Box::new(output.clone()));
     args.setup.fill(&mut sim, &sources, args.kind.into(), Some(&args.scene));
     if args.remote.is_asked_for()
         && let Err(reason) = args.remote.serve(&args.setup, &mut sim, &output, &interrupt)

@@ -17,8 +17,10 @@ const INNER: &[&str] = &[
     "matrix/maths",
     "matrix/space",
     "modload",
+    "no_unsafe",
     "org/conman/cbor_tags",
     "quaternion",
+    "remote/restrict",
     "trajectory",
 ];
 

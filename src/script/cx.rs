@@ -41,6 +41,15 @@ impl<'a> Cx<'a> {
         &self.sim
     }
 
+    /// For functions that start programs or load native libraries.
+    ///
+    /// # Errors
+    /// When scripts may not do that.
+    #[allow(dead_code, reason = "no such function is built yet")]
+    pub(crate) fn require_unsafe(&self) -> ApiResult<()> {
+        if self.sim.options.exec_unsafe { Ok(()) } else { Err(ApiError::Unsafe) }
+    }
+
     /// What a library keeps for the calling script's state: made at the first call, dropped with the state.
     pub(crate) fn library_data<T: Default + 'static>(&self) -> Rc<T> {
         let mut all = self.env().library_data.borrow_mut();

@@ -47,6 +47,9 @@ pub enum ApiError {
     PropertyNotRemovable,
     #[error("invalid property name.")]
     PropertyName,
+    /// The function starts programs or loads native libraries, and that is not allowed.
+    #[error("programs and native libraries are switched off (--no-unsafe).")]
+    Unsafe,
     /// A name of the reference that is not built here, or not yet.
     #[error("not implemented in Swanilda: {0}")]
     NotImplemented(String),

@@ -38,6 +38,10 @@ pub struct Options {
     pub package_dirs: Vec<std::path::PathBuf>,
     /// Lua instructions a thread may run per millisecond of its time slice.
     pub instructions_per_ms: u64,
+    /// Whether scripts may start programs and load native libraries.
+    pub exec_unsafe: bool,
+    /// Whether remote clients may use shell and files themselves, if scripts may.
+    pub exec_unsafe_ext: bool,
 }
 
 impl Default for Options {
@@ -49,6 +53,8 @@ impl Default for Options {
             data_dir: None,
             package_dirs: Vec::new(),
             instructions_per_ms: 100_000,
+            exec_unsafe: true,
+            exec_unsafe_ext: true,
         }
     }
 }

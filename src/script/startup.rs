@@ -26,7 +26,11 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
     seed_random(stack, sim.options.seed);
     stack.push_int(runtime.env.script.id);
     stack.set_global("sim_script_handle");
-    load_module(stack, sim, "base").and_then(|()| stack.protected_call(0, 0))
+    load_module(stack, sim, "base").and_then(|()| stack.protected_call(0, 0))?;
+    if sim.options.exec_unsafe {
+        return Ok(());
+    }
+    load_module(stack, sim, "no_unsafe").and_then(|()| stack.protected_call(0, 0))
 }
 
 /// `math.random` starts from the simulator's seed: Lua's own start is different in every state.

@@ -69,6 +69,8 @@ pub(super) const APP: &[Accessor] = subject_properties! {
         s.sim.set_event_protocol(protocol);
     };
     "processId": i64, |_s| i64::from(std::process::id());
+    "execUnsafe": bool, |s| s.sim.options.exec_unsafe;
+    "execUnsafeExt": bool, |s| s.sim.options.exec_unsafe && s.sim.options.exec_unsafe_ext;
     "consoleVerbosity": i64, |s| s.sim.verbosity.get(), |s, level| s.sim.verbosity.set(level);
 };
 

@@ -1,0 +1,50 @@
+--[[
+What remote clients do not get where `execUnsafeExt` is false: files, programs, and code given as text. For the add-ons that serve them.
+
+Running it takes these from the Lua state. It keeps clients from the direct ways into the machine. It is no prison: a client may give
+the scene a script, and scripts may use files.
+]]
+
+local sim = require('sim')
+
+local REMOVED <const> = {
+    _G = {'load', 'loadfile', 'loadstring', 'dofile'},
+    io = {'open', 'popen', 'lines', 'input', 'output', 'tmpfile'},
+    os = {'execute', 'remove', 'rename', 'tmpname'},
+    package = {'loadlib'},
+    debug = {
+        'debug', 'getlocal', 'getregistry', 'getupvalue', 'getuservalue', 'setlocal', 'setmetatable', 'setupvalue',
+        'setuservalue', 'sethook', 'upvalueid', 'upvaluejoin',
+    },
+}
+
+for library, names in pairs(REMOVED) do
+    for _, name in ipairs(names) do _G[library][name] = nil end
+end
+
+local HIDDEN <const> = {'executeScriptString', 'launchExecutable'}
+
+for _, name in ipairs(HIDDEN) do
+    sim[name] = false -- with nil the member would come back when it is asked for
+    _G['sim' .. name:sub(1, 1):upper() .. name:sub(2)] = false -- its older name
+end
+
+-- Modules about files and programs.
+for _, name in ipairs{'lfs', 'lfsx', 'simSubprocess'} do
+    package.preload[name] = function() error('not for remote clients (--no-unsafe).', 0) end
+end
+
+-- What a client may not reach through another script: a name, or all of a library.
+local FORBIDDEN <const> = {
+    _evalExec = true, _evalExecRet = true, load = true, loadfile = true, loadstring = true, dofile = true,
+    require = true, io = true, os = true, package = true, debug = true, lfs = true, simSubprocess = true,
+}
+
+local callScriptFunction = sim.callScriptFunction
+
+function sim.callScriptFunction(name, ...)
+    if type(name) == 'string' and FORBIDDEN[name:match('^[^.@]*')] then name = 'FORBIDDEN' end
+    return callScriptFunction(name, ...)
+end
+
+simCallScriptFunction = sim.callScriptFunction
