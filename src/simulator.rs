@@ -85,7 +85,8 @@ impl Simulator {
     /// When the server cannot start.
     pub fn serve_zmq(&mut self, listener: TcpListener, stop: Arc<AtomicBool>) -> std::io::Result<SocketAddr> {
         let address = listener.local_addr()?;
-        self.sim.zmq_server.replace(Some(Rc::new(ZmqServer::start(listener, stop)?)));
+        let server = ZmqServer::start(self.sim.event_loop()?, listener, stop)?;
+        self.sim.zmq_server.replace(Some(Rc::new(server)));
         let port = address.port().to_string().into_bytes();
         self.sim.app.borrow_mut().named_params.insert("zmqRemoteApi.rpcPort".to_owned(), port);
         let add_on = self.sim.add_detached(ScriptType::AddOn, detached("ZMQ remote API@addOnScript", ZMQ_ADD_ON));
@@ -93,12 +94,9 @@ impl Simulator {
         Ok(address)
     }
 
-    /// Waits until a client asks for something, at most that long; false at once when there are no clients to be served.
+    /// Waits until something has arrived from outside, at most that long; false at once when nothing can, for want of sockets.
     pub fn wait_for_request(&self, patience: Duration) -> bool {
-        self.sim.zmq_server().is_some_and(|server| {
-            server.wait(patience);
-            true
-        })
+        self.sim.wait_for_arrival(patience)
     }
 
     /// Adds a script. Customization scripts, add-ons and the sandbox start at once; a simulation script starts with the simulation.

@@ -1,20 +1,27 @@
 //! The ZeroMQ end of the remote API.
 //!
-//! The sockets live on the simulator's own thread and move while it receives: a request costs no change of threads, which takes longer
+//! The sockets live on the simulator's own thread and move with its event loop: a request costs no change of threads, which takes longer
 //! than most requests. A ROUTER socket speaks to the clients' REQ sockets, so that it is known which connection sent what, and when one goes.
 
 use std::cell::RefCell;
-use std::collections::{HashMap, VecDeque};
+use std::collections::HashMap;
 use std::net::TcpListener;
+use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use bytes::Bytes;
+use futures::StreamExt;
 use futures::channel::mpsc::Receiver;
-use futures::{FutureExt, StreamExt};
-use tokio::runtime::Runtime;
 use zeromq::{RouterRecvHalf, RouterSendHalf, RouterSocket, Socket, SocketEvent, SocketRecv, SocketSend, ZmqMessage};
+
+use super::event_loop::{Deliver, EventLoop, Inbox, Task};
+
+/// Requests that may wait for the simulator; clients have one each, so more are a sign of something else.
+const MOST_REQUESTS: usize = 1024;
+/// Rest after a message that could not be read.
+const REST: Duration = Duration::from_millis(1);
 
 /// A connection, as long as it lasts.
 pub(crate) type Peer = u64;
@@ -37,18 +44,12 @@ enum Arrival {
 
 /// A server for REQ sockets.
 pub(crate) struct ZmqServer {
-    runtime: Runtime,
-    sockets: RefCell<Sockets>,
+    event_loop: Rc<EventLoop>,
+    sender: RefCell<RouterSendHalf>,
+    inbox: RefCell<Inbox<Arrival>>,
     peers: RefCell<Peers>,
-    /// What `wait` has seen and `receive` has not.
-    seen: RefCell<VecDeque<Arrival>>,
     stop: Arc<AtomicBool>,
-}
-
-struct Sockets {
-    sender: RouterSendHalf,
-    receiver: RouterRecvHalf,
-    events: Receiver<SocketEvent>,
+    _receiving: Task,
 }
 
 /// Numbers for connections.
@@ -81,40 +82,33 @@ impl ZmqServer {
     /// Serves the connections `listener` accepts. Once `stop` is set, nobody is waited for.
     ///
     /// # Errors
-    /// When there can be no event loop.
-    pub(crate) fn start(listener: TcpListener, stop: Arc<AtomicBool>) -> std::io::Result<Self> {
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_io().enable_time().build()?;
-        let sockets = runtime.block_on(open(listener)).map_err(std::io::Error::other)?;
-        Ok(Self { runtime, sockets: RefCell::new(sockets), peers: RefCell::default(), seen: RefCell::default(), stop })
-    }
-
-    /// Moves the sockets until something has arrived, or for that long.
-    fn next(&self, patience: Duration) -> Option<Arrival> {
-        let mut sockets = self.sockets.borrow_mut();
-        self.runtime.block_on(async {
-            // The loop looks at the system's sockets only when there is nothing else to do.
-            tokio::task::yield_now().await;
-            if patience.is_zero() {
-                // A timer would take up to a millisecond.
-                return sockets.next().now_or_never().flatten();
-            }
-            tokio::time::timeout(patience, sockets.next()).await.ok().flatten()
+    /// When the listener cannot be used.
+    pub(crate) fn start(
+        event_loop: Rc<EventLoop>,
+        listener: TcpListener,
+        stop: Arc<AtomicBool>,
+    ) -> std::io::Result<Self> {
+        let mut socket = RouterSocket::new();
+        let events = socket.monitor();
+        event_loop.block_on(socket.bind_listener(listener)).map_err(std::io::Error::other)?;
+        let (sender, receiver) = socket.split();
+        let (deliver, inbox) = event_loop.inbox(MOST_REQUESTS);
+        let receiving = event_loop.spawn(receive_all(receiver, events, deliver));
+        Ok(Self {
+            event_loop,
+            sender: RefCell::new(sender),
+            inbox: RefCell::new(inbox),
+            peers: RefCell::default(),
+            stop,
+            _receiving: receiving,
         })
-    }
-
-    /// Waits until something has come in, at most that long.
-    pub(crate) fn wait(&self, patience: Duration) {
-        let mut seen = self.seen.borrow_mut();
-        if seen.is_empty() {
-            seen.extend(self.next(patience));
-        }
     }
 
     /// The next of what came in; waits for it at most that long.
     pub(crate) fn receive(&self, patience: Duration) -> Option<Incoming> {
-        let seen = self.seen.borrow_mut().pop_front();
+        let arrival = self.event_loop.fetch(&mut self.inbox.borrow_mut(), patience)?;
         let mut peers = self.peers.borrow_mut();
-        match seen.or_else(|| self.next(patience))? {
+        match arrival {
             Arrival::Request(identity, bytes) => Some(Incoming::Request(peers.number(&identity), bytes)),
             // One that never sent a request is nobody's loss.
             Arrival::Gone(identity) => peers.forget(&identity).map(Incoming::Gone),
@@ -132,30 +126,31 @@ impl ZmqServer {
         let content = Bytes::from(bytes);
         let message = ZmqMessage::try_from(vec![identity, Bytes::new(), content]).expect("three frames are a message");
         // A client that is gone is reported by the monitor.
-        let _ = self.runtime.block_on(self.sockets.borrow_mut().sender.send(message));
+        let _ = self.event_loop.block_on(self.sender.borrow_mut().send(message));
     }
 }
 
-impl Sockets {
-    /// The next request or departure; None for anything else.
-    async fn next(&mut self) -> Option<Arrival> {
-        tokio::select! {
+/// Delivers requests and departures.
+async fn receive_all(mut receiver: RouterRecvHalf, mut events: Receiver<SocketEvent>, deliver: Deliver<Arrival>) {
+    loop {
+        let arrival = tokio::select! {
             biased;
-            message = self.receiver.recv() => message.ok().and_then(request),
-            event = self.events.next() => match event {
-                Some(SocketEvent::Disconnected(peer)) => Some(Arrival::Gone(Bytes::copy_from_slice(&peer))),
+            message = receiver.recv() => match message {
+                Ok(message) => request(message),
+                Err(_) => {
+                    tokio::time::sleep(REST).await;
+                    None
+                }
+            },
+            Some(event) = events.next() => match event {
+                SocketEvent::Disconnected(peer) => Some(Arrival::Gone(Bytes::copy_from_slice(&peer))),
                 _ => None,
             },
+        };
+        if let Some(arrival) = arrival {
+            deliver.deliver(arrival).await;
         }
     }
-}
-
-async fn open(listener: TcpListener) -> zeromq::ZmqResult<Sockets> {
-    let mut socket = RouterSocket::new();
-    let events = socket.monitor();
-    socket.bind_listener(listener).await?;
-    let (sender, receiver) = socket.split();
-    Ok(Sockets { sender, receiver, events })
 }
 
 /// The frames of a REQ socket: who, an empty one, the message. Anything else is ignored.

@@ -1,8 +1,9 @@
 //! The simulator's heart: one scene, many scripts, one clock.
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
+use std::time::Duration;
 
 use super::binding::Registry;
 use super::clock::Clock;
@@ -16,7 +17,7 @@ use super::system_semaphore::SystemSemaphores;
 use super::tubes::Tubes;
 use super::verbosity;
 use crate::dynamics::Dynamics;
-use crate::io::ZmqServer;
+use crate::io::{EventLoop, ZmqServer};
 use crate::scene::script_object::ScriptType;
 use crate::scene::{Handle, Scene};
 
@@ -88,6 +89,8 @@ pub(crate) struct Sim {
     pub tubes: RefCell<Tubes>,
     pub semaphores: RefCell<SystemSemaphores>,
     pub events: EventStream,
+    /// Where all sockets live; made at first need.
+    event_loop: OnceCell<Rc<EventLoop>>,
     /// Where programs outside call functions, by ZeroMQ.
     pub zmq_server: RefCell<Option<Rc<ZmqServer>>>,
     next_detached: Cell<i64>,
@@ -119,6 +122,7 @@ impl Sim {
             tubes: RefCell::default(),
             semaphores: RefCell::default(),
             events: EventStream::new(),
+            event_loop: OnceCell::new(),
             zmq_server: RefCell::default(),
             next_detached: Cell::new(FIRST_DETACHED),
             once: RefCell::default(),
@@ -150,6 +154,26 @@ impl Sim {
     /// The one script of that type without an object: main or sandbox.
     pub(crate) fn detached(&self, script_type: ScriptType) -> Option<Rc<Script>> {
         self.scripts.borrow().values().find(|s| s.object.is_none() && s.script_type == script_type).cloned()
+    }
+
+    /// The event loop of this simulator's sockets.
+    ///
+    /// # Errors
+    /// When the system gives none.
+    pub(crate) fn event_loop(&self) -> std::io::Result<Rc<EventLoop>> {
+        if let Some(event_loop) = self.event_loop.get() {
+            return Ok(event_loop.clone());
+        }
+        let event_loop = Rc::new(EventLoop::new()?);
+        Ok(self.event_loop.get_or_init(|| event_loop).clone())
+    }
+
+    /// Lets the sockets move until something has arrived, at most that long; false at once when there are none.
+    pub(crate) fn wait_for_arrival(&self, patience: Duration) -> bool {
+        self.event_loop.get().is_some_and(|event_loop| {
+            event_loop.wait(patience);
+            true
+        })
     }
 
     pub(crate) fn zmq_server(&self) -> Option<Rc<ZmqServer>> {
