@@ -22,6 +22,7 @@ const OWNERS: &[(&str, &str)] = &[
     ("fs4", "src/script"),
     ("image", "src/format/picture.rs"),
     ("zeromq", "src/io"),
+    ("zmq_sys", "src/io/zmq"),
     ("tokio", "src/io"),
     ("bytes", "src/io"),
     ("futures", "src/io"),
