@@ -89,7 +89,8 @@ impl Simulator {
         self.sim.zmq_server.replace(Some(Rc::new(server)));
         let port = address.port().to_string().into_bytes();
         self.sim.app.borrow_mut().named_params.insert("zmqRemoteApi.rpcPort".to_owned(), port);
-        let add_on = self.sim.add_detached(ScriptType::AddOn, detached("ZMQ remote API@addOnScript", ZMQ_ADD_ON));
+        let add_on =
+            self.sim.add_detached(ScriptType::AddOn, detached("ZMQ remote API server@addOnScript", ZMQ_ADD_ON));
         self.sim.start_detached(&add_on);
         Ok(address)
     }

@@ -4,211 +4,158 @@ The ZeroMQ remote API: calls of functions of this Lua state by programs outside.
 An add-on is made of this file. All clients share its state, so that what one requires or defines, the others see. Each request runs in a
 coroutine of its own (a task): it may wait for a step or call back into its client while other clients are served.
 
-The sockets are native; here are the words of the protocol, and who waits for whom.
+    swanilda.batch(calls, stopAtError)    several requests ({func, args, argsL} or {eval}) in one; gives a list of their answers,
+                                          {ret} or {err} each
+
+The sockets are native; here are the words of the protocol, and who waits for whom. Parameters (sim.setNamedStringParam, -D):
+zmqRemoteApi.rpcPort, zmqRemoteApi.autoStart, and zmqRemoteApi.verbose, with which requests are logged (1: their names, 2: in full).
 ]]
 
 local _, native = ...
 local sim = require('sim')
 local load = load -- for chunks of clients, whatever is taken from their reach
-local cbor = require('org.conman.cbor')
-local simCBOR = require('simCBOR')
-local head = require('org.conman.cbor_c').encode
-local create, resume, yield, status = coroutine.create, coroutine.resume, coroutine.yield, coroutine.status
+local answers = require('remote.zmq_answers')
+local clients = require('remote.zmq_clients')
+local namespaces = require('remote.namespaces')
+local decode = require('simCBOR').decode
+local resume, yield, status = coroutine.resume, coroutine.yield, coroutine.status
 local pack, unpack = table.pack, table.unpack
 
-local MISMATCH <const> = "The client ZeroMQ remote API version does not match CoppeliaSim's version"
-local WAIT <const>, EXECUTED <const>, END <const>, NIL <const> = '_*wait*_', '_*executed*_', '_*end*_', '_*NIL*_'
-local REPEAT <const> = '_*repeat*_'
+local EXECUTED <const>, END <const>, NIL <const> = '_*executed*_', '_*end*_', '_*NIL*_'
 local CALLBACK <const> = '^(.*)@func$'
-local LIFE <const> = 600 -- seconds a silent client is remembered
-local PATIENCE <const> = 0.5 -- seconds a client waits for a step without a word
+local PATIENCE <const> = 0.5 -- seconds a client waits without a word
+local QUIET <const> = 0.002 -- seconds without a request after which an idle simulator looks after everything else
+local NAP <const> = 0.05 -- the same while a client holds it up
 local SEARCHED <const> = 16 -- entries of a table that are looked through for callbacks
-local MOST_ARGUMENTS <const> = 1000
+local MOST_ARGUMENTS <const> = 100000
+local MOST_QUEUED <const> = 1000 -- callbacks nobody waits for, by client
+local MOST_HELD <const> = 1000 -- requests put off
+local MOST_AT_ONCE <const> = 10000 -- requests between two looks at everything else
 local ADVANCING <const> = sim.simulation_advancing
 
-local clients = {} -- in the order they came
-local byUuid = {}
 local current -- the client whose request is running
 local currentStep = 0
-local insideCallback = false -- in a callback that cannot yield: only its client is served
-
----------------------------------------------------------------- clients
-
-local function newClient(request, now)
-    local client = {
-        uuid = request.uuid,
-        peers = {},
-        tasks = {}, -- requests without answer, the innermost last
-        level = 0, -- of stepping
-        desiredStep = 0,
-        locks = 0,
-        life = math.tointeger(request.timeout) or LIFE,
-        seen = now,
-    }
-    clients[#clients + 1] = client
-    byUuid[request.uuid] = client
-    return client
-end
-
-local function forget(client)
-    for i = #clients, 1, -1 do
-        if clients[i] == client then table.remove(clients, i) end
-    end
-    byUuid[client.uuid] = nil
-end
-
--- A connection is gone. A client may have several.
-local function forgetPeer(peer)
-    for i = #clients, 1, -1 do
-        local client = clients[i]
-        if client.peers[peer] then
-            client.peers[peer] = nil
-            if not next(client.peers) then forget(client) end
-        end
-    end
-end
-
-local function forgetExpired(now)
-    for i = #clients, 1, -1 do
-        if now - clients[i].seen > clients[i].life then forget(clients[i]) end
-    end
-end
+local asking -- the client whose blocking callback everything waits for
+local held = {} -- requests of others meanwhile
+local restarting = false
+local windows = {idle = 0.05, running = 0.002} -- seconds requests are served at a time; running: for each client that does not step
+local served, servedCount = {}, 0 -- clients in the present window that do not step
+local verbose = math.tointeger(tonumber(sim.getNamedStringParam('zmqRemoteApi.verbose'))) or 0
 
 local function isRunning() return sim.getSimulationState() & ADVANCING ~= 0 end
 
--- Whether the simulation must not advance because of this client.
-local function holdsUp(client)
-    local task = client.tasks[#client.tasks]
-    if client.locks > 0 then return true end
-    if client.level > 0 then return client.desiredStep <= currentStep end
-    return task ~= nil and task.waits ~= 'step'
-end
-
-local function anyHoldsUp()
-    for _, client in ipairs(clients) do
-        if holdsUp(client) then return true end
-    end
-    return false
-end
-
-local function anyLock()
-    for _, client in ipairs(clients) do
-        if client.locks > 0 then return true end
-    end
-    return false
-end
-
----------------------------------------------------------------- answers
-
-local function answer(task, bytes)
-    native.reply(task.peer, bytes)
-    task.peer = nil -- the slot is used up until the client speaks again
-end
-
-local WAIT_BYTES <const> = cbor.encode({func = WAIT, args = {}})
-local EMPTY <const> = cbor.encode({})
-
-local function isArray(t)
-    local n = 0
-    for _ in pairs(t) do n = n + 1 end
-    return n == #t
-end
-
--- The types a function is declared to return; only they tell text from bytes, and an empty list from an empty map.
-local function encodeResult(value, declared, first)
-    if declared and type(value) == 'table' and not getmetatable(value) then
-        return (isArray(value) and cbor.TYPE.ARRAY or cbor.TYPE.MAP)(value)
-    end
-    if first and type(value) == 'string' then
-        if declared == 'string' then return cbor.TYPE.TEXT(value) end
-        if declared == 'buffer' then return cbor.TYPE.BIN(value) end
-    end
-    return cbor.encode(value)
-end
-
-local function encodeResults(results, types)
-    if results.n == 0 then return '\xa1\x63ret\xa0' end
-    local parts = {'\xa1\x63ret', head(0x80, results.n)}
-    for i = 1, results.n do parts[i + 2] = encodeResult(results[i], types and types[i], i == 1) end
-    return table.concat(parts)
-end
-
-local function encodeError(message)
-    local text = tostring(message):gsub('\nstack traceback:.*', ''):gsub('\n', '_=NL=_'):gsub('\t', '_=TB=_')
-    return cbor.encode({err = text})
-end
+local function mustLeave() return restarting or native.closed() end
 
 ---------------------------------------------------------------- tasks
 
+local function answer(task, bytes)
+    if not task.peer then return end -- its client is gone
+    native.reply(task.peer, bytes)
+    task.peer = nil
+end
+
 local ASK <const> = {} -- yielded by a task that asks its client
+local deliverQueue -- below
+
+local function awaitStep(client, task)
+    task.waits, task.step, task.since = 'step', currentStep, sim.getSystemTime()
+    if client.queue[1] then deliverQueue(client) end
+    if not isRunning() then return answer(task, answers.WAIT) end
+    if client.level > 0 then client.desiredStep = currentStep + 1 end
+end
 
 -- Goes on with a task until it ends, asks its client or waits for a step.
 local function run(client, task, ...)
     local before = current
-    current = client
-    local outcome = pack(resume(task.coroutine, ...))
+    current, task.waits = client, nil
+    local ok, what, bytes = resume(task.coroutine, ...)
     current = before
     if status(task.coroutine) == 'dead' then
-        table.remove(client.tasks)
-        local ok, bytes = outcome[1], outcome[2]
-        return answer(task, ok and bytes or encodeError(bytes))
+        clients.endTask(client, task)
+        return answer(task, ok and what or answers.failure(what))
     end
-    if outcome[2] == ASK then
-        task.waits = EXECUTED
-        return answer(task, outcome[3])
-    end
-    task.waits, task.step, task.since = 'step', currentStep, sim.getSystemTime()
-    if not isRunning() then return answer(task, WAIT_BYTES) end
-    if client.level > 0 then client.desiredStep = currentStep + 1 end
+    if what ~= ASK then return awaitStep(client, task) end
+    task.waits = 'callback'
+    answer(task, bytes)
 end
 
 local function isDue(task) return task.step ~= currentStep or not isRunning() end
 
--- Tasks whose step is over go on; clients that wait for long are told so, since they may have a time limit.
-local function resumeDue(now)
-    for _, client in ipairs({unpack(clients)}) do
-        local task = client.tasks[#client.tasks]
-        if task and task.waits == 'step' and task.peer then
+local function resumeClient(client, now)
+    if client.queue[1] and clients.listening(client) then deliverQueue(client) end
+    local i = 1
+    while client.tasks[i] do
+        local task = client.tasks[i]
+        if task.waits == 'step' and task.peer then
             if isDue(task) then
-                task.waits = nil
                 run(client, task)
             elseif now - task.since > PATIENCE then
-                answer(task, WAIT_BYTES)
+                answer(task, answers.WAIT)
             end
         end
+        if client.tasks[i] == task then i = i + 1 end
+    end
+end
+
+-- Tasks whose step is over go on; clients that wait for long are told so, since they may have a time limit.
+local function resumeDue()
+    local now = sim.getSystemTime()
+    local i = 1
+    while clients.all[i] do
+        local client = clients.all[i]
+        if #client.tasks > 0 then resumeClient(client, now) end
+        if clients.all[i] == client then i = i + 1 end
     end
 end
 
 ---------------------------------------------------------------- callbacks into the client
 
-local function encodeCall(name, args)
-    local parts = {}
-    for i = 1, args.n do parts[i] = cbor.encode(args[i]) end
-    local list = args.n == 0 and '\xa0' or head(0x80, args.n) .. table.concat(parts)
-    return '\xa2' .. cbor.encode('func') .. cbor.TYPE.TEXT(name) .. cbor.encode('args') .. list
+local serveAsked -- below
+
+-- Sends the innermost blocking callback as soon as the client listens.
+local function sendAsk(client)
+    local ask = client.asks[#client.asks]
+    local task = clients.listening(client)
+    if ask and not ask.task and task then
+        ask.task, ask.peer = task, task.peer
+        answer(task, ask.bytes)
+    end
 end
 
-local serve -- below
+local function canAnswer(client, ask)
+    return clients.isKnown(client) and (not ask.peer or client.peers[ask.peer])
+end
 
--- A callback where nothing can yield: everything waits for this client.
+-- A callback where nothing can yield: everything waits for this client, until it speaks next if it is not listening.
 local function askBlocking(client, bytes)
-    local task = client.tasks[#client.tasks]
-    answer(task, bytes)
-    local outer = insideCallback
-    insideCallback, task.waits, task.result = client, 'blocking', nil
-    while not task.result and byUuid[client.uuid] == client and not native.closed() do serve(0.05) end
-    insideCallback, task.waits = outer, nil
-    local result = task.result or pack()
-    return unpack(result, 1, result.n)
+    local outer, ask = asking, {bytes = bytes, postponed = {}}
+    client.asks[#client.asks + 1] = ask
+    asking = client
+    sendAsk(client)
+    while not ask.results and canAnswer(client, ask) and not mustLeave() do serveAsked() end
+    asking = outer
+    table.remove(client.asks)
+    for _, start in ipairs(ask.postponed) do start() end
+    local results = ask.results or {n = 0}
+    return unpack(results, 1, results.n)
 end
 
 local function callbackOf(client, name)
     return function(...)
-        local bytes = encodeCall(name, pack(...))
+        local bytes = answers.call(name, pack(...))
         local _, isMain = coroutine.running()
         if isMain or not getYieldAllowed() then return askBlocking(client, bytes) end
         return yield(ASK, bytes)
     end
+end
+
+function deliverQueue(client)
+    if client.delivering then return end
+    client.delivering = true
+    while client.queue[1] and clients.isKnown(client) and not mustLeave() do
+        askBlocking(client, table.remove(client.queue, 1))
+    end
+    client.delivering = false
 end
 
 local function withCallbacks(client, value, depth)
@@ -230,11 +177,8 @@ end
 ---------------------------------------------------------------- requests
 
 local function lookup(path)
-    local value = _G
-    for word in path:gmatch('[%w_]+') do
-        value = value[word]
-        if not value then error('No such function: ' .. path, 0) end
-    end
+    local value = namespaces.find(path)
+    if not value then error('No such function: ' .. path, 0) end
     return value
 end
 
@@ -242,175 +186,216 @@ end
 local function given(request)
     local args = type(request.args) == 'table' and request.args or {}
     local n = math.tointeger(request.argsL) or #args
-    return args, math.max(0, math.min(n, MOST_ARGUMENTS))
+    if n > MOST_ARGUMENTS then error('too many arguments', 0) end
+    return args, math.max(0, n)
 end
 
 local function arguments(client, request)
     local args, n = given(request)
     for i = 1, n do
-        local value = withCallbacks(client, args[i], 0)
-        if value == NIL then value = nil end
-        args[i] = value
+        local value = args[i]
+        local kind = type(value)
+        if kind == 'string' or kind == 'table' then
+            if value == NIL then value = nil end
+            args[i] = withCallbacks(client, value, 0)
+        end
     end
     return args, n
 end
+
+-- As direct requests these count for the client; within Lua code they mean what they mean everywhere.
+local LOCKS <const> = {
+    ['sim.acquireLock'] = function() current.locks = current.locks + 1 end,
+    ['sim.releaseLock'] = function() current.locks = math.max(0, current.locks - 1) end,
+}
 
 local function perform(client, request)
     local func = request.func
     if func and func ~= '' then
         local args, n = arguments(client, request)
-        return encodeResults(pack(lookup(func)(unpack(args, 1, n))), native.returns(func))
+        local code = LOCKS[func] or lookup(func)
+        return answers.results(pack(code(unpack(args, 1, n))), native.returns(func))
     end
-    if not request.eval then return EMPTY end
-    return encodeResults(pack(assert(load(request.eval, nil, 't'))()))
+    if not request.eval then return answers.EMPTY end
+    return answers.results(pack(assert(load(request.eval, nil, 't'))()))
 end
 
 local function executed(client, peer, request)
-    local task = client.tasks[#client.tasks]
-    if not task then return native.reply(peer, encodeError('No such function: ' .. EXECUTED)) end
+    local ask = client.asks[#client.asks]
+    if ask and ask.task and ask.peer == peer then
+        ask.task.peer = peer
+        local args, n = given(request)
+        ask.results = pack(unpack(args, 1, n))
+        return
+    end
+    local task = clients.expecting(client, peer)
+    if not task then return native.reply(peer, answers.failure('No such function: ' .. EXECUTED)) end
     task.peer = peer
-    local args, n = given(request)
-    if task.waits == 'blocking' then
-        task.result = pack(unpack(args, 1, n))
-    elseif task.waits == EXECUTED then
-        task.waits = nil
+    if task.waits == 'callback' then
+        local args, n = given(request)
         run(client, task, unpack(args, 1, n))
     elseif isDue(task) then
-        task.waits = nil
         run(client, task)
+    else
+        task.since = sim.getSystemTime()
     end
 end
 
-local function handle(peer, request)
-    if type(request) ~= 'table' or type(request.uuid) ~= 'string' then
-        return native.reply(peer, cbor.encode({success = false, error = MISMATCH}))
+local function start(client, peer, request)
+    local task = clients.newTask(client, peer, perform)
+    local ask = client.asks[#client.asks]
+    if ask and not ask.task then
+        ask.postponed[#ask.postponed + 1] = function() run(client, task, client, request) end
+        return sendAsk(client)
     end
-    local now = sim.getSystemTime()
-    local client = byUuid[request.uuid] or newClient(request, now)
-    client.seen, client.peers[peer] = now, true
-    if insideCallback and insideCallback ~= client then
-        return native.reply(peer, cbor.encode({func = REPEAT, args = {}}))
-    end
-    if request.func == END then
-        forget(client)
-        return native.reply(peer, EMPTY)
-    end
-    if request.func == EXECUTED then return executed(client, peer, request) end
-    local task = {peer = peer, coroutine = create(perform)}
-    client.tasks[#client.tasks + 1] = task
+    if client.queue[1] then deliverQueue(client) end
     run(client, task, client, request)
 end
 
--- Serves what has arrived; waits up to `patience` seconds when nothing has. Tells whether there was anything.
-function serve(patience)
-    local peer, bytes = native.receive(patience)
-    local any = peer ~= nil
-    while peer do
-        if bytes then
-            local ok, request = pcall(simCBOR.decode, bytes)
-            handle(peer, ok and request or nil)
-        else
-            forgetPeer(peer)
-        end
-        peer, bytes = native.receive(0)
+local function handle(peer, request)
+    local client = clients.of(request, peer, sim.getSystemTime())
+    if asking and asking ~= client then
+        if #held >= MOST_HELD then return native.reply(peer, answers.REPEAT) end
+        held[#held + 1] = {peer = peer, request = request, since = client.seen}
+        return
     end
-    return any
+    if client.level == 0 and not served[client] then served[client], servedCount = true, servedCount + 1 end
+    if request.func == END then
+        clients.forget(client)
+        return native.reply(peer, answers.EMPTY)
+    end
+    if request.func == EXECUTED then return executed(client, peer, request) end
+    start(client, peer, request)
+end
+
+local function logRequest(peer, request)
+    local text = tostring(request.func or request.eval)
+    if verbose > 1 then text = getAsString(request) end
+    sim.addLog(sim.verbosity_scriptinfos, ('request from connection %d: %s'):format(peer, text))
+end
+
+local function handleSafely(peer, request)
+    local ok, message = xpcall(handle, tostring, peer, request)
+    if not ok then native.reply(peer, answers.failure(message)) end
+end
+
+local function receive(peer, bytes)
+    local ok, request = xpcall(decode, tostring, bytes)
+    if not ok or type(request) ~= 'table' or type(request.uuid) ~= 'string' then
+        return native.reply(peer, answers.MISMATCH)
+    end
+    if verbose > 0 then logRequest(peer, request) end
+    handleSafely(peer, request)
+end
+
+-- The next of what has arrived; waits up to `patience` seconds. Tells whether there was anything.
+local function serveOne(patience)
+    if held[1] and not asking then
+        local first = table.remove(held, 1)
+        handleSafely(first.peer, first.request)
+        return true
+    end
+    local peer, bytes = native.receive(patience)
+    if not peer then return false end
+    if bytes then receive(peer, bytes) else clients.forgetPeer(peer) end
+    return true
+end
+
+-- While everything waits for one client, the others wait a little, then they are told to ask again.
+function serveAsked()
+    serveOne(NAP)
+    local now = sim.getSystemTime()
+    while held[1] and now - held[1].since > PATIENCE do native.reply(table.remove(held, 1).peer, answers.REPEAT) end
+    clients.forgetExpired(now)
 end
 
 ---------------------------------------------------------------- functions for clients
 
-zmqRemoteApi = {}
+namespaces.install(native.members)
 
-function zmqRemoteApi.require(name) _G[name:match('^[^-]*')] = require(name) end
-
--- The table sim is filled name by name when they are used.
-local function membersOf(value)
-    if value ~= sim then return pairs(value) end
-    local members = {}
-    for _, name in ipairs(native.members()) do members[name] = sim[name] end
-    for name, member in next, sim do members[name] = member end
-    return pairs(members)
-end
-
-local function describe(value)
-    if type(value) ~= 'table' then return value end
-    local out = {}
-    for name, member in membersOf(value) do
-        if member == false then
-            -- taken from clients
-        elseif type(member) == 'function' then
-            out[name] = {func = {}}
-        elseif type(member) ~= 'table' then
-            out[name] = {const = member}
-        elseif not getmetatable(member) then
-            out[name] = describe(member)
-        end
-    end
-    return out
-end
-
-function zmqRemoteApi.info(name)
-    local ok, value = pcall(lookup, name)
-    return ok and describe(value) or nil
-end
-
-function sim.setStepping(enable)
-    local client = current
-    local level = client.level
-    client.level = enable and level + 1 or math.max(0, level - 1)
-    if level == 0 then client.desiredStep = currentStep end
-    return level
-end
-
-function sim.acquireLock() current.locks = current.locks + 1 end
-
-function sim.releaseLock() current.locks = math.max(0, current.locks - 1) end
-
-local stopSimulation = sim.stopSimulation
-
-function sim.stopSimulation(...)
-    for _, client in ipairs(clients) do
-        client.level, client.locks, client.desiredStep = 0, 0, currentStep + 10
-    end
-    return stopSimulation(...)
-end
-
-function sim.setThreadAutomaticSwitch() end
-
-function sim.testCB(a, callback, b, times)
-    local result
-    for _ = 0, times or 99 do result = callback(a, b) end
-    return result
-end
+require('remote.zmq_functions')({
+    current = function() return current end,
+    currentStep = function() return currentStep end,
+    perform = function(call) return perform(current, call) end,
+    restart = function() restarting = true end,
+    setWindow = function(seconds) windows[isRunning() and 'running' or 'idle'] = seconds end,
+})
 
 ---------------------------------------------------------------- the add-on
 
 setAutoYield(false)
 if not sim.getBoolProperty(sim.handle_app, 'execUnsafeExt') then require('remote.restrict') end
 
+function sysCall_init()
+    sim.setBoolProperty(sim.handle_self, 'restartOnError', true)
+    local port = sim.getNamedStringParam('zmqRemoteApi.rpcPort') or '?'
+    sim.addLog(sim.verbosity_scriptinfos, ('ZeroMQ Remote API server starting (rpcPort=%s)...'):format(port))
+end
+
+-- An error in a function of one client must not end the add-on of all.
+local function callLocally(f, ...)
+    local results = pack(xpcall(f, debug.traceback, ...))
+    if not results[1] then return sim.addLog(sim.verbosity_scripterrors, tostring(results[2])) end
+    return unpack(results, 2, results.n)
+end
+
+-- A function of this state, or one that clients may have.
+function sysCall_ext(name, ...)
+    local f = namespaces.find(name)
+    if f then return callLocally(f, ...) end
+    local bytes = answers.call(name, pack(...))
+    for _, client in ipairs(clients.all) do
+        if #client.queue >= MOST_QUEUED then table.remove(client.queue, 1) end
+        client.queue[#client.queue + 1] = bytes
+    end
+end
+
+-- Serves what has arrived, and what comes after it while the window is open and it is not quiet for long.
+local function serveWindow(kind, quiet)
+    served, servedCount = {}, 0
+    if not serveOne(0) then return end
+    local begun, state, count = sim.getSystemTime(), sim.getSimulationState(), 1
+    while count < MOST_AT_ONCE and not mustLeave() and sim.getSimulationState() == state do
+        local window = windows[kind] * (kind == 'running' and servedCount or 1)
+        local left = begun + window - sim.getSystemTime()
+        if kind == 'running' and clients.allAwaitStep(served) then left = 0 end
+        if left < 0 and servedCount > 0 or not serveOne(math.max(0, math.min(left, quiet))) then return end
+        count = count + 1
+    end
+end
+
 local function serveIdle()
-    local now = sim.getSystemTime()
-    forgetExpired(now)
-    resumeDue(now)
-    serve(0)
-    while anyLock() and not native.closed() do serve(0.05) end
+    clients.forgetExpired(sim.getSystemTime())
+    resumeDue()
+    serveWindow('idle', QUIET)
+    while clients.anyLock() and not mustLeave() do serveOne(NAP) end
+    if restarting then return {cmd = 'restart'} end
 end
 
 sysCall_nonSimulation, sysCall_suspended = serveIdle, serveIdle
 
 function sysCall_actuation()
-    resumeDue(sim.getSystemTime())
-    serve(0)
-    while anyHoldsUp() and not native.closed() do
-        serve(0.05)
-        local now = sim.getSystemTime()
-        forgetExpired(now)
-        resumeDue(now)
+    resumeDue()
+    serveWindow('running', NAP)
+    while clients.anyHoldsUp(currentStep) and not mustLeave() do
+        serveOne(NAP)
+        clients.forgetExpired(sim.getSystemTime())
+        resumeDue()
     end
     currentStep = currentStep + 1
+    if restarting then return {cmd = 'restart'} end
 end
 
 function sysCall_afterSimulation()
     currentStep = 0
-    resumeDue(sim.getSystemTime())
+    resumeDue()
+end
+
+-- Nobody is left without an answer.
+function sysCall_cleanup()
+    local gone = answers.failure('the remote API server has ended or is starting anew.')
+    for _, client in ipairs(clients.all) do
+        for _, task in ipairs(client.tasks) do answer(task, gone) end
+    end
+    for _, request in ipairs(held) do native.reply(request.peer, gone) end
 end

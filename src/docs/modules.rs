@@ -20,7 +20,11 @@ const INNER: &[&str] = &[
     "no_unsafe",
     "org/conman/cbor_tags",
     "quaternion",
+    "remote/namespaces",
     "remote/restrict",
+    "remote/zmq_answers",
+    "remote/zmq_clients",
+    "remote/zmq_functions",
     "trajectory",
 ];
 

@@ -1,0 +1,55 @@
+--[[
+What there is to call, as the clients of a remote API ask for it: `zmqRemoteApi.require` and `zmqRemoteApi.info`.
+
+Gives a function that makes these two in the Lua state it is called in; it takes the names of the members of `sim`, which fills itself.
+]]
+
+local sim = require('sim')
+
+-- The table sim is filled name by name when they are used.
+local function membersOf(value, simMembers)
+    if value ~= sim then return value end
+    local members = {}
+    for _, name in ipairs(simMembers()) do members[name] = sim[name] end
+    for name, member in next, sim do members[name] = member end
+    return members
+end
+
+local function describe(value, simMembers)
+    if type(value) ~= 'table' then return value end
+    local out = {}
+    for name, member in pairs(membersOf(value, simMembers)) do
+        local kind = type(member)
+        if kind == 'function' then
+            out[name] = {func = {}}
+        elseif kind ~= 'table' and member ~= false then -- false: taken from clients
+            out[name] = {const = member}
+        elseif kind == 'table' and not getmetatable(member) and member ~= value then
+            out[name] = describe(member, simMembers)
+        end
+    end
+    return out
+end
+
+--- The global a path like `sim.getObject` leads to; nothing when there is none.
+local function find(path)
+    local value = _G
+    for word in path:gmatch('[%w_]+') do
+        value = value[word]
+        if not value then return end
+    end
+    return value
+end
+
+local function install(simMembers)
+    zmqRemoteApi = {}
+
+    function zmqRemoteApi.require(name) _G[name:match('^[^-]*')] = require(name) end
+
+    function zmqRemoteApi.info(name)
+        local ok, value = pcall(find, name)
+        return ok and describe(value, simMembers) or nil
+    end
+end
+
+return {install = install, find = find}

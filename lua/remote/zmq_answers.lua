@@ -1,0 +1,75 @@
+--[[
+How results, errors and callbacks of the ZeroMQ remote API become bytes.
+]]
+
+local cbor = require('org.conman.cbor')
+local head = require('org.conman.cbor_c').encode
+local encode, concat = cbor.encode, table.concat
+local type, getmetatable, pairs, next, tostring = type, getmetatable, pairs, next, tostring
+
+local M = {}
+
+local MISMATCH <const> = "The client ZeroMQ remote API version does not match CoppeliaSim's version"
+
+M.MISMATCH = encode({success = false, error = MISMATCH})
+M.WAIT = encode({func = '_*wait*_', args = {}})
+M.REPEAT = encode({func = '_*repeat*_', args = {}})
+M.EMPTY = encode({})
+
+local NO_RESULT <const> = '\xa1\x63ret\xa0'
+local RESULTS <const> = '\xa1\x63ret'
+
+local function countKeys(t)
+    local n = 0
+    for _ in pairs(t) do n = n + 1 end
+    return n
+end
+
+-- An array as long as it has only keys from 1 on, also when it is empty.
+local function encodeTable(t)
+    if next(t) == nil then return '\x80' end
+    if #t > 0 and countKeys(t) ~= #t then return cbor.TYPE.MAP(t) end
+    return encode(t)
+end
+
+-- The types a function is declared to return; only they tell text from bytes, and an empty list from an empty map.
+local function encodeResult(value, declared, first)
+    local kind = type(value)
+    if declared and kind == 'table' and not getmetatable(value) then return encodeTable(value) end
+    if first and kind == 'string' then
+        if declared == 'string' then return cbor.TYPE.TEXT(value) end
+        if declared == 'buffer' then return cbor.TYPE.BIN(value) end
+    end
+    return encode(value)
+end
+
+--- The answer with results.
+function M.results(results, types)
+    local n = results.n
+    if n == 0 then return NO_RESULT end
+    if n == 1 then return RESULTS .. '\x81' .. encodeResult(results[1], types and types[1], true) end
+    local parts = {RESULTS, head(0x80, n)}
+    for i = 1, n do parts[i + 2] = encodeResult(results[i], types and types[i], i == 1) end
+    return concat(parts)
+end
+
+--- The answer with an error, in one line.
+function M.failure(message)
+    local text = tostring(message):gsub('\nstack traceback:.*', ''):gsub('\n', '_=NL=_'):gsub('\t', '_=TB=_')
+    return encode({err = text})
+end
+
+--- A call of a function of the client.
+function M.call(name, args)
+    local parts = {'\xa2\x64func', cbor.TYPE.TEXT(name), '\x64args', args.n == 0 and '\xa0' or head(0x80, args.n)}
+    for i = 1, args.n do parts[i + 4] = encode(args[i]) end
+    return concat(parts)
+end
+
+--- A list of things that are encoded already; encodes as such.
+function M.list(parts)
+    local bytes = head(0x80, #parts) .. concat(parts)
+    return setmetatable({}, {__tocbor = function() return bytes end})
+end
+
+return M

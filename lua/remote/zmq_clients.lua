@@ -1,0 +1,146 @@
+--[[
+The clients of the ZeroMQ remote API: who they are, what of theirs is under way, and whether they hold up the simulation.
+
+A client is known by its uuid and has one or more connections. Each of its requests is a task as long as it has no answer:
+
+    peer         the connection that waits for an answer; nil while the client has the word
+    owner        the connection the task came by
+    coroutine    where it runs
+    waits        'step' | 'callback' | nil while it runs or has not begun
+]]
+
+local M = {}
+
+local LIFE <const> = 600 -- seconds a silent client is remembered
+local MOST_CLIENTS <const> = 10000
+local MOST_TASKS <const> = 200
+local LONGEST_NAME <const> = 1000
+
+local clients = {} -- in the order they came
+local byUuid = {}
+
+M.all = clients
+
+local function removeFrom(list, item)
+    for i = #list, 1, -1 do
+        if list[i] == item then return table.remove(list, i) end
+    end
+end
+
+local function newClient(request, now)
+    if #request.uuid > LONGEST_NAME then error('the uuid is too long', 0) end
+    if #clients >= MOST_CLIENTS then error('too many clients', 0) end
+    local client = {
+        uuid = request.uuid,
+        peers = {},
+        tasks = {}, -- the innermost last
+        asks = {}, -- blocking callbacks, the innermost last
+        queue = {}, -- callbacks nobody waits for
+        level = 0, -- of stepping
+        desiredStep = 0,
+        locks = 0,
+        life = math.tointeger(request.timeout) or LIFE,
+    }
+    clients[#clients + 1] = client
+    byUuid[request.uuid] = client
+    return client
+end
+
+--- The client a request comes from.
+function M.of(request, peer, now)
+    local client = byUuid[request.uuid] or newClient(request, now)
+    client.seen, client.peers[peer] = now, true
+    return client
+end
+
+function M.isKnown(client) return byUuid[client.uuid] == client end
+
+function M.forget(client)
+    removeFrom(clients, client)
+    byUuid[client.uuid] = nil
+end
+
+--- A connection is gone, and with it what came by it.
+function M.forgetPeer(peer)
+    for i = #clients, 1, -1 do
+        local client = clients[i]
+        if client.peers[peer] then
+            client.peers[peer] = nil
+            for j = #client.tasks, 1, -1 do
+                if client.tasks[j].owner == peer then table.remove(client.tasks, j) end
+            end
+            if not next(client.peers) then M.forget(client) end
+        end
+    end
+end
+
+function M.forgetExpired(now)
+    for i = #clients, 1, -1 do
+        if now - clients[i].seen > clients[i].life then M.forget(clients[i]) end
+    end
+end
+
+---------------------------------------------------------------- tasks
+
+function M.newTask(client, peer, code)
+    if #client.tasks >= MOST_TASKS then error('too many requests without an answer', 0) end
+    local task = {peer = peer, owner = peer, coroutine = coroutine.create(code)}
+    client.tasks[#client.tasks + 1] = task
+    return task
+end
+
+function M.endTask(client, task) removeFrom(client.tasks, task) end
+
+--- The innermost task that has the client's ear.
+function M.listening(client)
+    for i = #client.tasks, 1, -1 do
+        if client.tasks[i].peer then return client.tasks[i] end
+    end
+end
+
+--- The innermost task that expects the client to speak by that connection.
+function M.expecting(client, peer)
+    for i = #client.tasks, 1, -1 do
+        local task = client.tasks[i]
+        if not task.peer and task.owner == peer and task.waits then return task end
+    end
+end
+
+---------------------------------------------------------------- who holds up the simulation
+
+function M.holdsUp(client, currentStep)
+    if client.locks > 0 then return true end
+    if client.level > 0 then return client.desiredStep <= currentStep end
+    local task = client.tasks[#client.tasks]
+    return task ~= nil and task.waits ~= 'step'
+end
+
+function M.anyHoldsUp(currentStep)
+    for i = 1, #clients do
+        if M.holdsUp(clients[i], currentStep) then return true end
+    end
+    return false
+end
+
+--- Whether all of a set can do nothing before the next step.
+function M.allAwaitStep(set)
+    for client in pairs(set) do
+        local task = client.tasks[#client.tasks]
+        if not task or task.waits ~= 'step' or not task.peer then return false end
+    end
+    return true
+end
+
+function M.anyLock()
+    for i = 1, #clients do
+        if clients[i].locks > 0 then return true end
+    end
+    return false
+end
+
+--- Takes from all clients what could hold up the simulation's end.
+function M.release(currentStep)
+    for _, client in ipairs(clients) do client.level, client.locks, client.desiredStep = 0, 0, currentStep + 10 end
+end
+
+return M

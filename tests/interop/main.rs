@@ -1,0 +1,11 @@
+//! Programs of others against `swanilda serve`: the Python files of this folder.
+//!
+//! Needs python3 with `venv`, and the Python index once: the environment stays in `target/`. Without python3 the tests are skipped,
+//! except where `CI` is set.
+
+#![allow(clippy::disallowed_methods, reason = "tests start programs and look at the environment")]
+
+mod server;
+#[path = "../support/mod.rs"]
+mod support;
+mod zmq;
