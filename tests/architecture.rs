@@ -26,6 +26,7 @@ const OWNERS: &[(&str, &str)] = &[
     ("tokio", "src/io"),
     ("bytes", "src/io"),
     ("futures", "src/io"),
+    ("serialport", "src/io/serial.rs"),
     ("clap", "src/cli"),
     ("indicatif", "src/cli"),
     ("ctrlc", "src/cli"),

@@ -79,6 +79,31 @@ fn recursion_without_end() {
 }
 
 #[test]
+fn finalizers_that_change_what_is_being_read() {
+    let output = run_briefly(
+        "sim = require 'sim'
+        cbor = require 'org.conman.cbor'
+        local t, grown = {}, 0
+        local function grow()
+            for key in pairs(t) do t[key] = nil end
+            for i = 1, 100 do grown = grown + 1 t['new' .. grown] = tobuffer('y') end
+        end
+        for _, read in ipairs{sim.packTable, cbor.encode, sim.broadcastMsg} do
+            for round = 1, 2 do
+                t = {}
+                for i = 1, 500 do t['k' .. i] = i % 2 == 0 and tobuffer('x') or {i} end
+                for i = 1, 200 do setmetatable({}, {__gc = grow}) end
+                local ok, why = pcall(read, t)
+                if not ok then print(why) end
+            end
+        end
+        print('alive', grown > 0)",
+    );
+    assert!(output.contains("alive, true"), "{output}");
+    assert!(!output.contains("invalid key"), "{output}");
+}
+
+#[test]
 fn recursion_across_scripts() {
     let across = run_briefly(
         "sim = require 'sim'

@@ -2124,6 +2124,36 @@ function sim.scaleObjects(objectHandles, scalingFactor, scalePositionsToo) end
 ---@return integer id for sim.cancelScheduledExecution
 function sim.scheduleExecution(f, args, timePoint, simulationTime) end
 
+--- How many bytes wait to be read from a serial port.
+---@param portHandle integer from sim.serialOpen
+---@return integer byteCount -1 when the device is gone
+function sim.serialCheck(portHandle) end
+
+--- Closes a serial port.
+---@param portHandle integer from sim.serialOpen
+function sim.serialClose(portHandle) end
+
+--- Opens a serial port: 8 data bits, no parity, one stop bit. It is closed when the simulation ends.
+---@param portString string path of the device, for instance /dev/ttyUSB0
+---@param baudrate integer one of the usual rates from 50 to 230400
+---@return integer portHandle -1 if it cannot be opened
+function sim.serialOpen(portString, baudrate) end
+
+--- Reads from a serial port. In a thread, the simulation goes on while it waits.
+---@param portHandle integer from a sim.serialOpen of this script
+---@param dataLengthToRead integer at most so many bytes
+---@param blockingOperation? boolean true: waits for all of them
+---@param closingString? string ends the reading earlier; it is the end of what is returned
+---@param timeout? number seconds of wall-clock time after which a wait ends with what there is; 0: none
+---@return string data empty if there is nothing
+function sim.serialRead(portHandle, dataLengthToRead, blockingOperation, closingString, timeout) end
+
+--- Sends bytes through a serial port.
+---@param portHandle integer from sim.serialOpen
+---@param data string|table the bytes
+---@return integer charsSent how many the device took; -5 for no data, -1 when the device is gone
+function sim.serialSend(portHandle, data) end
+
 --- Sets a parameter of three numbers.
 ---@param parameter integer sim.arrayparam_*
 ---@param parameterValues number[] the new values

@@ -4,7 +4,7 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use super::{ApiFn, Cx, Result, functions};
 use crate::scene::Data;
 use crate::script::{AuxiliaryConsole, Bytes, Number, verbosity};
 
@@ -96,10 +96,9 @@ fn get_simulator_message(_cx: &Cx) -> Result<(i64, Vec<i64>, Data)> {
 /// @param acquire true to take it, false to give it back
 #[api("sim.systemSemaphore")]
 fn system_semaphore(cx: &mut Cx, key: Bytes, acquire: bool) -> Result<()> {
-    let mut semaphores = cx.sim().semaphores.borrow_mut();
     if acquire {
-        return semaphores.acquire(key.0).map_err(ApiError::Other);
+        return cx.sim().acquire_semaphore(&key.0);
     }
-    semaphores.release(&key.0);
+    cx.sim().semaphores.borrow_mut().release(&key.0);
     Ok(())
 }

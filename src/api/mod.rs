@@ -36,6 +36,7 @@ mod script_old;
 mod scripts;
 mod sensor_objects;
 mod sensors;
+mod serial;
 mod shape;
 mod shape_group;
 mod shape_mass;
@@ -98,6 +99,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Signals", signal::FUNCTIONS),
     ("Packing", packing::FUNCTIONS),
     ("Tubes", tube::FUNCTIONS),
+    ("Serial ports", serial::FUNCTIONS),
     ("Consoles, messages of the interface, semaphores", auxiliary_console::FUNCTIONS),
     ("User parameters", user_param::FUNCTIONS),
     ("Scene files", scene_file::FUNCTIONS),

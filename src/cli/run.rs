@@ -76,7 +76,7 @@ pub(super) fn run(args: &Args) -> ExitCode {
     let progress = Progress::new(args.limits(), args.setup.quiet || args.setup.json || args.no_start);
     let output = args.setup.output(&progress);
     let begun = Instant::now();
-    let options = args.remote.guard(args.setup.options(Some(&args.scene)));
+    let options = args.remote.guard(args.setup.options(Some(&args.scene), &interrupt));
     let mut sim = Simulator::with_console(options, Box::new(output.clone()));
     args.setup.fill(&mut sim, &sources, args.kind.into(), Some(&args.scene));
     if args.remote.is_asked_for()

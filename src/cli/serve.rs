@@ -42,7 +42,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     };
     let interrupt = Interrupt::install(INTERRUPTED);
     let output = args.setup.output(&Progress::new(Limits { steps: None, time: None }, true));
-    let options = args.remote.guard(args.setup.options(scene));
+    let options = args.remote.guard(args.setup.options(scene, &interrupt));
     let mut sim = Simulator::with_console(options, Box::new(output.clone()));
     args.setup.fill(&mut sim, &sources, ScriptKind::Customization, scene);
     if !args.no_remote_api

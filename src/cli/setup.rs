@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::interrupt::Interrupt;
 use super::output::{Format, Output};
 use super::progress::Progress;
 use crate::script::verbosity;
@@ -74,11 +75,12 @@ impl Setup {
         Output::new(if self.json { Format::Json } else { Format::Text }, self.quiet, progress.bar())
     }
 
-    pub(super) fn options(&self, scene: Option<&Path>) -> Options {
+    pub(super) fn options(&self, scene: Option<&Path>, interrupt: &Interrupt) -> Options {
         let mut options = Options {
             named_params: self.define.iter().cloned().collect(),
             data_dir: self.data_dir.clone(),
             package_dirs: scene.map(folder_of).into_iter().collect(),
+            stop: interrupt.flag(),
             ..Options::default()
         };
         options.seed = self.seed.unwrap_or(options.seed);

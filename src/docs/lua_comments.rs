@@ -15,6 +15,7 @@ const CATEGORIES: &[(&str, &str)] = &[
     ("sim/script", "Scripts"),
     ("sim/shape", "Shapes"),
     ("sim/thread", "Threads"),
+    ("sim/serial", "Serial ports"),
     ("sim/tree", "Object tree"),
 ];
 

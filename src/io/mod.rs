@@ -1,7 +1,9 @@
-//! The world outside: sockets and whole messages. What messages say is not known here.
+//! The world outside: sockets and whole messages, serial ports. What messages say is not known here.
 
 mod event_loop;
+mod serial;
 mod zmq_server;
 
 pub(crate) use event_loop::EventLoop;
+pub(crate) use serial::SerialPort;
 pub(crate) use zmq_server::{Incoming, ZmqServer};

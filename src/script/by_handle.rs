@@ -25,6 +25,15 @@ impl<T> ByHandle<T> {
         self.values.get_mut(&handle)
     }
 
+    pub(crate) fn values(&self) -> impl Iterator<Item = &T> {
+        self.values.values()
+    }
+
+    /// Drops all values; their handles are not given out again.
+    pub(crate) fn clear(&mut self) {
+        self.values.clear();
+    }
+
     pub(crate) fn remove(&mut self, handle: i64) -> Option<T> {
         self.values.remove(&handle)
     }

@@ -57,6 +57,11 @@ impl<'a> Cx<'a> {
         data.downcast().expect("the key is the type")
     }
 
+    /// Whether the caller is a thread that may hand over to the simulation now.
+    pub(crate) fn can_yield(&self) -> bool {
+        self.env().yields.overall.get() == 0 && !self.stack.is_main_coroutine()
+    }
+
     pub(crate) fn scene(&self) -> Ref<'_, Scene> {
         self.sim.scene.borrow()
     }

@@ -10,7 +10,11 @@ use crate::scene::{Data, Key};
 pub(crate) const BUFFER_METATABLE: &CStr = c"swanilda.buffer";
 
 /// The field of a buffer table that holds its bytes.
-const BUFFER_FIELD: &str = "__buff__";
+pub(crate) const BUFFER_FIELD: &str = "__buff__";
+
+/// Where a state keeps that name as a Lua string. Reading must not make strings: that may collect garbage, and a finalizer may change
+/// the very table that is being read.
+pub(crate) const BUFFER_FIELD_NAME: &CStr = c"swanilda.buffer_field";
 
 /// Room is made for so many entries before they are seen.
 const MAX_HINT: usize = 1 << 10;
@@ -76,7 +80,8 @@ pub(crate) fn read_buffer(stack: Stack<'_>, table: c_int) -> Option<Vec<u8>> {
     if !is_buffer {
         return None;
     }
-    stack.raw_get_field(table, BUFFER_FIELD);
+    stack.push_registry(BUFFER_FIELD_NAME);
+    stack.raw_get(table);
     let bytes = stack.bytes(-1).map(<[u8]>::to_vec);
     stack.pop(1);
     bytes

@@ -53,6 +53,8 @@ pub enum ApiError {
     /// A name of the reference that is not built here, or not yet.
     #[error("not implemented in Swanilda: {0}")]
     NotImplemented(String),
+    #[error("interrupted: the program is to end.")]
+    Interrupted,
     /// Words made where the error happens.
     #[error("{0}")]
     Other(String),

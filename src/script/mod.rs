@@ -40,6 +40,7 @@ mod system_semaphore;
 mod threads;
 mod tubes;
 pub mod verbosity;
+mod waiting;
 mod wall_clock;
 
 pub use args::{Args, Bytes, FromScript, Handles, KeptFunction, Number, ObjectRef, Rest, ScriptFunction, Table};

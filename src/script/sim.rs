@@ -3,9 +3,12 @@
 use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use super::binding::Registry;
+use super::by_handle::ByHandle;
 use super::clock::Clock;
 use super::console::{Console, LogLine};
 use super::events::EventStream;
@@ -17,7 +20,7 @@ use super::system_semaphore::SystemSemaphores;
 use super::tubes::Tubes;
 use super::verbosity;
 use crate::dynamics::Dynamics;
-use crate::io::{EventLoop, ZmqServer};
+use crate::io::{EventLoop, SerialPort, ZmqServer};
 use crate::scene::script_object::ScriptType;
 use crate::scene::{Handle, Scene};
 
@@ -43,6 +46,8 @@ pub struct Options {
     pub exec_unsafe: bool,
     /// Whether remote clients may use shell and files themselves, if scripts may.
     pub exec_unsafe_ext: bool,
+    /// Set it to end calls that wait for the world outside: they raise an error.
+    pub stop: Arc<AtomicBool>,
 }
 
 impl Default for Options {
@@ -56,6 +61,7 @@ impl Default for Options {
             instructions_per_ms: 100_000,
             exec_unsafe: true,
             exec_unsafe_ext: true,
+            stop: Arc::default(),
         }
     }
 }
@@ -88,6 +94,7 @@ pub(crate) struct Sim {
     pub signal_owners: RefCell<SignalOwners>,
     pub tubes: RefCell<Tubes>,
     pub semaphores: RefCell<SystemSemaphores>,
+    pub serial_ports: RefCell<ByHandle<SerialPort>>,
     pub events: EventStream,
     /// Where all sockets live; made at first need.
     event_loop: OnceCell<Rc<EventLoop>>,
@@ -121,6 +128,7 @@ impl Sim {
             signal_owners: RefCell::default(),
             tubes: RefCell::default(),
             semaphores: RefCell::default(),
+            serial_ports: RefCell::default(),
             events: EventStream::new(),
             event_loop: OnceCell::new(),
             zmq_server: RefCell::default(),

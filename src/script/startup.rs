@@ -4,7 +4,7 @@ use std::ffi::{CStr, c_int, c_void};
 use std::rc::Rc;
 
 use super::binding::{Bound, Member, push_bound};
-use super::data::BUFFER_METATABLE;
+use super::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE};
 use super::env::{Env, Runtime};
 use super::lua::{self, LuaError, Stack, Type, push_callback};
 use super::sim::Sim;
@@ -166,6 +166,8 @@ fn set_buffer_metatable(stack: Stack<'_>, _: *const c_void) -> Result<c_int, Str
     }
     stack.set_top(1);
     stack.set_registry(BUFFER_METATABLE);
+    stack.push_bytes(BUFFER_FIELD.as_bytes());
+    stack.set_registry(BUFFER_FIELD_NAME);
     Ok(0)
 }
 

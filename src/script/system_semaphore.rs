@@ -5,7 +5,10 @@
 use std::collections::BTreeMap;
 use std::fs::File;
 
-use fs4::FileExt;
+use fs4::{FileExt, TryLockError};
+
+use super::error::{ApiError, ApiResult};
+use super::sim::Sim;
 
 /// File names are not longer, in bytes of the key.
 const LONGEST_KEY: usize = 100;
@@ -15,13 +18,13 @@ const LONGEST_KEY: usize = 100;
 pub(crate) struct SystemSemaphores(BTreeMap<Vec<u8>, File>);
 
 impl SystemSemaphores {
-    /// Waits until no other program holds the semaphore; at once if this simulator does already.
+    /// Takes the semaphore, unless this simulator has it already; None while another program holds it.
     ///
     /// # Errors
     /// When the key is too long or its file cannot be made.
-    pub(crate) fn acquire(&mut self, key: Vec<u8>) -> Result<(), String> {
-        if self.0.contains_key(&key) {
-            return Ok(());
+    fn try_acquire(&mut self, key: &[u8]) -> Result<Option<()>, String> {
+        if self.0.contains_key(key) {
+            return Ok(Some(()));
         }
         if key.len() > LONGEST_KEY {
             return Err(format!("the key is longer than {LONGEST_KEY} bytes."));
@@ -30,13 +33,29 @@ impl SystemSemaphores {
         let path = std::env::temp_dir().join(format!("swanilda-semaphore-{hex}"));
         let failed = |error| format!("cannot use {}: {error}", path.display());
         let file = File::options().create(true).truncate(false).write(true).open(&path).map_err(failed)?;
-        FileExt::lock(&file).map_err(failed)?;
-        self.0.insert(key, file);
-        Ok(())
+        match FileExt::try_lock(&file) {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Ok(None),
+            Err(TryLockError::Error(error)) => return Err(failed(error)),
+        }
+        self.0.insert(key.to_vec(), file);
+        Ok(Some(()))
     }
 
     /// Gives a semaphore back, if it is held.
     pub(crate) fn release(&mut self, key: &[u8]) {
         self.0.remove(key);
+    }
+}
+
+impl Sim {
+    /// Waits until no other program holds the semaphore; at once if this simulator does already.
+    ///
+    /// # Errors
+    /// When the key is too long, its file cannot be made, or the user wants the program to end.
+    pub(crate) fn acquire_semaphore(&self, key: &[u8]) -> ApiResult<()> {
+        let attempt = || self.semaphores.borrow_mut().try_acquire(key).transpose();
+        let acquired = self.wait_for(None, attempt)?;
+        acquired.transpose().map(drop).map_err(ApiError::Other)
     }
 }

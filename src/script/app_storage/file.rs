@@ -5,9 +5,11 @@
 use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-use fs4::FileExt;
+use fs4::{FileExt, TryLockError};
 
+use super::super::wall_clock;
 use super::{Blocks, Contents};
 use crate::scene::{CustomData, Data, Edit, Key};
 use crate::wire::cbor;
@@ -15,6 +17,8 @@ use crate::wire::cbor;
 const NAME: &str = "app-storage.cbor";
 const LOCK: &str = "app-storage.lock";
 const VERSION: i64 = 1;
+/// A writer is done in milliseconds, unless the disk is very slow.
+const LONGEST_TURN: Duration = Duration::from_secs(5);
 
 /// Why the file is not what it should be.
 #[derive(Debug, thiserror::Error)]
@@ -64,7 +68,7 @@ pub(super) fn update(
     let unusable = |error| Failure::Unusable { path: folder.join(NAME), error };
     fs::create_dir_all(folder).map_err(unusable)?;
     let lock = File::options().create(true).truncate(false).write(true).open(folder.join(LOCK)).map_err(unusable)?;
-    FileExt::lock(&lock).map_err(unusable)?;
+    take_turn(&lock).map_err(unusable)?;
     let (mut contents, failure) = match read(folder) {
         Ok(contents) => (contents, None),
         Err(corrupt @ Failure::Corrupt { .. }) => (Contents::default(), Some(corrupt)),
@@ -73,6 +77,21 @@ pub(super) fn update(
     change(&mut contents);
     replace(folder, &cbor::encode(&encode(&contents))).map_err(unusable)?;
     Ok((contents, failure))
+}
+
+/// Waits for other writers, but not for one that hangs.
+fn take_turn(lock: &File) -> std::io::Result<()> {
+    let deadline = wall_clock::now() + LONGEST_TURN;
+    loop {
+        match FileExt::try_lock(lock) {
+            Ok(()) => return Ok(()),
+            Err(TryLockError::Error(error)) => return Err(error),
+            Err(TryLockError::WouldBlock) if wall_clock::now() > deadline => {
+                return Err(std::io::Error::new(ErrorKind::TimedOut, "another program holds its lock"));
+            }
+            Err(TryLockError::WouldBlock) => wall_clock::pause(Duration::from_millis(1)),
+        }
+    }
 }
 
 /// The new file is complete and on disk before it takes the name of the old one.

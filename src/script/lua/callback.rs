@@ -42,7 +42,7 @@ fn run(raw: *mut ffi::lua_State) -> c_int {
     match catch_unwind(AssertUnwindSafe(|| callback(stack, data))) {
         Ok(Ok(results)) => results,
         Ok(Err(text)) => fail(stack, &text),
-        Err(panic) => fail(stack, &format!("internal error in Swanilda, please report it: {}", panic_text(&*panic))),
+        Err(panic) => fail(stack, &panic_message(&*panic)),
     }
 }
 
@@ -51,10 +51,8 @@ fn fail(stack: Stack<'_>, text: &str) -> c_int {
     -1
 }
 
-fn panic_text(panic: &(dyn std::any::Any + Send)) -> &str {
-    panic
-        .downcast_ref::<&str>()
-        .copied()
-        .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
-        .unwrap_or("panic")
+/// The error a script gets for a mistake of ours.
+pub(super) fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    format!("internal error in Swanilda, please report it: {}", text.unwrap_or("panic"))
 }

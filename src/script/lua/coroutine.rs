@@ -1,10 +1,12 @@
 //! Coroutines: the count hook that pre-empts them.
 
 use std::ffi::c_int;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use mlua_sys as ffi;
 
 use super::Stack;
+use super::callback::panic_message;
 
 /// How many virtual machine instructions pass between two looks at the budget.
 pub(crate) const HOOK_INTERVAL: c_int = 1000;
@@ -81,16 +83,56 @@ unsafe fn call_original(raw: *mut ffi::lua_State) {
     }
 }
 
+/// What the hook does next.
+#[derive(Debug, PartialEq, Eq)]
+enum Verdict {
+    GoOn,
+    Yield,
+    /// Raise the text on the stack.
+    Fail,
+}
+
 /// The hook: yields, with no values, when the host says so and Lua can.
 unsafe extern "C-unwind" fn count(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
-    // SAFETY: Lua calls the hook of a running coroutine. A yield from a count hook leaves it by `longjmp`; nothing is owned here.
+    // SAFETY: Lua calls the hook of a running coroutine. Yields and errors leave it by `longjmp`; nothing is owned here.
     unsafe {
         if ffi::lua_isyieldable(raw) == 0 {
             return;
         }
-        let wants = ON_COUNT.get().is_some_and(|on_count| on_count(Stack::from_raw(raw)));
-        if wants {
-            ffi::lua_yield(raw, 0);
+        let verdict = ON_COUNT.get().map_or(Verdict::GoOn, |&on_count| ask(Stack::from_raw(raw), on_count));
+        match verdict {
+            Verdict::GoOn => {}
+            Verdict::Yield => drop(ffi::lua_yield(raw, 0)),
+            Verdict::Fail => ffi::lua_error(raw),
         }
+    }
+}
+
+/// A panic must not unwind through Lua: it becomes an error of the script.
+fn ask(stack: Stack<'_>, on_count: OnCount) -> Verdict {
+    match catch_unwind(AssertUnwindSafe(|| on_count(stack))) {
+        Ok(false) => Verdict::GoOn,
+        Ok(true) => Verdict::Yield,
+        Err(panic) => {
+            stack.push_bytes(panic_message(&*panic).as_bytes());
+            Verdict::Fail
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::State;
+    use super::{Verdict, ask};
+
+    #[test]
+    fn a_panic_of_the_host_is_an_error_of_the_script() {
+        // Nothing here asks for the owner of the state.
+        let state = State::new(std::ptr::null());
+        assert_eq!(ask(state.stack(), |_| true), Verdict::Yield);
+        assert_eq!(ask(state.stack(), |_| false), Verdict::GoOn);
+        assert_eq!(ask(state.stack(), |_| panic!("out of order")), Verdict::Fail);
+        let text = String::from_utf8_lossy(state.stack().bytes(-1).unwrap_or_default());
+        assert!(text.ends_with("out of order"), "{text}");
     }
 }

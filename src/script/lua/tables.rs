@@ -113,7 +113,8 @@ impl Stack<'_> {
 
     /// Pops a key, pushes the next key and value of the table; false at the end.
     ///
-    /// The key must be nil or have come from this function, and the table must not have got new fields meanwhile.
+    /// The key must be nil or have come from this function, and the table must not have got new fields meanwhile:
+    /// between two calls nothing may be allocated in the state, or a finalizer might run.
     pub(crate) fn next(self, table: c_int) -> bool {
         self.expect_table(table);
         // SAFETY: with a key from the same unchanged table `lua_next` does not raise.
