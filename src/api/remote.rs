@@ -36,7 +36,7 @@ fn receive(cx: &mut Cx, patience: f64) -> Result<Option<(i64, Option<Text>)>> {
 #[api("remote.zmq.reply")]
 fn reply(cx: &mut Cx, peer: i64, message: Bytes) -> Result<()> {
     if let Some(server) = cx.sim().zmq_server() {
-        server.reply(peer as u64, message.0);
+        server.reply(peer as u64, &message.0);
     }
     Ok(())
 }

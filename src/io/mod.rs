@@ -3,6 +3,7 @@
 mod event_loop;
 mod serial;
 mod zmq_server;
+mod zmtp;
 
 pub(crate) use event_loop::EventLoop;
 pub(crate) use serial::SerialPort;

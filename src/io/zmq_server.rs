@@ -1,27 +1,35 @@
-//! The ZeroMQ end of the remote API.
+//! The ZeroMQ end of the remote API: a REP socket that knows which connection sent what, and when one goes.
 //!
 //! The sockets live on the simulator's own thread and move with its event loop: a request costs no change of threads, which takes longer
-//! than most requests. A ROUTER socket speaks to the clients' REQ sockets, so that it is known which connection sent what, and when one goes.
+//! than most requests. An answer goes straight to the system; what the system does not take at once follows as it can.
 
-use std::cell::RefCell;
 use std::collections::HashMap;
+use std::io::{self, ErrorKind};
 use std::net::TcpListener;
 use std::rc::Rc;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use bytes::Bytes;
-use futures::StreamExt;
-use futures::channel::mpsc::Receiver;
-use zeromq::{RouterRecvHalf, RouterSendHalf, RouterSocket, Socket, SocketEvent, SocketRecv, SocketSend, ZmqMessage};
+use tokio::net::TcpStream;
+use tokio::sync::Notify;
+use tokio::task::JoinSet;
 
 use super::event_loop::{Deliver, EventLoop, Inbox, Task};
+use super::zmtp::{self, Decoder, Said};
 
 /// Requests that may wait for the simulator; clients have one each, so more are a sign of something else.
 const MOST_REQUESTS: usize = 1024;
-/// Rest after a message that could not be read.
-const REST: Duration = Duration::from_millis(1);
+/// Connections at a time; whoever else connects is turned away.
+const MOST_CONNECTIONS: usize = 512;
+/// Bytes that may wait for a client to read them, beyond the answer that made it so many.
+const MOST_UNREAD: usize = 64 << 20;
+/// How long a client may take to introduce itself.
+const HANDSHAKE: Duration = Duration::from_secs(10);
+/// Rest after a connection that could not be accepted.
+const REST: Duration = Duration::from_millis(50);
+/// How much is read at a time.
+const CHUNK: usize = 64 << 10;
 
 /// A connection, as long as it lasts.
 pub(crate) type Peer = u64;
@@ -34,48 +42,34 @@ pub(crate) enum Incoming {
     Gone(Peer),
 }
 
-type Identity = Bytes;
-
-/// What the sockets have to say.
-enum Arrival {
-    Request(Identity, Vec<u8>),
-    Gone(Identity),
-}
-
 /// A server for REQ sockets.
 pub(crate) struct ZmqServer {
     event_loop: Rc<EventLoop>,
-    sender: RefCell<RouterSendHalf>,
-    inbox: RefCell<Inbox<Arrival>>,
-    peers: RefCell<Peers>,
+    inbox: std::cell::RefCell<Inbox<Incoming>>,
+    connections: Arc<Connections>,
     stop: Arc<AtomicBool>,
-    _receiving: Task,
+    _accepting: Task,
 }
 
-/// Numbers for connections.
+/// Those that have introduced themselves.
 #[derive(Default)]
-struct Peers {
-    by_identity: HashMap<Identity, Peer>,
-    identities: HashMap<Peer, Identity>,
-    last: Peer,
+struct Connections(Mutex<HashMap<Peer, Arc<Connection>>>);
+
+struct Connection {
+    stream: TcpStream,
+    outgoing: Mutex<Outgoing>,
+    /// Tells the connection's task that there is something to send.
+    more: Notify,
 }
 
-impl Peers {
-    fn number(&mut self, identity: &Identity) -> Peer {
-        if let Some(&peer) = self.by_identity.get(identity) {
-            return peer;
-        }
-        self.last += 1;
-        self.by_identity.insert(identity.clone(), self.last);
-        self.identities.insert(self.last, identity.clone());
-        self.last
-    }
-
-    fn forget(&mut self, identity: &Identity) -> Option<Peer> {
-        let peer = self.by_identity.remove(identity)?;
-        self.identities.remove(&peer);
-        Some(peer)
-    }
+#[derive(Default)]
+struct Outgoing {
+    /// How the answer to the last request begins.
+    envelope: Vec<u8>,
+    /// What the system has not taken yet.
+    unsent: Vec<u8>,
+    /// Nothing can be sent any more.
+    given_up: bool,
 }
 
 impl ZmqServer {
@@ -83,36 +77,18 @@ impl ZmqServer {
     ///
     /// # Errors
     /// When the listener cannot be used.
-    pub(crate) fn start(
-        event_loop: Rc<EventLoop>,
-        listener: TcpListener,
-        stop: Arc<AtomicBool>,
-    ) -> std::io::Result<Self> {
-        let mut socket = RouterSocket::new();
-        let events = socket.monitor();
-        event_loop.block_on(socket.bind_listener(listener)).map_err(std::io::Error::other)?;
-        let (sender, receiver) = socket.split();
+    pub(crate) fn start(event_loop: Rc<EventLoop>, listener: TcpListener, stop: Arc<AtomicBool>) -> io::Result<Self> {
+        listener.set_nonblocking(true)?;
+        let listener = event_loop.block_on(async { tokio::net::TcpListener::from_std(listener) })?;
         let (deliver, inbox) = event_loop.inbox(MOST_REQUESTS);
-        let receiving = event_loop.spawn(receive_all(receiver, events, deliver));
-        Ok(Self {
-            event_loop,
-            sender: RefCell::new(sender),
-            inbox: RefCell::new(inbox),
-            peers: RefCell::default(),
-            stop,
-            _receiving: receiving,
-        })
+        let connections = Arc::<Connections>::default();
+        let accepting = event_loop.spawn(accept_all(listener, connections.clone(), deliver));
+        Ok(Self { event_loop, inbox: inbox.into(), connections, stop, _accepting: accepting })
     }
 
     /// The next of what came in; waits for it at most that long.
     pub(crate) fn receive(&self, patience: Duration) -> Option<Incoming> {
-        let arrival = self.event_loop.fetch(&mut self.inbox.borrow_mut(), patience)?;
-        let mut peers = self.peers.borrow_mut();
-        match arrival {
-            Arrival::Request(identity, bytes) => Some(Incoming::Request(peers.number(&identity), bytes)),
-            // One that never sent a request is nobody's loss.
-            Arrival::Gone(identity) => peers.forget(&identity).map(Incoming::Gone),
-        }
+        self.event_loop.fetch(&mut self.inbox.borrow_mut(), patience)
     }
 
     /// Whether the program is about to end, so that nobody must be waited for.
@@ -121,40 +97,218 @@ impl ZmqServer {
     }
 
     /// Answers a connection; nothing happens when it is gone.
-    pub(crate) fn reply(&self, peer: Peer, bytes: Vec<u8>) {
-        let Some(identity) = self.peers.borrow().identities.get(&peer).cloned() else { return };
-        let content = Bytes::from(bytes);
-        let message = ZmqMessage::try_from(vec![identity, Bytes::new(), content]).expect("three frames are a message");
-        // A client that is gone is reported by the monitor.
-        let _ = self.event_loop.block_on(self.sender.borrow_mut().send(message));
+    pub(crate) fn reply(&self, peer: Peer, bytes: &[u8]) {
+        let Some(connection) = self.connections.lock().get(&peer).cloned() else { return };
+        connection.answer(bytes);
     }
 }
 
-/// Delivers requests and departures.
-async fn receive_all(mut receiver: RouterRecvHalf, mut events: Receiver<SocketEvent>, deliver: Deliver<Arrival>) {
+impl Connections {
+    fn lock(&self) -> MutexGuard<'_, HashMap<Peer, Arc<Connection>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Connection {
+    fn new(stream: TcpStream) -> Self {
+        Self { stream, outgoing: Mutex::default(), more: Notify::new() }
+    }
+
+    fn outgoing(&self) -> MutexGuard<'_, Outgoing> {
+        self.outgoing.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn answer(&self, content: &[u8]) {
+        let mut outgoing = self.outgoing();
+        let bytes = zmtp::answer(&outgoing.envelope, content);
+        if self.send(&mut outgoing, &bytes).is_err() {
+            // Its task ends and tells.
+            outgoing.given_up = true;
+            self.more.notify_one();
+        }
+    }
+
+    /// Gives bytes to the system, and keeps what it does not take.
+    fn send(&self, outgoing: &mut Outgoing, bytes: &[u8]) -> io::Result<()> {
+        if outgoing.unsent.len() > MOST_UNREAD {
+            return Err(ErrorKind::OutOfMemory.into());
+        }
+        let sent = if outgoing.unsent.is_empty() { self.write(bytes)? } else { 0 };
+        if sent < bytes.len() {
+            outgoing.unsent.extend_from_slice(&bytes[sent..]);
+            self.more.notify_one();
+        }
+        Ok(())
+    }
+
+    /// Writes as much as the system takes without waiting.
+    fn write(&self, bytes: &[u8]) -> io::Result<usize> {
+        let mut sent = 0;
+        while sent < bytes.len() {
+            match self.stream.try_write(&bytes[sent..]) {
+                Ok(count) => sent += count,
+                Err(error) if error.kind() == ErrorKind::WouldBlock => break,
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(sent)
+    }
+
+    /// Sends what was kept.
+    fn flush(&self) -> io::Result<()> {
+        let mut outgoing = self.outgoing();
+        let sent = self.write(&outgoing.unsent)?;
+        outgoing.unsent.drain(..sent);
+        Ok(())
+    }
+
+    /// Whether something was kept.
+    fn has_unsent(&self) -> io::Result<bool> {
+        let outgoing = self.outgoing();
+        if outgoing.given_up { Err(ErrorKind::ConnectionAborted.into()) } else { Ok(!outgoing.unsent.is_empty()) }
+    }
+
+    /// Reads what is there. An error at its end.
+    fn read(&self, decoder: &mut Decoder) -> io::Result<()> {
+        let mut chunk = [0; CHUNK];
+        match self.stream.try_read(&mut chunk) {
+            Ok(0) => Err(ErrorKind::UnexpectedEof.into()),
+            Ok(count) => {
+                decoder.feed(&chunk[..count]);
+                Ok(())
+            }
+            Err(error) if error.kind() == ErrorKind::WouldBlock => Ok(()),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// What the peer says next; pings are answered here.
+    async fn hear(&self, decoder: &mut Decoder) -> io::Result<zmtp::Request> {
+        loop {
+            match decoder.next().map_err(io::Error::other)? {
+                Some(Said::Request(request)) => return Ok(request),
+                Some(Said::Ping(context)) => self.send(&mut self.outgoing(), &zmtp::pong(&context))?,
+                None => self.move_on(decoder).await?,
+            }
+        }
+    }
+
+    /// Waits until there is something to read or to write, and does that.
+    async fn move_on(&self, decoder: &mut Decoder) -> io::Result<()> {
+        let unsent = self.has_unsent()?;
+        tokio::select! {
+            ready = self.stream.readable() => ready.and_then(|()| self.read(decoder)),
+            ready = self.stream.writable(), if unsent => ready.and_then(|()| self.flush()),
+            () = self.more.notified() => Ok(()),
+        }
+    }
+
+    /// Greets the peer and waits until it has introduced itself.
+    async fn shake_hands(&self, decoder: &mut Decoder) -> io::Result<()> {
+        self.send(&mut self.outgoing(), &zmtp::hello())?;
+        while !decoder.is_ready() {
+            self.move_on(decoder).await?;
+            decoder.shake_hands().map_err(io::Error::other)?;
+        }
+        Ok(())
+    }
+}
+
+/// Serves every connection in a task of its own, as long as this one lives.
+async fn accept_all(listener: tokio::net::TcpListener, connections: Arc<Connections>, deliver: Deliver<Incoming>) {
+    let mut tasks = JoinSet::new();
+    let mut last = 0;
     loop {
-        let arrival = tokio::select! {
-            biased;
-            message = receiver.recv() => match message {
-                Ok(message) => request(message),
-                Err(_) => {
-                    tokio::time::sleep(REST).await;
-                    None
+        tokio::select! {
+            accepted = listener.accept() => match accepted {
+                Ok((stream, _)) if tasks.len() < MOST_CONNECTIONS => {
+                    last += 1;
+                    tasks.spawn(serve(stream, last, connections.clone(), deliver.clone()));
                 }
+                Ok(_) => {}
+                // Out of file descriptors, for instance.
+                Err(_) => tokio::time::sleep(REST).await,
             },
-            Some(event) = events.next() => match event {
-                SocketEvent::Disconnected(peer) => Some(Arrival::Gone(Bytes::copy_from_slice(&peer))),
-                _ => None,
-            },
-        };
-        if let Some(arrival) = arrival {
-            deliver.deliver(arrival).await;
+            Some(_) = tasks.join_next() => {}
         }
     }
 }
 
-/// The frames of a REQ socket: who, an empty one, the message. Anything else is ignored.
-fn request(message: ZmqMessage) -> Option<Arrival> {
-    let [identity, empty, content] = <[Bytes; 3]>::try_from(message.into_vec()).ok()?;
-    empty.is_empty().then(|| Arrival::Request(identity, content.into()))
+/// Serves one connection to its end.
+async fn serve(stream: TcpStream, peer: Peer, connections: Arc<Connections>, deliver: Deliver<Incoming>) {
+    // Where this cannot be set, answers are slower.
+    let _ = stream.set_nodelay(true);
+    let connection = Arc::new(Connection::new(stream));
+    let mut decoder = Decoder::new();
+    let introduced = tokio::time::timeout(HANDSHAKE, connection.shake_hands(&mut decoder)).await;
+    if !matches!(introduced, Ok(Ok(()))) {
+        return;
+    }
+    connections.lock().insert(peer, connection.clone());
+    while let Ok(request) = connection.hear(&mut decoder).await {
+        connection.outgoing().envelope = request.envelope;
+        deliver.deliver(Incoming::Request(peer, request.content)).await;
+    }
+    connections.lock().remove(&peer);
+    deliver.deliver(Incoming::Gone(peer)).await;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::{Read, Write};
+
+    fn server() -> (ZmqServer, std::net::SocketAddr) {
+        let listener = TcpListener::bind("127.0.0.1:0").expect("a port is free");
+        let address = listener.local_addr().expect("it is bound");
+        let event_loop = Rc::new(EventLoop::new().expect("an event loop"));
+        (ZmqServer::start(event_loop, listener, Arc::default()).expect("the listener is good"), address)
+    }
+
+    fn connect(address: std::net::SocketAddr) -> std::net::TcpStream {
+        let mut stream = std::net::TcpStream::connect(address).expect("the server listens");
+        let mut opening = zmtp::hello();
+        *opening.last_mut().expect("it is not empty") = b'Q'; // of REQ
+        stream.write_all(&opening).expect("the server reads");
+        stream
+    }
+
+    fn next(server: &ZmqServer) -> Option<Incoming> {
+        server.receive(Duration::from_secs(10))
+    }
+
+    #[test]
+    fn a_request_an_answer_and_the_end() {
+        let (server, address) = server();
+        let mut client = connect(address);
+        client.write_all(b"\x01\0\0\x02hi").expect("the server reads");
+        assert_eq!(next(&server), Some(Incoming::Request(1, b"hi".to_vec())));
+        server.reply(1, b"ho");
+        let mut heard = vec![0; zmtp::hello().len() + 6];
+        client.read_exact(&mut heard).expect("the answer comes");
+        assert!(heard.ends_with(b"\x01\0\0\x02ho"));
+        drop(client);
+        assert_eq!(next(&server), Some(Incoming::Gone(1)));
+        server.reply(1, b"nobody");
+    }
+
+    #[test]
+    fn a_length_that_lies_ends_the_connection() {
+        let (server, address) = server();
+        let mut client = connect(address);
+        client.write_all(b"\x02\0\0\x04\0\0\0\0\0abc").expect("the server reads");
+        assert_eq!(next(&server), Some(Incoming::Gone(1)));
+    }
+
+    #[test]
+    fn a_client_that_does_not_read_is_given_up() {
+        let (server, address) = server();
+        let mut client = connect(address);
+        client.write_all(b"\x01\0\0\x02hi").expect("the server reads");
+        assert!(matches!(next(&server), Some(Incoming::Request(1, _))));
+        for _ in 0..200 {
+            server.reply(1, &[0; 1 << 20]);
+        }
+        assert_eq!(next(&server), Some(Incoming::Gone(1)));
+    }
 }
