@@ -334,7 +334,7 @@ end
 
 -- An error in a function of one client must not end the add-on of all.
 local function callLocally(f, ...)
-    local results = pack(xpcall(f, debug.traceback, ...))
+    local results = pack(xpcall(f, tostring, ...))
     if not results[1] then return sim.addLog(sim.verbosity_scripterrors, tostring(results[2])) end
     return unpack(results, 2, results.n)
 end

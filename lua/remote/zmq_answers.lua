@@ -12,8 +12,6 @@ local M = {}
 local MISMATCH <const> = "The client ZeroMQ remote API version does not match CoppeliaSim's version"
 
 M.MISMATCH = encode({success = false, error = MISMATCH})
-M.WAIT = encode({func = '_*wait*_', args = {}})
-M.REPEAT = encode({func = '_*repeat*_', args = {}})
 M.EMPTY = encode({})
 
 local NO_RESULT <const> = '\xa1\x63ret\xa0'
@@ -65,6 +63,9 @@ function M.call(name, args)
     for i = 1, args.n do parts[i + 4] = encode(args[i]) end
     return concat(parts)
 end
+
+M.WAIT = M.call('_*wait*_', {n = 0})
+M.REPEAT = M.call('_*repeat*_', {n = 0})
 
 --- A list of things that are encoded already; encodes as such.
 function M.list(parts)

@@ -87,7 +87,11 @@ fn succeed(command: &mut Command) {
 /// Runs one file against a server of its own; it says nothing when all is well.
 pub fn check(file: &str, args: &[&str]) {
     let Some(python) = python() else { return };
-    let server = Server::start();
+    run(python, file, &Server::start(), args);
+}
+
+/// Runs one file against a server.
+pub fn run(python: &Path, file: &str, server: &Server, args: &[&str]) {
     let mut command = Command::new(python);
     command.arg(folder().join(file)).arg(&server.port).args(args).env("PYTHONDONTWRITEBYTECODE", "1");
     assert_eq!(run_bounded(&mut command).as_deref(), Ok(""), "{file} {args:?}");

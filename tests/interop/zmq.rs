@@ -1,9 +1,6 @@
 //! Clients of the ZeroMQ remote API: the files `zmq_*.py`.
 
-use std::process::Command;
-
-use crate::server::{Server, check, folder, python};
-use crate::support::process::run_bounded;
+use crate::server::{Server, check, python, run};
 
 #[test]
 fn the_protocol_byte_by_byte() {
@@ -11,13 +8,50 @@ fn the_protocol_byte_by_byte() {
 }
 
 #[test]
+fn replies_as_they_were_recorded() {
+    check("zmq_transcripts.py", &[]);
+}
+
+#[test]
+fn callbacks_across_scripts() {
+    check("zmq_callbacks.py", &[]);
+}
+
+#[test]
+fn steps_and_locks() {
+    check("zmq_stepping.py", &[]);
+}
+
+#[test]
+fn clients_that_are_killed() {
+    check("zmq_departures.py", &[]);
+}
+
+#[test]
+fn many_clients_and_improper_ones() {
+    let Some(python) = python() else { return };
+    let server = Server::start();
+    run(python, "zmq_crowd.py", &server, &[&server.child.id().to_string()]);
+}
+
+#[test]
+fn a_restart_while_clients_wait() {
+    let Some(python) = python() else { return };
+    run(python, "zmq_restart.py", &Server::start(), &[env!("CARGO_BIN_EXE_swanilda")]);
+}
+
+#[test]
+fn the_official_asyncio_client() {
+    check("zmq_asyncio.py", &[]);
+}
+
+#[test]
 #[cfg(unix)]
 fn the_end_while_a_client_holds_up_the_simulation() {
     let Some(python) = python() else { return };
     let mut server = Server::start();
-    let mut command = Command::new(python);
-    command.arg(folder().join("zmq_end.py")).arg(&server.port).arg(server.child.id().to_string());
-    assert_eq!(run_bounded(command.env("PYTHONDONTWRITEBYTECODE", "1")).as_deref(), Ok(""));
+    let id = server.child.id().to_string();
+    run(python, "zmq_end.py", &server, &[&id]);
     assert!(server.child.wait().expect("the child is ours").success(), "SIGTERM is a clean end");
 }
 
@@ -29,4 +63,9 @@ fn the_official_client_with_cbor() {
 #[test]
 fn the_official_client_with_cbor2() {
     check("zmq_client.py", &["cbor2"]);
+}
+
+#[test]
+fn several_calls_in_one_request() {
+    check("zmq_batch.py", &[]);
 }
