@@ -13,6 +13,8 @@ const FIRST_PORT: u16 = 23_000;
 const TRIED_PORTS: u16 = 100;
 /// The parameter that chooses the port, as in CoppeliaSim.
 const PORT_PARAM: &str = "zmqRemoteApi.rpcPort";
+/// The parameter that says whether there is a server at all, as in CoppeliaSim.
+const START_PARAM: &str = "zmqRemoteApi.autoStart";
 
 /// Which programs outside may drive the simulator
 #[derive(clap::Args)]
@@ -42,7 +44,7 @@ impl Remote {
         Options { exec_unsafe: allowed, exec_unsafe_ext: allowed, ..options }
     }
 
-    /// Serves the ZeroMQ remote API and tells where.
+    /// Serves the ZeroMQ remote API, unless a parameter says not to, and tells where.
     ///
     /// # Errors
     /// When the port is not free.
@@ -53,6 +55,9 @@ impl Remote {
         output: &Output,
         interrupt: &Interrupt,
     ) -> Result<(), String> {
+        if matches!(setup.param(START_PARAM), Some("false" | "0")) {
+            return Ok(());
+        }
         let listener = self.listener(setup)?;
         let address = sim
             .serve_zmq(listener, interrupt.flag())
