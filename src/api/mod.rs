@@ -19,6 +19,7 @@ mod joint;
 mod joint_motion;
 mod joint_shape_old;
 mod lfs;
+mod mime;
 mod object_copy;
 mod object_param;
 mod object_pose;
@@ -42,6 +43,7 @@ mod shape_group;
 mod shape_mass;
 mod signal;
 mod simulation;
+mod socket;
 mod thread;
 mod time;
 mod tube;
@@ -114,6 +116,19 @@ const LIBRARIES: &[(&str, &[ApiFn])] = &[
     ("lfs", file_lock::FUNCTIONS),
     ("lfsx", lfs::FUNCTIONS),
     ("remote.zmq", remote::FUNCTIONS),
+    ("socket.core", socket::FUNCTIONS),
+    ("socket.core", socket::OBJECTS),
+    ("socket.core", socket::METHODS),
+    ("socket.core", socket::STREAM),
+    ("socket.core", socket::DATAGRAM),
+    ("socket.core", socket::OPTION),
+    ("socket.core", socket::DNS),
+    ("socket.unix", socket::FUNCTIONS),
+    ("ssl", socket::TLS),
+    ("ssl", socket::OBJECTS),
+    ("ssl", socket::METHODS),
+    ("ssl", socket::STREAM),
+    ("mime.core", mime::FUNCTIONS),
 ];
 
 /// `name<TAB>value` of every constant of `sim`.

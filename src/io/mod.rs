@@ -2,6 +2,7 @@
 
 mod event_loop;
 mod serial;
+pub(crate) mod socket;
 mod zmq_server;
 mod zmtp;
 

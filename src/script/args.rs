@@ -8,7 +8,7 @@ use std::ffi::c_int;
 use super::cx::Cx;
 use super::data::{read_data, read_function};
 use super::error::{ApiError, ApiResult};
-use super::lua::{FunctionRef, Stack, Type};
+use super::lua::{FunctionRef, Object, Stack, Type};
 use super::returns::IntoScript;
 use crate::scene::{Data, Frame, Handle};
 
@@ -96,6 +96,42 @@ impl<'a> Args<'a> {
         }
     }
 
+    /// The error of Lua's own functions for an argument of the wrong type.
+    pub(crate) fn expected(&self, what: &str) -> ApiError {
+        let found = match self.kind() {
+            Type::None => "no value",
+            Type::Nil => "nil",
+            Type::Boolean => "boolean",
+            Type::Number => "number",
+            Type::String => "string",
+            Type::Table => "table",
+            Type::Function => "function",
+            Type::UserData => "userdata",
+            Type::LightUserData => "light userdata",
+            Type::Thread => "thread",
+        };
+        self.refused(&format!("{what} expected, got {found}"))
+    }
+
+    /// The error of Lua's own functions for an argument they cannot take.
+    pub(crate) fn refused(&self, reason: &str) -> ApiError {
+        ApiError::BadArgument { position: self.position, reason: reason.into() }
+    }
+
+    /// The argument, when it is an object of a library.
+    pub(crate) fn object(&self) -> Option<Object> {
+        if self.position > self.count { None } else { self.stack.object(self.position) }
+    }
+
+    /// The argument, when it is a number or a string of one.
+    pub(crate) fn lua_number(&self) -> Option<f64> {
+        self.number().ok()
+    }
+
+    pub(crate) fn is_table(&self, position: c_int) -> bool {
+        position <= self.count && self.stack.kind(position) == Type::Table
+    }
+
     fn number(&self) -> ApiResult<f64> {
         match self.kind() {
             Type::Number | Type::String => self.stack.number(self.position).ok_or_else(|| self.not_a("number")),
@@ -171,6 +207,12 @@ scalars! {
         Type::Function => Ok(ScriptFunction::Value(read_function(args.stack, args.position))),
         _ => Ok(ScriptFunction::Name(String::from_script(args)?)),
     };
+    LuaString, "string", |args| match args.kind() {
+        Type::String => Ok(LuaString(args.bytes().unwrap_or_default().to_vec())),
+        Type::Number => Ok(LuaString(args.stack.text(args.position).unwrap_or_default())),
+        _ => Err(args.expected("string")),
+    };
+    LuaNumber, "float", |args| args.number().map(LuaNumber).map_err(|_| args.expected("number"));
     Rest, "any...", |args| Ok(Rest((args.position..=args.count).map(|at| read_data(args.stack, at)).collect()));
 }
 
@@ -212,6 +254,21 @@ impl From<i64> for Number {
 /// Bytes given as a string, a buffer or a number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Bytes(pub Vec<u8>);
+
+/// A string or a number, as Lua's own functions take it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LuaString(pub Vec<u8>);
+
+impl LuaString {
+    /// The text, with other bytes replaced.
+    pub fn text(&self) -> std::borrow::Cow<'_, str> {
+        String::from_utf8_lossy(&self.0)
+    }
+}
+
+/// A number, as Lua's own functions take it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LuaNumber(pub f64);
 
 /// A table by value.
 #[derive(Debug, Clone, PartialEq)]

@@ -25,6 +25,7 @@ impl<T> ByHandle<T> {
         self.values.get_mut(&handle)
     }
 
+    /// The values in the order of their handles.
     pub(crate) fn values(&self) -> impl Iterator<Item = &T> {
         self.values.values()
     }

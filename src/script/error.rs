@@ -55,6 +55,9 @@ pub enum ApiError {
     NotImplemented(String),
     #[error("interrupted: the program is to end.")]
     Interrupted,
+    /// As Lua's own functions refuse argument `position`.
+    #[error("bad argument #{position} ({reason})")]
+    BadArgument { position: i32, reason: String },
     /// Words made where the error happens.
     #[error("{0}")]
     Other(String),
@@ -70,6 +73,7 @@ impl ApiError {
         let line = stack.current_line(1);
         match self {
             Self::NotImplemented(_) => format!("{line}: {self}"),
+            Self::BadArgument { position, reason } => stack.argument_error(*position, reason),
             _ => format!("{line}: in {function}: {self}"),
         }
     }

@@ -41,9 +41,12 @@ mod threads;
 mod tubes;
 pub mod verbosity;
 mod waiting;
-mod wall_clock;
+pub(crate) mod wall_clock;
 
-pub use args::{Args, Bytes, FromScript, Handles, KeptFunction, Number, ObjectRef, Rest, ScriptFunction, Table};
+pub use args::{
+    Args, Bytes, FromScript, Handles, KeptFunction, LuaNumber, LuaString, Number, ObjectRef, Rest, ScriptFunction,
+    Table,
+};
 pub use binding::{ApiFn, Param};
 pub use callback::SysCall;
 pub use clock::SimulationState;
@@ -64,6 +67,7 @@ pub(crate) use embedded::{Embedded, FILES};
 pub(crate) use env::Hook;
 pub(crate) use events::Filters;
 pub(crate) use instance::Detached;
+pub(crate) use lua::{Object, Stack};
 pub(crate) use order::Group;
 pub(crate) use property::{Target, table as property_table};
 pub(crate) use sim::Sim;

@@ -7,10 +7,18 @@ pub(crate) fn now() -> std::time::Instant {
 }
 
 /// Unix time, milliseconds.
-#[allow(clippy::disallowed_methods, reason = "reading the wall clock is this function's job")]
 pub(crate) fn unix_milliseconds() -> i64 {
-    let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
-    since.map_or(0, |elapsed| elapsed.as_millis() as i64)
+    unix_time().as_millis() as i64
+}
+
+/// Unix time, seconds.
+pub(crate) fn unix_seconds() -> f64 {
+    unix_time().as_secs_f64()
+}
+
+#[allow(clippy::disallowed_methods, reason = "reading the wall clock is this function's job")]
+fn unix_time() -> std::time::Duration {
+    std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default()
 }
 
 /// Lets some time pass.

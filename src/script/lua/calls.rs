@@ -63,6 +63,43 @@ impl<'a> Stack<'a> {
         }
     }
 
+    /// The text of Lua's own functions for an argument they do not take, told by the running callback.
+    pub(crate) fn argument_error(self, position: i32, reason: &str) -> String {
+        let (name, is_method) = self.called_as();
+        let place = self.place_of_call();
+        match (position, is_method) {
+            (1, true) => format!("{place}calling '{name}' on bad self ({reason})"),
+            (_, true) => format!("{place}bad argument #{} to '{name}' ({reason})", position - 1),
+            (_, false) => format!("{place}bad argument #{position} to '{name}' ({reason})"),
+        }
+    }
+
+    /// The name the running function was called by, and whether as a method.
+    fn called_as(self) -> (String, bool) {
+        // SAFETY: `lua_Debug` is plain data that `lua_getstack` fills; the names it points to are copied at once.
+        unsafe {
+            let mut record: ffi::lua_Debug = std::mem::zeroed();
+            if ffi::lua_getstack(self.raw(), 0, &raw mut record) == 0 {
+                return ("?".into(), false);
+            }
+            ffi::lua_getinfo(self.raw(), c"n".as_ptr(), &raw mut record);
+            if record.name.is_null() {
+                return ("?".into(), false);
+            }
+            let text = |start| std::ffi::CStr::from_ptr(start).to_string_lossy().into_owned();
+            (text(record.name), text(record.namewhat) == "method")
+        }
+    }
+
+    /// `chunk:line: ` of the Lua function that called; nothing when that is none.
+    fn place_of_call(self) -> String {
+        // SAFETY: pushes one string.
+        unsafe { ffi::luaL_where(self.raw(), 1) };
+        let place = self.text(-1).unwrap_or_default();
+        self.pop(1);
+        String::from_utf8_lossy(&place).into_owned()
+    }
+
     /// Lua's traceback of this coroutine.
     pub(crate) fn traceback(self) -> String {
         // SAFETY: pushes one string.

@@ -162,10 +162,10 @@ impl Stack<'_> {
         unsafe { ffi::lua_getmetatable(self.raw(), index) != 0 }
     }
 
-    /// Pops a table and makes it the metatable of the table at `index`.
+    /// Pops a table and makes it the metatable of the table or userdata at `index`.
     pub(crate) fn set_metatable(self, index: c_int) {
         self.expect_table(-1);
-        // SAFETY: both are tables.
+        // SAFETY: a metatable, and something that has one of its own.
         unsafe { ffi::lua_setmetatable(self.raw(), index) };
     }
 

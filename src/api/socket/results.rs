@@ -1,0 +1,113 @@
+//! What the functions of sockets return.
+
+use std::rc::Rc;
+
+use super::Sockets;
+use crate::api::{IntoScript, Result};
+use crate::io::socket::Failure;
+use crate::script::{ApiError, Object, Stack};
+
+/// The most memory that is kept for the next call.
+const KEPT: usize = 1 << 16;
+
+/// A value, or nil and why there is none.
+pub(super) struct Outcome<T>(pub std::result::Result<T, Failure>);
+
+impl<T: IntoScript> IntoScript for Outcome<T> {
+    const TYPE: &'static str = T::TYPE;
+
+    #[allow(private_interfaces)]
+    fn into_script(self, stack: Stack<'_>) -> Result<()> {
+        match self.0 {
+            Ok(value) => value.into_script(stack),
+            Err(failure) => push_failure(stack, failure),
+        }
+    }
+}
+
+/// Nil and the text; what must not be overlooked becomes an error.
+pub(super) fn push_failure(stack: Stack<'_>, failure: Failure) -> Result<()> {
+    match failure {
+        Failure::Interrupted => Err(ApiError::Interrupted),
+        Failure::TooLong => Err(ApiError::Other(failure.text().to_owned())),
+        _ => {
+            stack.push_nil();
+            stack.push_bytes(failure.text().as_bytes());
+            Ok(())
+        }
+    }
+}
+
+/// LuaSocket's way to say that all is well: the number 1.
+pub(super) fn done(result: std::result::Result<(), Failure>) -> Outcome<f64> {
+    Outcome(result.map(|()| 1.0))
+}
+
+/// A new object.
+pub(super) struct Created(pub Object);
+
+impl IntoScript for Created {
+    const TYPE: &'static str = "any";
+
+    #[allow(private_interfaces)]
+    fn into_script(self, stack: Stack<'_>) -> Result<()> {
+        stack.push_object(self.0);
+        Ok(())
+    }
+}
+
+/// Data, nil, nil; or nil, why, and what came before.
+pub(super) struct Received {
+    pub sockets: Rc<Sockets>,
+    pub data: Vec<u8>,
+    pub result: std::result::Result<(), Failure>,
+}
+
+impl IntoScript for Received {
+    const TYPE: &'static str = "string";
+
+    #[allow(private_interfaces)]
+    fn into_script(self, stack: Stack<'_>) -> Result<()> {
+        match self.result {
+            Ok(()) => {
+                stack.push_bytes(&self.data);
+                stack.push_nil();
+                stack.push_nil();
+            }
+            Err(failure) => {
+                push_failure(stack, failure)?;
+                stack.push_bytes(&self.data);
+            }
+        }
+        if self.data.capacity() <= KEPT {
+            self.sockets.space.set(self.data);
+        }
+        Ok(())
+    }
+}
+
+/// The last byte sent, nil, nil; or nil, why, and the last byte sent.
+pub(super) struct Sent {
+    pub last: f64,
+    pub result: std::result::Result<(), Failure>,
+}
+
+impl IntoScript for Sent {
+    const TYPE: &'static str = "float";
+
+    #[allow(private_interfaces)]
+    fn into_script(self, stack: Stack<'_>) -> Result<()> {
+        match self.result {
+            Ok(()) => {
+                stack.push_number(self.last);
+                stack.push_nil();
+                stack.push_nil();
+            }
+            Err(failure) => {
+                push_failure(stack, failure)?;
+                stack.push_number(self.last);
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,136 @@
+//! Datagrams: UDP and local ones.
+
+use std::io;
+
+use rustix::net::RecvFlags;
+use socket2::Type;
+
+use super::failure::is_pending;
+use super::{Failure, Family, Place, Socket, Timeout, Wait, open};
+
+/// The most a datagram can hold.
+const LONGEST_DATAGRAM: usize = 65_536;
+
+/// A datagram socket, or the place for one.
+pub(crate) struct Datagram {
+    /// Whether it speaks to one peer only.
+    pub connected: bool,
+    pub timeout: Timeout,
+    pub family: Family,
+    socket: Option<Socket>,
+}
+
+impl Datagram {
+    pub(crate) fn new(family: Family) -> Result<Self, Failure> {
+        let socket = family.domain().map(|domain| open(domain, Type::DGRAM)).transpose()?;
+        Ok(Self { connected: false, timeout: Timeout::default(), family, socket })
+    }
+
+    pub(crate) fn socket(&self) -> Option<&Socket> {
+        self.socket.as_ref()
+    }
+
+    /// Takes another socket, or none; returns the one before.
+    pub(crate) fn replace_socket(&mut self, socket: Option<Socket>) -> Option<Socket> {
+        std::mem::replace(&mut self.socket, socket)
+    }
+
+    fn opened(&self) -> Result<&Socket, Failure> {
+        self.socket.as_ref().ok_or_else(Failure::not_open)
+    }
+
+    pub(crate) fn close(&mut self) {
+        self.socket = None;
+    }
+
+    /// Takes the first of these places that is free.
+    pub(crate) fn bind(&mut self, places: &[Place]) -> Result<(), Failure> {
+        self.try_each(places, |socket, place| Ok(socket.bind(&place.address()?)?))
+    }
+
+    /// Speaks to the first of these places only.
+    pub(crate) fn connect(&mut self, places: &[Place]) -> Result<(), Failure> {
+        self.try_each(places, |socket, place| Ok(socket.connect(&place.address()?)?))?;
+        self.connected = true;
+        Ok(())
+    }
+
+    fn try_each(
+        &mut self,
+        places: &[Place],
+        attempt: impl Fn(&Socket, &Place) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let is_open = self.socket.is_some();
+        let mut result = Err(Failure::not_open());
+        for (i, place) in places.iter().enumerate() {
+            if i > 0 && !is_open {
+                self.socket = None;
+            }
+            result = self.open_for(place).and_then(|()| attempt(self.opened()?, place));
+            if result.is_ok() {
+                break;
+            }
+        }
+        result
+    }
+
+    fn open_for(&mut self, place: &Place) -> Result<(), Failure> {
+        if self.socket.is_none() {
+            let domain = place.address()?.domain();
+            self.socket = Some(open(domain, Type::DGRAM)?);
+            self.family = Family::of(domain);
+        }
+        Ok(())
+    }
+
+    /// Speaks to everybody again.
+    pub(crate) fn disconnect(&mut self) -> Result<(), Failure> {
+        rustix::net::connect_unspec(&**self.opened()?)?;
+        self.connected = false;
+        Ok(())
+    }
+
+    /// Sends to the peer, or to `place`.
+    pub(crate) fn send(&mut self, data: &[u8], place: Option<&Place>, wait: &Wait<'_>) -> Result<usize, Failure> {
+        let address = place.map(Place::address).transpose()?;
+        if let Some(place) = place {
+            self.open_for(place)?;
+        }
+        let socket = self.opened()?;
+        loop {
+            let sent = match &address {
+                Some(address) => socket.send_to(data, address),
+                None => socket.send(data),
+            };
+            match sent {
+                Ok(count) => return Ok(count),
+                Err(error) if is_pending(&error) => wait.writable(socket)?,
+                Err(error) => return Err(error.into()),
+            }
+        }
+    }
+
+    /// The next datagram and where it came from. What is longer than `size` is lost.
+    pub(crate) fn receive(&self, size: usize, wait: &Wait<'_>) -> Result<(Vec<u8>, Place), Failure> {
+        let socket = self.socket.as_ref().ok_or(Failure::Closed)?;
+        let mut data = vec![0; size.min(LONGEST_DATAGRAM)];
+        loop {
+            match rustix::net::recvfrom(&**socket, &mut data[..], RecvFlags::empty()) {
+                Ok((count, _, from)) => {
+                    data.truncate(count);
+                    return Ok((data, Place::of_any(from)));
+                }
+                Err(error) if is_pending(&io::Error::from(error)) => wait.readable(socket)?,
+                Err(error) => return Err(error.into()),
+            }
+        }
+    }
+
+    pub(crate) fn local(&self) -> Result<Place, Failure> {
+        Ok(Place::of(&self.opened()?.local_addr()?))
+    }
+
+    pub(crate) fn peer(&self) -> Result<Place, Failure> {
+        Ok(Place::of(&self.opened()?.peer_addr()?))
+    }
+}

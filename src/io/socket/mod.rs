@@ -1,0 +1,43 @@
+//! Sockets as scripts use them: streams with a buffered reader, datagrams, two timeouts, waiting for many at once, TLS.
+//!
+//! A call blocks its script for as long as its timeouts allow, and looks in between whether the simulator is being stopped.
+
+mod address;
+mod datagram;
+mod failure;
+mod lookup;
+mod options;
+mod reader;
+mod stream;
+mod tls;
+mod wait;
+
+pub(crate) use address::{Family, Place};
+pub(crate) use datagram::Datagram;
+pub(crate) use failure::Failure;
+pub(crate) use lookup::{Lookup, host_name, name_of, numeric};
+pub(crate) use options::{OptionValue, option, set_option};
+pub(crate) use reader::Pattern;
+pub(crate) use stream::{Role, Stream};
+pub(crate) use tls::{TlsSettings, Verify};
+pub(crate) use wait::{Timeout, Wait, select, sleep};
+
+use std::rc::Rc;
+
+/// A socket of the system. Two objects of a script may share one.
+pub(crate) type Socket = Rc<socket2::Socket>;
+
+/// The system's number of a socket.
+pub(crate) fn descriptor(socket: &Socket) -> i64 {
+    #[cfg(unix)]
+    return std::os::fd::AsRawFd::as_raw_fd(&**socket).into();
+    #[cfg(windows)]
+    return std::os::windows::io::AsRawSocket::as_raw_socket(&**socket) as i64;
+}
+
+/// Opens a socket whose calls never block: waiting is done in [`wait`].
+fn open(domain: socket2::Domain, kind: socket2::Type) -> std::io::Result<Socket> {
+    let socket = socket2::Socket::new(domain, kind, None)?;
+    socket.set_nonblocking(true)?;
+    Ok(Rc::new(socket))
+}

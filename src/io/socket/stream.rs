@@ -1,0 +1,265 @@
+//! Connections and those who wait for them: TCP, local streams, TLS.
+
+use std::io::{ErrorKind, Read, Write};
+use std::time::Instant;
+
+use socket2::{SockAddr, Type};
+
+use super::failure::is_pending;
+use super::reader::{Pattern, Reader};
+use super::tls::Tls;
+use super::wait::now;
+use super::{Failure, Family, Place, Socket, Timeout, Wait, open};
+
+/// What a stream object has become.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Role {
+    Master,
+    Client,
+    Server,
+}
+
+/// A stream socket, or the place for one.
+pub(crate) struct Stream {
+    pub role: Role,
+    pub timeout: Timeout,
+    pub family: Family,
+    /// Bytes sent so far, as `getstats` tells.
+    pub sent: f64,
+    /// Added to the bytes received.
+    received_before: f64,
+    birth: Instant,
+    /// Seconds added to the age.
+    age_before: f64,
+    socket: Option<Socket>,
+    reader: Reader,
+    pub(super) tls: Option<Box<Tls>>,
+}
+
+impl Stream {
+    /// A stream without a socket: the first address decides on that.
+    pub(crate) fn unopened(family: Family) -> Self {
+        Self {
+            role: Role::Master,
+            timeout: Timeout::default(),
+            family,
+            sent: 0.0,
+            received_before: 0.0,
+            birth: now(),
+            age_before: 0.0,
+            socket: None,
+            reader: Reader::default(),
+            tls: None,
+        }
+    }
+
+    /// A stream for addresses of a family.
+    pub(crate) fn new(family: Family) -> Result<Self, Failure> {
+        let mut stream = Self::unopened(family);
+        if let Some(domain) = family.domain() {
+            stream.socket = Some(open(domain, Type::STREAM)?);
+        }
+        Ok(stream)
+    }
+
+    pub(crate) fn socket(&self) -> Option<&Socket> {
+        self.socket.as_ref()
+    }
+
+    /// Takes another socket, or none; returns the one before.
+    pub(crate) fn replace_socket(&mut self, socket: Option<Socket>) -> Option<Socket> {
+        std::mem::replace(&mut self.socket, socket)
+    }
+
+    /// The stream goes on in another object; this one has no socket any more.
+    pub(crate) fn handed_over(&mut self) -> Self {
+        let empty = Self { role: self.role, timeout: self.timeout, ..Self::unopened(self.family) };
+        std::mem::replace(self, empty)
+    }
+
+    pub(crate) fn is_tls(&self) -> bool {
+        self.tls.is_some()
+    }
+
+    fn opened(&self) -> Result<&Socket, Failure> {
+        self.socket.as_ref().ok_or_else(Failure::not_open)
+    }
+
+    /// Whether something has arrived that nobody has asked for.
+    pub(crate) fn is_dirty(&self) -> bool {
+        !self.reader.is_empty() || self.tls.as_ref().is_some_and(|tls| tls.has_plaintext())
+    }
+
+    pub(crate) fn close(&mut self) {
+        if let (Some(tls), Some(socket)) = (&mut self.tls, &self.socket) {
+            tls.say_goodbye(socket);
+        }
+        self.tls = None;
+        self.socket = None;
+        self.reader = Reader::default();
+    }
+
+    /// Binds to the first address that lets it.
+    pub(crate) fn bind(&mut self, places: &[Place]) -> Result<(), Failure> {
+        self.try_each(places, false, |stream, address| Ok(stream.opened()?.bind(address)?))
+    }
+
+    /// Connects to the first address that answers.
+    pub(crate) fn connect(&mut self, places: &[Place], wait: &Wait<'_>) -> Result<(), Failure> {
+        // Even if it fails: a connection that takes longer goes on.
+        self.role = Role::Client;
+        self.try_each(places, wait.is_zero(), |stream, address| stream.connect_to(address, wait))
+    }
+
+    /// Tries one place after the other, each with a socket of its own if there was none. A time-out may be the last word.
+    fn try_each(
+        &mut self,
+        places: &[Place],
+        is_hasty: bool,
+        attempt: impl Fn(&Self, &SockAddr) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let is_open = self.socket.is_some();
+        let mut result = Err(Failure::not_open());
+        for (i, place) in places.iter().enumerate() {
+            if i > 0 && !is_open {
+                self.socket = None;
+            }
+            let address = place.address()?;
+            result = self.open_for(&address).and_then(|()| attempt(self, &address));
+            match result {
+                Ok(()) | Err(Failure::Interrupted) => break,
+                Err(Failure::Timeout) if is_hasty => break,
+                Err(_) => {}
+            }
+        }
+        result
+    }
+
+    fn open_for(&mut self, address: &SockAddr) -> Result<(), Failure> {
+        if self.socket.is_none() {
+            self.socket = Some(open(address.domain(), Type::STREAM)?);
+            self.family = Family::of(address.domain());
+        }
+        Ok(())
+    }
+
+    fn connect_to(&self, address: &SockAddr, wait: &Wait<'_>) -> Result<(), Failure> {
+        let socket = self.opened()?;
+        match socket.connect(address) {
+            Ok(()) => return Ok(()),
+            Err(error) if is_pending(&error) => wait.writable(socket)?,
+            Err(error) => return Err(error.into()),
+        }
+        match socket.take_error()? {
+            Some(error) => Err(error.into()),
+            None => Ok(()),
+        }
+    }
+
+    pub(crate) fn listen(&mut self, backlog: i32) -> Result<(), Failure> {
+        self.opened()?.listen(backlog)?;
+        self.role = Role::Server;
+        Ok(())
+    }
+
+    /// The next connection.
+    pub(crate) fn accept(&self, wait: &Wait<'_>) -> Result<Self, Failure> {
+        let socket = self.opened()?;
+        loop {
+            match socket.accept() {
+                Ok((accepted, _)) => {
+                    accepted.set_nonblocking(true)?;
+                    let mut client = Self::unopened(self.family);
+                    client.role = Role::Client;
+                    client.socket = Some(Socket::new(accepted));
+                    return Ok(client);
+                }
+                Err(error) if is_pending(&error) => wait.readable(socket)?,
+                // Whoever wanted to connect is gone already.
+                Err(error) if error.kind() == ErrorKind::ConnectionAborted => {}
+                Err(error) => return Err(error.into()),
+            }
+        }
+    }
+
+    /// Appends to `out` what `pattern` asks for, or what came before a failure.
+    pub(crate) fn receive(&mut self, pattern: Pattern, out: &mut Vec<u8>, wait: &Wait<'_>) -> Result<(), Failure> {
+        let Self { reader, socket, tls, .. } = self;
+        let socket = socket.as_ref().ok_or(Failure::Closed)?;
+        reader.read(pattern, out, |space| match tls {
+            Some(tls) => tls.read(socket, space, wait),
+            None => read(socket, space, wait),
+        })
+    }
+
+    /// Sends everything, or tells how much was.
+    pub(crate) fn send(&mut self, data: &[u8], wait: &Wait<'_>) -> (usize, Result<(), Failure>) {
+        let Some(socket) = &self.socket else { return (0, Err(Failure::Closed)) };
+        let mut count = 0;
+        let mut result = Ok(());
+        while count < data.len() && result.is_ok() {
+            let sent = match &mut self.tls {
+                Some(tls) => tls.write(socket, &data[count..], wait),
+                None => write(socket, &data[count..], wait),
+            };
+            match sent {
+                Ok(sent) => count += sent,
+                Err(failure) => result = Err(failure),
+            }
+        }
+        self.sent += count as f64;
+        (count, result)
+    }
+
+    pub(crate) fn shutdown(&self, how: std::net::Shutdown) {
+        if let Some(socket) = &self.socket {
+            // As in LuaSocket, nobody hears that the connection was down already.
+            let _ = socket.shutdown(how);
+        }
+    }
+
+    pub(crate) fn local(&self) -> Result<Place, Failure> {
+        Ok(Place::of(&self.opened()?.local_addr()?))
+    }
+
+    pub(crate) fn peer(&self) -> Result<Place, Failure> {
+        Ok(Place::of(&self.opened()?.peer_addr()?))
+    }
+
+    /// Bytes received and sent, and seconds since the object was made.
+    pub(crate) fn stats(&self) -> (f64, f64, f64) {
+        let received = self.received_before + self.reader.received as f64;
+        (received, self.sent, self.age_before + self.birth.elapsed().as_secs_f64())
+    }
+
+    /// What [`stats`](Self::stats) tells from now on.
+    pub(crate) fn set_stats(&mut self, received: f64, sent: f64, age: f64) {
+        self.received_before = received - self.reader.received as f64;
+        self.sent = sent;
+        self.birth = now();
+        self.age_before = age;
+    }
+}
+
+/// Some bytes, at least one.
+pub(super) fn read(socket: &Socket, space: &mut [u8], wait: &Wait<'_>) -> Result<usize, Failure> {
+    loop {
+        match (&**socket).read(space) {
+            Ok(0) => return Err(Failure::Closed),
+            Ok(count) => return Ok(count),
+            Err(error) if is_pending(&error) => wait.readable(socket)?,
+            Err(error) => return Err(error.into()),
+        }
+    }
+}
+
+/// Sends some bytes, at least one.
+fn write(socket: &Socket, data: &[u8], wait: &Wait<'_>) -> Result<usize, Failure> {
+    loop {
+        match (&**socket).write(data) {
+            Ok(count) => return Ok(count),
+            Err(error) if is_pending(&error) => wait.writable(socket)?,
+            Err(error) => return Err(error.into()),
+        }
+    }
+}

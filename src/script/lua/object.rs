@@ -1,0 +1,73 @@
+//! Userdata that stand for things a library holds: a class and a number each, nothing more.
+//!
+//! What a script does to such a value (its metatable, its finalizer) can at worst make it stand for another thing of the same state or
+//! for none: the library looks the number up.
+
+use std::ffi::{CStr, c_int};
+
+use mlua_sys as ffi;
+
+use super::stack::{Stack, Type};
+
+/// Metatables by class, and classes by metatable.
+const CLASSES: &CStr = c"swanilda.classes";
+
+/// What a userdata holds.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Object {
+    pub class: i64,
+    pub id: i64,
+}
+
+impl Stack<'_> {
+    /// Pops a table, which becomes the metatable of the objects of `class`. Its `__gc` must be there by now.
+    pub(crate) fn define_class(self, class: i64) {
+        if self.push_registry(CLASSES) != Type::Table {
+            self.pop(1);
+            self.new_table(0, 0);
+            self.push_value(-1);
+            self.set_registry(CLASSES);
+        }
+        self.push_value(-2);
+        self.raw_set_index(-2, class);
+        self.push_value(-2);
+        self.push_int(class);
+        self.raw_set(-3);
+        self.pop(2);
+    }
+
+    /// Pushes an object of a class that is defined.
+    pub(crate) fn push_object(self, object: Object) {
+        // SAFETY: pushes a block of that size, which Lua aligns for every type; it is written before anybody sees it.
+        unsafe {
+            let block = ffi::lua_newuserdatauv(self.raw(), size_of::<Object>(), 0).cast::<Object>();
+            block.write(object);
+        }
+        if self.push_registry(CLASSES) == Type::Table && self.raw_get_index(-1, object.class) == Type::Table {
+            self.remove(-2);
+            self.set_metatable(-2);
+        }
+    }
+
+    /// The object at `index`.
+    pub(crate) fn object(self, index: c_int) -> Option<Object> {
+        if self.kind(index) != Type::UserData
+            || self.raw_len(index) != size_of::<Object>()
+            || !self.push_metatable(index)
+        {
+            return None;
+        }
+        let class = if self.push_registry(CLASSES) == Type::Table {
+            self.insert(-2);
+            self.raw_get(-2);
+            self.integer(-1)
+        } else {
+            None
+        };
+        self.pop(2);
+        // SAFETY: a userdata of that size, which stays on the stack while it is copied; every pattern of bits is an object.
+        let object = unsafe { ffi::lua_touserdata(self.raw(), index).cast::<Object>().read() };
+        class.filter(|&class| class == object.class).map(|_| object)
+    }
+}
