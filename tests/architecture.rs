@@ -28,6 +28,8 @@ const OWNERS: &[(&str, &str)] = &[
     ("socket2", "src/io/socket"),
     ("zmq_sys", "src/io/zmq"),
     ("tokio", "src/io"),
+    ("tokio_tungstenite", "src/io/ws"),
+    ("httparse", "src/io/ws"),
     ("futures", "src/io"),
     ("serialport", "src/io/serial.rs"),
     ("clap", "src/cli"),

@@ -42,6 +42,7 @@ mod shape;
 mod shape_group;
 mod shape_mass;
 mod signal;
+mod sim_ws;
 mod simulation;
 mod socket;
 mod thread;
@@ -115,6 +116,7 @@ const LIBRARIES: &[(&str, &[ApiFn])] = &[
     ("lfs", lfs::FUNCTIONS),
     ("lfs", file_lock::FUNCTIONS),
     ("lfsx", lfs::FUNCTIONS),
+    ("remote.ws", sim_ws::REMOTE),
     ("remote.zmq", remote::FUNCTIONS),
     ("socket.core", socket::FUNCTIONS),
     ("socket.core", socket::OBJECTS),
@@ -129,6 +131,7 @@ const LIBRARIES: &[(&str, &[ApiFn])] = &[
     ("ssl", socket::METHODS),
     ("ssl", socket::STREAM),
     ("mime.core", mime::FUNCTIONS),
+    ("simWS", sim_ws::FUNCTIONS),
 ];
 
 /// `name<TAB>value` of every constant of `sim`.

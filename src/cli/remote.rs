@@ -22,7 +22,7 @@ pub(super) struct Remote {
     /// Serve the ZeroMQ remote API, at a port of one's choice (0: any) [default port: the first free one from 23000]
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
     remote_api: Option<Option<u16>>,
-    /// Address to listen at; who connects there can do whatever a script can. Another than this machine's own implies --no-unsafe
+    /// Address to listen at, for remote APIs and servers of scripts; who connects there can do whatever a script can. Another than this machine's own implies --no-unsafe
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
     /// Nobody starts programs or loads native libraries, and remote clients get no files
@@ -41,7 +41,7 @@ impl Remote {
     /// The options as those who can connect make necessary.
     pub(super) fn guard(&self, options: Options) -> Options {
         let allowed = !self.no_unsafe && (self.bind.is_loopback() || self.allow_unsafe);
-        Options { exec_unsafe: allowed, exec_unsafe_ext: allowed, ..options }
+        Options { exec_unsafe: allowed, exec_unsafe_ext: allowed, listen_address: self.bind, ..options }
     }
 
     /// Serves the ZeroMQ remote API, unless a parameter says not to, and tells where.

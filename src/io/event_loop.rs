@@ -82,6 +82,12 @@ impl EventLoop {
         self.runtime().block_on(future)
     }
 
+    /// Makes something that has to know the event loop it belongs to.
+    pub(super) fn enter<T>(&self, make: impl FnOnce() -> T) -> T {
+        let _entered = self.runtime().enter();
+        make()
+    }
+
     /// Runs a task until it ends or what is returned is dropped.
     pub(super) fn spawn(&self, task: impl Future<Output = ()> + Send + 'static) -> Task {
         Task(self.runtime().spawn(task).abort_handle())
@@ -147,6 +153,11 @@ impl<T> Inbox<T> {
         let arrival = self.receiver.try_recv().ok()?;
         self.waiting.count.fetch_sub(1, Ordering::Relaxed);
         Some(arrival)
+    }
+
+    /// How many arrivals there are.
+    pub(super) fn len(&self) -> usize {
+        self.receiver.len()
     }
 
     async fn next(&mut self) -> Option<T> {

@@ -146,7 +146,7 @@ impl Sim {
 }
 
 /// Pushes the function and its arguments; the script's `sysCall_ext`, if there is one, stands in for every function.
-fn push_callee(stack: Stack<'_>, name: &str, args: &[Data]) -> ApiResult<i32> {
+pub(crate) fn push_callee(stack: Stack<'_>, name: &str, args: &[Data]) -> ApiResult<i32> {
     let mut extra = 0;
     if stack.push_global(SysCall::Ext.name()) == Type::Function {
         stack.push_bytes(name.as_bytes());
@@ -163,7 +163,7 @@ fn push_callee(stack: Stack<'_>, name: &str, args: &[Data]) -> ApiResult<i32> {
 }
 
 /// Calls what is on the stack and reads its results.
-fn collect(stack: Stack<'_>, base: i32, arguments: i32) -> Result<Vec<Data>, LuaError> {
+pub(crate) fn collect(stack: Stack<'_>, base: i32, arguments: i32) -> Result<Vec<Data>, LuaError> {
     stack.protected_call(arguments, MULTIPLE)?;
     Ok((base + 1..=stack.top()).map(|index| data::read_data(stack, index)).collect())
 }

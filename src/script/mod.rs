@@ -22,6 +22,7 @@ mod env;
 mod error;
 mod events;
 pub(crate) mod file_lock;
+mod handler;
 mod instance;
 mod joint_motion;
 mod lifecycle;
@@ -42,6 +43,7 @@ mod tubes;
 pub mod verbosity;
 mod waiting;
 pub(crate) mod wall_clock;
+pub(crate) mod web_sockets;
 
 pub use args::{
     Args, Bytes, FromScript, Handles, KeptFunction, LuaNumber, LuaString, Number, ObjectRef, Rest, ScriptFunction,
@@ -66,6 +68,7 @@ pub(crate) use by_handle::ByHandle;
 pub(crate) use embedded::{Embedded, FILES};
 pub(crate) use env::Hook;
 pub(crate) use events::Filters;
+pub(crate) use handler::Handler;
 pub(crate) use instance::Detached;
 pub(crate) use lua::{Object, Stack};
 pub(crate) use order::Group;

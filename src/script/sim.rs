@@ -2,6 +2,7 @@
 
 use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::{BTreeMap, HashSet};
+use std::net::{IpAddr, Ipv4Addr, TcpListener};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -19,6 +20,7 @@ use super::random::Random;
 use super::system_semaphore::SystemSemaphores;
 use super::tubes::Tubes;
 use super::verbosity;
+use super::web_sockets::WebSockets;
 use crate::dynamics::Dynamics;
 use crate::io::{EventLoop, SerialPort, ZmqServer};
 use crate::scene::script_object::ScriptType;
@@ -48,6 +50,8 @@ pub struct Options {
     pub exec_unsafe_ext: bool,
     /// Set it to end calls that wait for the world outside: they raise an error.
     pub stop: Arc<AtomicBool>,
+    /// Where servers of scripts listen.
+    pub listen_address: IpAddr,
 }
 
 impl Default for Options {
@@ -62,6 +66,7 @@ impl Default for Options {
             exec_unsafe: true,
             exec_unsafe_ext: true,
             stop: Arc::default(),
+            listen_address: Ipv4Addr::LOCALHOST.into(),
         }
     }
 }
@@ -100,6 +105,9 @@ pub(crate) struct Sim {
     event_loop: OnceCell<Rc<EventLoop>>,
     /// Where programs outside call functions, by ZeroMQ.
     pub zmq_server: RefCell<Option<Rc<ZmqServer>>>,
+    pub web_sockets: RefCell<WebSockets>,
+    /// Where the WebSocket remote API listens.
+    pub remote_listener: RefCell<Option<TcpListener>>,
     next_detached: Cell<i64>,
     once: RefCell<HashSet<(String, i64, String)>>,
     started: std::time::Instant,
@@ -132,6 +140,8 @@ impl Sim {
             events: EventStream::new(),
             event_loop: OnceCell::new(),
             zmq_server: RefCell::default(),
+            web_sockets: RefCell::default(),
+            remote_listener: RefCell::default(),
             next_detached: Cell::new(FIRST_DETACHED),
             once: RefCell::default(),
             started: super::wall_clock::now(),

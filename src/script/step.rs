@@ -14,6 +14,7 @@ use crate::scene::script_object::ScriptType;
 impl Sim {
     /// One pass of the application's loop: idle, paused or advancing.
     pub(crate) fn loop_pass(self: &Rc<Self>) {
+        self.deliver_web_sockets();
         if !self.clock.state.get().is_advancing() {
             self.dispatch_events();
         }

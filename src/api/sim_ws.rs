@@ -1,0 +1,185 @@
+//! The native part of the Lua module `simWS`: WebSocket servers and clients.
+
+use std::net::TcpListener;
+use std::rc::Rc;
+
+use api_macro::api;
+
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::io::{SendError, WsEndpoint, WsRequest};
+use crate::script::web_sockets::{Endpoint, Occasion, Role, handle_number};
+use crate::script::{Bytes, Handler, ScriptFunction};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    start,
+    stop,
+    connect,
+    disconnect,
+    send,
+    set_open_handler,
+    set_fail_handler,
+    set_close_handler,
+    set_message_handler,
+    set_http_handler,
+];
+
+/// The server of the remote API, which brings its own port along.
+pub(crate) const REMOTE: &[ApiFn] = functions![start_remote];
+
+/// Starts a server.
+///
+/// @param listenPort 0 for any free one
+/// @return serverHandle
+#[api("simWS.start")]
+fn start(cx: &mut Cx, listen_port: i64) -> Result<String> {
+    let port = u16::try_from(listen_port).map_err(|_| ApiError::Other(format!("invalid port: {listen_port}")))?;
+    let address = cx.sim().options.listen_address;
+    let listener = TcpListener::bind((address, port));
+    serve(cx, listener).map_err(|error| unusable(&format!("{address}:{port}"), &error))
+}
+
+/// Starts a server at the port of the remote API.
+///
+/// @return serverHandle
+#[api("remote.ws.start")]
+fn start_remote(cx: &mut Cx) -> Result<String> {
+    let listener = cx.sim().remote_listener.borrow().as_ref().map(TcpListener::try_clone);
+    let listener = listener.ok_or_else(|| ApiError::Other("there is no port for the remote API.".into()))?;
+    serve(cx, listener).map_err(|error| unusable("the remote API's port", &error))
+}
+
+fn serve(cx: &Cx, listener: std::io::Result<TcpListener>) -> std::io::Result<String> {
+    let sim = cx.sim();
+    let numbers = sim.web_sockets.borrow().numbers.clone();
+    let socket = WsEndpoint::listen(sim.event_loop()?, listener?, numbers)?;
+    Ok(sim.add_web_socket(cx, Role::Server, socket).handle())
+}
+
+fn unusable(address: &str, error: &std::io::Error) -> ApiError {
+    ApiError::Other(format!("Underlying Transport Error: cannot listen at {address}: {error}"))
+}
+
+/// Stops a server; its connections end at once.
+///
+/// @param serverHandle
+#[api("simWS.stop")]
+fn stop(cx: &mut Cx, server_handle: String) -> Result<()> {
+    let number = handle_number(&server_handle, "Server").filter(|&number| cx.sim().web_socket(number).is_some());
+    cx.sim().stop_web_socket(number.ok_or_else(invalid_handle)?);
+    Ok(())
+}
+
+/// Connects to a server; one of the handlers for open and fail will be called.
+///
+/// @param uri ws://host:port/path
+/// @return clientHandle
+#[api("simWS.connect")]
+fn connect(cx: &mut Cx, uri: String) -> Result<String> {
+    let sim = cx.sim();
+    let agent = sim.app.borrow().named_params.get("simWS.userAgent").cloned().unwrap_or_default();
+    let numbers = sim.web_sockets.borrow().numbers.clone();
+    let refused = |reason: String| ApiError::Other(format!("Could not create connection: {reason}"));
+    let request = WsRequest::new(&uri, &String::from_utf8_lossy(&agent), numbers.next()).map_err(refused)?;
+    let event_loop = sim.event_loop().map_err(|error| refused(error.to_string()))?;
+    let socket = WsEndpoint::connect(event_loop, request, numbers);
+    Ok(sim.add_web_socket(cx, Role::Client, socket).handle())
+}
+
+/// Ends a client at once.
+///
+/// @param clientHandle
+#[api("simWS.disconnect")]
+fn disconnect(cx: &mut Cx, client_handle: String) -> Result<()> {
+    let number = handle_number(&client_handle, "Client").filter(|&number| cx.sim().web_socket(number).is_some());
+    cx.sim().stop_web_socket(number.ok_or_else(invalid_handle)?);
+    Ok(())
+}
+
+/// Sends a message.
+///
+/// @param serverOrClientHandle
+/// @param connectionHandle as handlers get it
+/// @param data text must be valid UTF-8
+/// @param opcode simWS.opcode.*
+#[api("simWS.send")]
+fn send(
+    cx: &mut Cx,
+    server_or_client_handle: String,
+    connection_handle: String,
+    data: Bytes,
+    #[default(1)] opcode: i64,
+) -> Result<()> {
+    let endpoint = endpoint(cx, &server_or_client_handle)?;
+    let connection = handle_number(&connection_handle, "Connection").ok_or_else(invalid_handle)?;
+    match endpoint.send(connection, data.0, opcode) {
+        Err(SendError::Expired) if !cx.sim().web_sockets.borrow().numbers.has_given(connection) => {
+            Err(invalid_handle())
+        }
+        Err(error) => Err(ApiError::Other(error.to_string())),
+        Ok(()) => Ok(()),
+    }
+}
+
+/// Sets what is called with endpoint and connection when a connection is open.
+///
+/// @param serverOrClientHandle
+/// @param callbackFn a function, or the name of a global one of the script that called start or connect
+#[api("simWS.setOpenHandler")]
+fn set_open_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: ScriptFunction) -> Result<()> {
+    set_handler(cx, &server_or_client_handle, Occasion::Open, callback_fn)
+}
+
+/// Sets what is called with endpoint and connection when there will be no connection.
+///
+/// @param serverOrClientHandle
+/// @param callbackFn a function, or the name of a global one of the script that called start or connect
+#[api("simWS.setFailHandler")]
+fn set_fail_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: ScriptFunction) -> Result<()> {
+    set_handler(cx, &server_or_client_handle, Occasion::Fail, callback_fn)
+}
+
+/// Sets what is called with endpoint and connection when a connection has ended.
+///
+/// @param serverOrClientHandle
+/// @param callbackFn a function, or the name of a global one of the script that called start or connect
+#[api("simWS.setCloseHandler")]
+fn set_close_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: ScriptFunction) -> Result<()> {
+    set_handler(cx, &server_or_client_handle, Occasion::Close, callback_fn)
+}
+
+/// Sets what is called with endpoint, connection and data when a message has come.
+///
+/// @param serverOrClientHandle
+/// @param callbackFn a function, or the name of a global one of the script that called start or connect
+#[api("simWS.setMessageHandler")]
+fn set_message_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: ScriptFunction) -> Result<()> {
+    set_handler(cx, &server_or_client_handle, Occasion::Message, callback_fn)
+}
+
+/// Sets what is called with server, connection, resource and data when an HTTP request has come; it returns status and data.
+///
+/// @param serverHandle
+/// @param callbackFn a function, or the name of a global one of the script that called start
+#[api("simWS.setHTTPHandler")]
+fn set_http_handler(cx: &mut Cx, server_handle: String, callback_fn: ScriptFunction) -> Result<()> {
+    if handle_number(&server_handle, "Server").is_none() {
+        return Err(invalid_handle());
+    }
+    set_handler(cx, &server_handle, Occasion::Http, callback_fn)
+}
+
+fn set_handler(cx: &Cx, handle: &str, occasion: Occasion, function: ScriptFunction) -> Result<()> {
+    let handler = Handler::new(cx, function);
+    endpoint(cx, handle)?.set_handler(occasion, handler);
+    Ok(())
+}
+
+fn endpoint(cx: &Cx, handle: &str) -> Result<Rc<Endpoint>> {
+    let number = handle_number(handle, "Server").or_else(|| handle_number(handle, "Client"));
+    let endpoint = number.and_then(|number| cx.sim().web_socket(number));
+    endpoint.filter(|endpoint| endpoint.handle() == handle).ok_or_else(invalid_handle)
+}
+
+fn invalid_handle() -> ApiError {
+    ApiError::Other("invalid object handle".into())
+}

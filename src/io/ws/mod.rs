@@ -1,0 +1,187 @@
+//! WebSocket endpoints: servers, which answer plain HTTP at the same port, and clients.
+//!
+//! Everything happens while the event loop moves; what scripts are told waits in the endpoint's inbox. Both directions are bounded: a full
+//! inbox stops the reading, so that senders have to wait, and a connection with too much to send refuses more.
+
+mod client;
+mod connection;
+mod http;
+mod server;
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::net::TcpListener;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use tokio_tungstenite::tungstenite::protocol::WebSocketConfig;
+
+use super::event_loop::{Deliver, EventLoop, Inbox, Task};
+pub(crate) use client::Request as WsRequest;
+pub(crate) use connection::{Outgoing, SendError};
+use http::Asker;
+pub(crate) use http::Reply as HttpReply;
+
+/// The largest message and the largest body of an HTTP request, bytes.
+const LARGEST_MESSAGE: usize = 32_000_000;
+/// What an endpoint keeps for its script: so many events, with so many bytes in them.
+const MOST_EVENTS: usize = 4096;
+const MOST_BYTES: usize = 2 * LARGEST_MESSAGE;
+/// How long a handshake may take, at the beginning and at the end.
+const HANDSHAKE: Duration = Duration::from_secs(5);
+/// What is read from a socket at once.
+const READ_BUFFER: usize = 1 << 14;
+
+/// A connection, as long as it lasts. Endpoints and connections of a simulator share one count.
+pub(crate) type Connection = u64;
+
+/// Counts endpoints and connections.
+#[derive(Clone, Default)]
+pub(crate) struct Numbers(Arc<AtomicU64>);
+
+impl Numbers {
+    pub(crate) fn next(&self) -> u64 {
+        self.0.fetch_add(1, Ordering::Relaxed) + 1
+    }
+
+    /// Whether that number has been given out.
+    pub(crate) fn has_given(&self, number: u64) -> bool {
+        (1..=self.0.load(Ordering::Relaxed)).contains(&number)
+    }
+}
+
+/// What happened at an endpoint.
+pub(crate) enum WsEvent {
+    Open(Connection),
+    /// There will be no connection, and why.
+    Fail(Connection, String),
+    Close(Connection),
+    Message(Connection, Vec<u8>),
+    /// A plain HTTP request, to be answered; without an answer its connection just ends.
+    Http {
+        connection: Connection,
+        resource: String,
+        body: Vec<u8>,
+        asker: Asker,
+    },
+}
+
+/// An event on its way to the simulator.
+struct Arrival {
+    event: WsEvent,
+    /// Comes with `WsEvent::Open`.
+    outgoing: Option<Outgoing>,
+    /// What the event takes of the inbox.
+    _room: Option<OwnedSemaphorePermit>,
+}
+
+/// What the tasks of an endpoint share.
+#[derive(Clone)]
+struct Reports {
+    deliver: Deliver<Arrival>,
+    room: Arc<Semaphore>,
+    numbers: Numbers,
+}
+
+impl Reports {
+    async fn tell(&self, event: WsEvent) {
+        let size = match &event {
+            WsEvent::Message(_, bytes) | WsEvent::Http { body: bytes, .. } => bytes.len(),
+            _ => 0,
+        };
+        self.put(event, None, size).await;
+    }
+
+    async fn tell_open(&self, connection: Connection, outgoing: Outgoing) {
+        self.put(WsEvent::Open(connection), Some(outgoing), 0).await;
+    }
+
+    async fn put(&self, event: WsEvent, outgoing: Option<Outgoing>, size: usize) {
+        let permits = u32::try_from(size.min(MOST_BYTES)).expect("the bound is small");
+        let room = self.room.clone().acquire_many_owned(permits).await.ok();
+        self.deliver.deliver(Arrival { event, outgoing, _room: room }).await;
+    }
+}
+
+/// A server or a client. When it is dropped, its sockets are closed at once.
+pub(crate) struct WsEndpoint {
+    event_loop: Rc<EventLoop>,
+    inbox: RefCell<Inbox<Arrival>>,
+    open: RefCell<BTreeMap<Connection, Outgoing>>,
+    task: Option<Task>,
+}
+
+impl WsEndpoint {
+    /// Serves those who connect to `listener`.
+    ///
+    /// # Errors
+    /// When the listener cannot be used.
+    pub(crate) fn listen(event_loop: Rc<EventLoop>, listener: TcpListener, numbers: Numbers) -> std::io::Result<Self> {
+        listener.set_nonblocking(true)?;
+        let listener = event_loop.enter(|| tokio::net::TcpListener::from_std(listener))?;
+        Ok(Self::new(event_loop, numbers, |reports| server::accept_all(listener, reports)))
+    }
+
+    /// Connects to a server; how that ends is an event.
+    pub(crate) fn connect(event_loop: Rc<EventLoop>, request: WsRequest, numbers: Numbers) -> Self {
+        Self::new(event_loop, numbers, |reports| client::connect(request, reports))
+    }
+
+    fn new<T: Future<Output = ()> + Send + 'static>(
+        event_loop: Rc<EventLoop>,
+        numbers: Numbers,
+        task: impl FnOnce(Reports) -> T,
+    ) -> Self {
+        let (deliver, inbox) = event_loop.inbox(MOST_EVENTS);
+        let reports = Reports { deliver, room: Arc::new(Semaphore::new(MOST_BYTES)), numbers };
+        let task = Some(event_loop.spawn(task(reports)));
+        Self { event_loop, inbox: RefCell::new(inbox), open: RefCell::default(), task }
+    }
+
+    /// How many events wait.
+    pub(crate) fn arrived(&self) -> usize {
+        self.inbox.borrow().len()
+    }
+
+    /// The next event, if there is one.
+    pub(crate) fn next(&self) -> Option<WsEvent> {
+        let Arrival { event, outgoing, .. } = self.inbox.borrow_mut().fetch()?;
+        match (&event, outgoing) {
+            (WsEvent::Open(connection), Some(outgoing)) => {
+                self.open.borrow_mut().insert(*connection, outgoing);
+            }
+            (WsEvent::Close(connection), _) => {
+                self.open.borrow_mut().remove(connection);
+            }
+            _ => {}
+        }
+        Some(event)
+    }
+
+    /// Sends a message, as soon as the event loop moves.
+    ///
+    /// # Errors
+    /// When the connection is gone or takes no more, or this is no message.
+    pub(crate) fn send(&self, connection: Connection, data: Vec<u8>, opcode: i64) -> Result<(), SendError> {
+        let message = connection::message(data, opcode)?;
+        self.open.borrow().get(&connection).ok_or(SendError::Expired)?.send(message)
+    }
+}
+
+impl Drop for WsEndpoint {
+    fn drop(&mut self) {
+        self.task = None;
+        // The sockets are the tasks': they close when those have noticed.
+        self.event_loop.turn();
+    }
+}
+
+fn config() -> WebSocketConfig {
+    WebSocketConfig::default()
+        .read_buffer_size(READ_BUFFER)
+        .max_message_size(Some(LARGEST_MESSAGE))
+        .max_frame_size(Some(LARGEST_MESSAGE))
+}

@@ -1,0 +1,150 @@
+//! The server's side of a connection's beginning, and plain HTTP requests.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
+use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::{Semaphore, oneshot};
+use tokio::task::JoinSet;
+use tokio::time::{sleep, timeout};
+use tokio_tungstenite::WebSocketStream;
+use tokio_tungstenite::tungstenite::handshake::server::{create_response, write_response};
+use tokio_tungstenite::tungstenite::http::StatusCode;
+use tokio_tungstenite::tungstenite::http::header::{EXPECT, HeaderValue, SEC_WEBSOCKET_PROTOCOL};
+use tokio_tungstenite::tungstenite::protocol::Role;
+
+use super::http::{Asker, Head, Reply, response};
+use super::{Connection, HANDSHAKE, READ_BUFFER, Reports, WsEvent, config, connection};
+
+/// Connections of one server; more wait until one ends.
+const MOST_CONNECTIONS: usize = 1000;
+/// Rest when the system gives no more sockets.
+const REST: Duration = Duration::from_millis(100);
+/// How long a client may take to read an HTTP answer.
+const READING: Duration = Duration::from_secs(60);
+
+/// Serves everyone who connects.
+pub(super) async fn accept_all(listener: TcpListener, reports: Reports) {
+    let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    let mut tasks = JoinSet::new();
+    while let Ok(place) = places.clone().acquire_owned().await {
+        while tasks.try_join_next().is_some() {}
+        let Ok((stream, _)) = listener.accept().await else {
+            sleep(REST).await;
+            continue;
+        };
+        let reports = reports.clone();
+        tasks.spawn(async move {
+            serve(stream, &reports).await;
+            drop(place);
+        });
+    }
+}
+
+async fn serve(mut stream: TcpStream, reports: &Reports) {
+    let connection = reports.numbers.next();
+    // Small messages go at once; without that they go all the same.
+    let _ = stream.set_nodelay(true);
+    let mut received = Vec::new();
+    let refused = match timeout(HANDSHAKE, read_head(&mut stream, &mut received)).await {
+        Ok(Ok(head)) if head.is_upgrade() => match upgrade(&mut stream, &head).await {
+            Ok(()) => {
+                let socket = WebSocketStream::from_partially_read(stream, received, Role::Server, Some(config())).await;
+                return connection::converse(socket, connection, reports).await;
+            }
+            Err(status) => Some(status),
+        },
+        Ok(Ok(head)) => return answer(stream, connection, &head, received, reports).await,
+        Ok(Err(refused)) => refused,
+        Err(_) => Some(StatusCode::REQUEST_TIMEOUT),
+    };
+    let reason = refused.map_or_else(|| "the connection ended".to_owned(), |status| status.to_string());
+    let refuse = async {
+        if let Some(status) = refused {
+            respond(&mut stream, &Reply::status(status.as_u16()), "", true).await;
+        }
+    };
+    tokio::join!(reports.tell(WsEvent::Fail(connection, reason)), refuse);
+}
+
+/// Reads the head of a request; what was read beyond it stays in `received`.
+///
+/// # Errors
+/// The status to answer with; none when the peer is gone.
+async fn read_head(stream: &mut TcpStream, received: &mut Vec<u8>) -> Result<Head, Option<StatusCode>> {
+    loop {
+        if let Some((head, length)) = Head::parse(received)? {
+            received.drain(..length);
+            return Ok(head);
+        }
+        read_some(stream, received).await.ok_or(None)?;
+    }
+}
+
+/// Appends what comes next; nothing at the end of the connection.
+async fn read_some(stream: &mut TcpStream, received: &mut Vec<u8>) -> Option<()> {
+    received.reserve(READ_BUFFER);
+    match stream.read_buf(received).await {
+        Ok(count) if count > 0 => Some(()),
+        _ => None,
+    }
+}
+
+/// Answers the handshake of a WebSocket client.
+///
+/// # Errors
+/// The status to answer with when it is none.
+async fn upgrade(stream: &mut TcpStream, head: &Head) -> Result<(), StatusCode> {
+    let mut answer = create_response(&head.handshake()?).map_err(|_| StatusCode::BAD_REQUEST)?;
+    // Any sub-protocol is fine; a browser gives up unless one of its own is named.
+    let offered = head.header(SEC_WEBSOCKET_PROTOCOL).and_then(|list| list.split(',').next());
+    if let Some(first) = offered.and_then(|name| HeaderValue::from_str(name.trim()).ok()) {
+        answer.headers_mut().insert(SEC_WEBSOCKET_PROTOCOL, first);
+    }
+    let mut bytes = Vec::new();
+    write_response(&mut bytes, &answer).map_err(|_| StatusCode::BAD_REQUEST)?;
+    // A peer that is gone is noticed by who reads next.
+    let _ = stream.write_all(&bytes).await;
+    Ok(())
+}
+
+/// Lets the script answer an HTTP request.
+async fn answer(mut stream: TcpStream, connection: Connection, head: &Head, received: Vec<u8>, reports: &Reports) {
+    let reply = match read_body(&mut stream, head, received).await {
+        Ok(body) => {
+            let (sender, answered) = oneshot::channel();
+            let resource = head.target.clone();
+            reports.tell(WsEvent::Http { connection, resource, body, asker: Asker(sender) }).await;
+            answered.await.ok()
+        }
+        Err(status) => status.map(|status| Reply::status(status.as_u16())),
+    };
+    if let Some(reply) = reply {
+        respond(&mut stream, &reply, &head.target, head.method != "HEAD").await;
+    }
+}
+
+/// Reads the body of a request whose first bytes are there.
+///
+/// # Errors
+/// The status to answer with; none when the peer is gone.
+async fn read_body(stream: &mut TcpStream, head: &Head, mut body: Vec<u8>) -> Result<Vec<u8>, Option<StatusCode>> {
+    let length = head.body_length()?;
+    if body.len() < length && head.header(EXPECT).is_some() {
+        stream.write_all(b"HTTP/1.1 100 Continue\r\n\r\n").await.map_err(|_| None)?;
+    }
+    while body.len() < length {
+        let more = timeout(HANDSHAKE, read_some(stream, &mut body)).await;
+        more.map_err(|_| StatusCode::REQUEST_TIMEOUT)?.ok_or(None)?;
+    }
+    body.truncate(length);
+    Ok(body)
+}
+
+async fn respond(stream: &mut TcpStream, reply: &Reply, target: &str, with_body: bool) {
+    let bytes = response(reply, target, with_body);
+    if let Ok(Ok(())) = timeout(READING, stream.write_all(&bytes)).await {
+        connection::linger(stream).await;
+    }
+}

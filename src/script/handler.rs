@@ -1,0 +1,113 @@
+//! Handlers: functions a script leaves with the host, to be called when something comes in from outside.
+
+use std::rc::{Rc, Weak};
+
+use super::args::{KeptFunction, ScriptFunction};
+use super::callback::SysCall;
+use super::calls::{collect, push_callee};
+use super::cx::Cx;
+use super::env::Runtime;
+use super::error::{ApiError, ApiResult};
+use super::instance::Script;
+use super::lifecycle::{Level, MAX_DEPTH, push_args};
+use super::sim::Sim;
+use super::verbosity;
+use crate::scene::Data;
+
+/// A function by name, looked up at each call in a script of the caller's choice, or by value.
+pub(crate) enum Handler {
+    Name(String),
+    Function(HeldFunction),
+}
+
+/// A function held in the state it belongs to.
+pub(crate) struct HeldFunction {
+    runtime: Weak<Runtime>,
+    function: KeptFunction,
+}
+
+impl Drop for HeldFunction {
+    fn drop(&mut self) {
+        if let Some(runtime) = self.runtime.upgrade() {
+            runtime.stack().release_function(self.function.0);
+        }
+    }
+}
+
+impl Handler {
+    /// What the calling script has given.
+    pub(crate) fn new(cx: &Cx, given: ScriptFunction) -> Self {
+        match given {
+            ScriptFunction::Name(name) => Self::Name(name),
+            ScriptFunction::Value(function) => {
+                let runtime = cx.script().current_runtime().map(|runtime| Rc::downgrade(&runtime)).unwrap_or_default();
+                Self::Function(HeldFunction { runtime, function })
+            }
+        }
+    }
+
+    /// The name, without what stands behind its last `@`; none for a function by value.
+    fn name(&self) -> Option<&str> {
+        match self {
+            Self::Name(name) => Some(name.rsplit_once('@').map_or(name, |(name, _language)| name)),
+            Self::Function(_) => None,
+        }
+    }
+}
+
+impl Sim {
+    /// Calls a handler; one given by name is a function of `script`. A failure is logged and counted, and the script lives on: it is not
+    /// to end because of what somebody outside has sent.
+    pub(crate) fn call_handler(
+        self: &Rc<Self>,
+        script: &Rc<Script>,
+        handler: &Handler,
+        args: &[Data],
+    ) -> Option<Vec<Data>> {
+        match self.try_handler(script, handler, args) {
+            Ok(results) => Some(results),
+            Err(error) => {
+                let name = handler.name().unwrap_or("function");
+                self.errors.set(self.errors.get() + 1);
+                self.log(
+                    verbosity::ERRORS,
+                    &format!("External call to simCallScriptFunction failed ('{name}'): {error}"),
+                );
+                None
+            }
+        }
+    }
+
+    fn try_handler(self: &Rc<Self>, script: &Rc<Script>, handler: &Handler, args: &[Data]) -> ApiResult<Vec<Data>> {
+        let runtime = match handler {
+            Handler::Name(_) => script.current_runtime(),
+            Handler::Function(held) => held.runtime.upgrade(),
+        };
+        let runtime =
+            runtime.filter(|runtime| runtime.env.script.is_running()).ok_or(ApiError::ScriptNotInitialized)?;
+        let results = self.run_handler(&runtime, handler, args);
+        if runtime.env.depth.get() == 0 {
+            self.settle(&runtime.env.script, SysCall::Ext, None);
+        }
+        results
+    }
+
+    fn run_handler(self: &Rc<Self>, runtime: &Rc<Runtime>, handler: &Handler, args: &[Data]) -> ApiResult<Vec<Data>> {
+        let level = Level::enter(self, &runtime.env);
+        if level.too_deep {
+            return Err(ApiError::TooDeep(MAX_DEPTH));
+        }
+        let stack = runtime.stack();
+        let base = stack.top();
+        let pushed = match handler {
+            Handler::Name(_) => push_callee(stack, handler.name().unwrap_or_default(), args),
+            Handler::Function(held) => {
+                stack.push_function(held.function.0);
+                Ok(push_args(stack, args)?)
+            }
+        };
+        let results = pushed.and_then(|count| Ok(collect(stack, base, count)?));
+        stack.set_top(base.min(stack.top()));
+        results
+    }
+}

@@ -1,0 +1,231 @@
+//! WebSocket endpoints of scripts: who owns them, and the calls of their handlers once per pass.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::{Rc, Weak};
+
+use super::cx::Cx;
+use super::handler::Handler;
+use super::instance::Script;
+use super::sim::Sim;
+use super::verbosity;
+use crate::io::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent};
+use crate::scene::Data;
+
+/// The endpoints of a simulator, in the order of their creation.
+#[derive(Default)]
+pub(crate) struct WebSockets {
+    pub(crate) numbers: Numbers,
+    endpoints: BTreeMap<u64, Rc<Endpoint>>,
+}
+
+/// What an endpoint is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Role {
+    Server,
+    Client,
+}
+
+/// What a handler can be for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Occasion {
+    Open,
+    Fail,
+    Close,
+    Message,
+    Http,
+}
+
+/// An endpoint of a script.
+pub(crate) struct Endpoint {
+    number: u64,
+    pub(crate) role: Role,
+    /// Where handlers given by name are looked up.
+    script: Rc<Script>,
+    /// None once it is stopped.
+    socket: RefCell<Option<WsEndpoint>>,
+    handlers: RefCell<BTreeMap<Occasion, Rc<Handler>>>,
+}
+
+impl Endpoint {
+    /// How scripts call it.
+    pub(crate) fn handle(&self) -> String {
+        format!("{:x}:simWS.{:?}", self.number, self.role)
+    }
+
+    pub(crate) fn set_handler(&self, occasion: Occasion, handler: Handler) {
+        self.handlers.borrow_mut().insert(occasion, Rc::new(handler));
+    }
+
+    /// # Errors
+    /// Why the connection does not take it.
+    pub(crate) fn send(&self, connection: u64, data: Vec<u8>, opcode: i64) -> Result<(), SendError> {
+        self.socket.borrow().as_ref().ok_or(SendError::Expired)?.send(connection, data, opcode)
+    }
+
+    fn arrived(&self) -> usize {
+        self.socket.borrow().as_ref().map_or(0, WsEndpoint::arrived)
+    }
+
+    fn next(&self) -> Option<WsEvent> {
+        self.socket.borrow().as_ref()?.next()
+    }
+}
+
+/// How scripts call a connection.
+pub(crate) fn connection_handle(connection: u64) -> String {
+    format!("{connection:x}:simWS.Connection")
+}
+
+/// The number in a handle of that kind.
+pub(crate) fn handle_number(handle: &str, kind: &str) -> Option<u64> {
+    let digits = handle.strip_suffix(kind)?.strip_suffix(":simWS.")?;
+    u64::from_str_radix(digits, 16).ok().filter(|number| format!("{number:x}") == digits)
+}
+
+/// The endpoints of a Lua state: they are stopped when it ends.
+#[derive(Default)]
+struct Owned(RefCell<Vec<Ownership>>);
+
+struct Ownership {
+    sim: Weak<Sim>,
+    number: u64,
+}
+
+impl Drop for Ownership {
+    fn drop(&mut self) {
+        if let Some(sim) = self.sim.upgrade() {
+            sim.stop_web_socket(self.number);
+        }
+    }
+}
+
+impl Sim {
+    /// Adds an endpoint of the calling script.
+    pub(crate) fn add_web_socket(self: &Rc<Self>, cx: &Cx, role: Role, socket: WsEndpoint) -> Rc<Endpoint> {
+        let number = self.web_sockets.borrow().numbers.next();
+        let script = cx.script().clone();
+        let endpoint = Rc::new(Endpoint {
+            number,
+            role,
+            script,
+            socket: RefCell::new(Some(socket)),
+            handlers: RefCell::default(),
+        });
+        self.web_sockets.borrow_mut().endpoints.insert(number, endpoint.clone());
+        let owned = cx.library_data::<Owned>();
+        let mut owned = owned.0.borrow_mut();
+        owned.retain(|other| self.web_socket(other.number).is_some());
+        owned.push(Ownership { sim: Rc::downgrade(self), number });
+        endpoint
+    }
+
+    pub(crate) fn web_socket(&self, number: u64) -> Option<Rc<Endpoint>> {
+        self.web_sockets.borrow().endpoints.get(&number).cloned()
+    }
+
+    /// Closes an endpoint and all its connections at once.
+    pub(crate) fn stop_web_socket(&self, number: u64) {
+        let endpoint = self.web_sockets.borrow_mut().endpoints.remove(&number);
+        if let Some(endpoint) = endpoint {
+            drop(endpoint.socket.take());
+            drop(endpoint.handlers.take());
+        }
+    }
+
+    /// Lets the sockets move and calls the handlers of what has arrived: endpoint by endpoint in the order of their creation, at each in
+    /// the order of arrival. What arrives meanwhile waits for the next pass.
+    pub(crate) fn deliver_web_sockets(self: &Rc<Self>) {
+        let endpoints: Vec<Rc<Endpoint>> = self.web_sockets.borrow().endpoints.values().cloned().collect();
+        let Some(event_loop) = (!endpoints.is_empty()).then(|| self.event_loop().ok()).flatten() else { return };
+        event_loop.turn();
+        let batches: Vec<usize> = endpoints.iter().map(|endpoint| endpoint.arrived()).collect();
+        for (endpoint, count) in endpoints.iter().zip(&batches) {
+            for event in (0..*count).map_while(|_| endpoint.next()) {
+                self.handle_web_socket(endpoint, event);
+            }
+        }
+        if batches.iter().any(|&count| count > 0) {
+            // Answers leave in the same pass.
+            event_loop.turn();
+        }
+    }
+
+    fn handle_web_socket(self: &Rc<Self>, endpoint: &Endpoint, event: WsEvent) {
+        self.log_web_socket(endpoint, &event);
+        let call = |occasion, connection, more: &[Data]| {
+            let handler = endpoint.handlers.borrow().get(&occasion).cloned()?;
+            let handles = [Data::text(&endpoint.handle()), Data::text(&connection_handle(connection))];
+            let args = [&handles, more].concat();
+            Some(self.call_handler(&endpoint.script, &handler, &args))
+        };
+        match event {
+            WsEvent::Open(connection) => drop(call(Occasion::Open, connection, &[])),
+            WsEvent::Fail(connection, _) => drop(call(Occasion::Fail, connection, &[])),
+            WsEvent::Close(connection) => drop(call(Occasion::Close, connection, &[])),
+            WsEvent::Message(connection, data) => drop(call(Occasion::Message, connection, &[Data::Buffer(data)])),
+            WsEvent::Http { connection, resource, body, asker } => {
+                let results = call(Occasion::Http, connection, &[Data::text(&resource), Data::Buffer(body)]);
+                asker.answer(results.map_or_else(|| HttpReply::status(404), http_reply));
+            }
+        }
+    }
+
+    /// The access log, for those who ask for it.
+    fn log_web_socket(&self, endpoint: &Endpoint, event: &WsEvent) {
+        let verbose = self.app.borrow().named_params.get("simWS.verbose").is_some_and(|value| value != b"0");
+        let text = match event {
+            _ if !verbose => return,
+            WsEvent::Open(connection) => format!("{connection:x} is open"),
+            WsEvent::Fail(connection, reason) => format!("{connection:x} has failed: {reason}"),
+            WsEvent::Close(connection) => format!("{connection:x} is closed"),
+            WsEvent::Message(..) => return,
+            WsEvent::Http { connection, resource, .. } => format!("{connection:x} asks for {resource}"),
+        };
+        self.log(verbosity::SCRIPT_INFOS, &format!("{}: connection {text}", endpoint.handle()));
+    }
+}
+
+/// The answer a handler has given: status and data, both needed. What is none is the script's mistake.
+fn http_reply(results: Option<Vec<Data>>) -> HttpReply {
+    let answer = results.and_then(|results| {
+        let mut results = results.into_iter();
+        let status = match results.next()? {
+            Data::Nil => 404,
+            Data::Int(status) => u16::try_from(status).ok().filter(|status| (200..1000).contains(status))?,
+            _ => return None,
+        };
+        match results.next()? {
+            Data::Text(data) | Data::Buffer(data) => Some(HttpReply { status, data }),
+            _ => None,
+        }
+    });
+    answer.unwrap_or_else(|| HttpReply::status(500))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn handles() {
+        assert_eq!(handle_number("1f:simWS.Server", "Server"), Some(31));
+        for bad in ["", ":simWS.Server", "+1:simWS.Server", "01:simWS.Server", "1:simWS.Client", "1F:simWS.Server"] {
+            assert_eq!(handle_number(bad, "Server"), None, "{bad}");
+        }
+        assert_eq!(handle_number(&connection_handle(255), "Connection"), Some(255));
+    }
+
+    #[test]
+    fn answers_of_handlers() {
+        let reply = |results: &[Data]| http_reply(Some(results.to_vec())).status;
+        assert_eq!(reply(&[Data::Int(200), Data::text("1")]), 200);
+        assert_eq!(reply(&[Data::Nil, Data::text("")]), 404);
+        for bad in
+            [vec![], vec![Data::Int(404)], vec![Data::Int(404), Data::Nil], vec![Data::text("200"), Data::text("")]]
+        {
+            assert_eq!(reply(&bad), 500, "{bad:?}");
+        }
+        assert_eq!((reply(&[Data::Int(99), Data::text("")]), http_reply(None).status), (500, 500));
+    }
+}
