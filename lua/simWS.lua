@@ -2,6 +2,7 @@
 WebSocket servers and clients.
 
     start(port)                      a server, by its handle; it answers plain HTTP at the same port
+    getPort(server)                  where it listens; start(0) takes any free port (not in CoppeliaSim)
     stop(server)                     its connections end at once
     connect('ws://host:port/path')   a client, by its handle; its handler for open or for fail will be called
     disconnect(client)

@@ -15,6 +15,8 @@ use crate::script::{ApiError, Console, Detached, Options, Script, Silent, Sim, S
 
 /// The add-on that serves clients by ZeroMQ.
 const ZMQ_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.zmq'";
+/// The add-on that serves clients by WebSocket.
+const WS_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.ws'";
 
 /// Why a request to a [`Simulator`] failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -91,6 +93,21 @@ impl Simulator {
         self.sim.app.borrow_mut().named_params.insert("zmqRemoteApi.rpcPort".to_owned(), port);
         let add_on =
             self.sim.add_detached(ScriptType::AddOn, detached("ZMQ remote API server@addOnScript", ZMQ_ADD_ON));
+        self.sim.start_detached(&add_on);
+        Ok(address)
+    }
+
+    /// The same for clients that connect by WebSocket.
+    ///
+    /// # Errors
+    /// When the listener cannot be used.
+    pub fn serve_ws(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
+        let address = listener.local_addr()?;
+        self.sim.remote_listener.replace(Some(listener));
+        let port = address.port().to_string().into_bytes();
+        self.sim.app.borrow_mut().named_params.insert("wsRemoteApi.port".to_owned(), port);
+        let add_on =
+            self.sim.add_detached(ScriptType::AddOn, detached("WebSocket remote API server@addOnScript", WS_ADD_ON));
         self.sim.start_detached(&add_on);
         Ok(address)
     }

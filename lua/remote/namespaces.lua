@@ -6,6 +6,8 @@ Gives a function that makes these two in the Lua state it is called in; it takes
 
 local sim = require('sim')
 
+local DEEPEST <const> = 8 -- tables within each other: some lead everywhere
+
 -- The table sim is filled name by name when they are used.
 local function membersOf(value, simMembers)
     if value ~= sim then return value end
@@ -15,8 +17,11 @@ local function membersOf(value, simMembers)
     return members
 end
 
-local function describe(value, simMembers)
+--- What a table has: {func} and {const}, and the same of the tables in it; of objects only with `objects`.
+local function describe(value, simMembers, objects, above)
     if type(value) ~= 'table' then return value end
+    above = above or {n = 0}
+    above[value], above.n = true, above.n + 1
     local out = {}
     for name, member in pairs(membersOf(value, simMembers)) do
         local kind = type(member)
@@ -24,10 +29,11 @@ local function describe(value, simMembers)
             out[name] = {func = {}}
         elseif kind ~= 'table' and member ~= false then -- false: taken from clients
             out[name] = {const = member}
-        elseif kind == 'table' and not getmetatable(member) and member ~= value then
-            out[name] = describe(member, simMembers)
+        elseif kind == 'table' and (objects or not getmetatable(member)) and not above[member] and above.n < DEEPEST then
+            out[name] = describe(member, simMembers, objects, above)
         end
     end
+    above[value], above.n = nil, above.n - 1
     return out
 end
 
@@ -52,4 +58,4 @@ local function install(simMembers)
     end
 end
 
-return {install = install, find = find}
+return {install = install, find = find, describe = describe}

@@ -117,6 +117,7 @@ const LIBRARIES: &[(&str, &[ApiFn])] = &[
     ("lfs", file_lock::FUNCTIONS),
     ("lfsx", lfs::FUNCTIONS),
     ("remote.ws", sim_ws::REMOTE),
+    ("remote.ws", remote::NAMES),
     ("remote.zmq", remote::FUNCTIONS),
     ("socket.core", socket::FUNCTIONS),
     ("socket.core", socket::OBJECTS),

@@ -1,4 +1,4 @@
-//! The native part of the remote API (`lua/remote/zmq.lua`): messages of programs outside.
+//! The native part of the remote APIs (`lua/remote`): messages of programs outside.
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -11,6 +11,9 @@ use crate::io::Incoming;
 use crate::script::{Bytes, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, returns, members];
+
+/// What every remote API needs.
+pub(crate) const NAMES: &[ApiFn] = functions![members];
 
 /// Longest wait, seconds: the simulator must look after itself from time to time.
 const LONGEST_WAIT: f64 = 1.0;

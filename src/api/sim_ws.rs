@@ -12,6 +12,7 @@ use crate::script::{Bytes, Handler, ScriptFunction};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     start,
+    get_port,
     stop,
     connect,
     disconnect,
@@ -36,6 +37,15 @@ fn start(cx: &mut Cx, listen_port: i64) -> Result<String> {
     let address = cx.sim().options.listen_address;
     let listener = TcpListener::bind((address, port));
     serve(cx, listener).map_err(|error| unusable(&format!("{address}:{port}"), &error))
+}
+
+/// Where a server listens. Not in CoppeliaSim.
+///
+/// @param serverHandle
+/// @return port
+#[api("simWS.getPort")]
+fn get_port(cx: &Cx, server_handle: String) -> Result<i64> {
+    endpoint(cx, &server_handle)?.port().map(i64::from).ok_or_else(invalid_handle)
 }
 
 /// Starts a server at the port of the remote API.

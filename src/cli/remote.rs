@@ -7,14 +7,34 @@ use super::output::Output;
 use super::setup::Setup;
 use crate::{Options, Simulator};
 
-/// The port of the first instance; others take the next free one.
-const FIRST_PORT: u16 = 23_000;
 /// How many ports are tried.
 const TRIED_PORTS: u16 = 100;
-/// The parameter that chooses the port, as in CoppeliaSim.
-const PORT_PARAM: &str = "zmqRemoteApi.rpcPort";
-/// The parameter that says whether there is a server at all, as in CoppeliaSim.
-const START_PARAM: &str = "zmqRemoteApi.autoStart";
+
+/// A remote API and its port.
+struct Api {
+    name: &'static str,
+    /// The port of the first instance; others take the next free one.
+    first_port: u16,
+    /// The parameter that chooses the port, as in CoppeliaSim.
+    param: &'static str,
+    /// The parameter that says whether there is a server at all, as in CoppeliaSim.
+    start_param: &'static str,
+}
+
+const ZMQ: Api = Api {
+    name: "ZeroMQ",
+    first_port: 23_000,
+    param: "zmqRemoteApi.rpcPort",
+    start_param: "zmqRemoteApi.autoStart",
+};
+const WS: Api =
+    Api { name: "WebSocket", first_port: 23_050, param: "wsRemoteApi.port", start_param: "wsRemoteApi.autoStart" };
+
+impl Api {
+    fn is_refused(&self, setup: &Setup) -> bool {
+        matches!(setup.param(self.start_param), Some("false" | "0"))
+    }
+}
 
 /// Which programs outside may drive the simulator
 #[derive(clap::Args)]
@@ -22,6 +42,9 @@ pub(super) struct Remote {
     /// Serve the ZeroMQ remote API, at a port of one's choice (0: any) [default port: the first free one from 23000]
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
     remote_api: Option<Option<u16>>,
+    /// Serve the WebSocket remote API as well; its default port is the first free one from 23050
+    #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
+    ws_remote_api: Option<Option<u16>>,
     /// Address to listen at, for remote APIs and servers of scripts; who connects there can do whatever a script can. Another than this machine's own implies --no-unsafe
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
@@ -34,7 +57,8 @@ pub(super) struct Remote {
 }
 
 impl Remote {
-    pub(super) fn is_asked_for(&self) -> bool {
+    /// Whether the ZeroMQ remote API is asked for.
+    pub(super) fn asks_for_zmq(&self) -> bool {
         self.remote_api.is_some()
     }
 
@@ -44,38 +68,40 @@ impl Remote {
         Options { exec_unsafe: allowed, exec_unsafe_ext: allowed, listen_address: self.bind, ..options }
     }
 
-    /// Serves the ZeroMQ remote API, unless a parameter says not to, and tells where.
+    /// Serves the remote APIs, unless parameters say not to, and tells where; ZeroMQ's if `zmq`, the other one if it is asked for.
     ///
     /// # Errors
-    /// When the port is not free.
+    /// When a port is not free.
     pub(super) fn serve(
         &self,
+        zmq: bool,
         setup: &Setup,
         sim: &mut Simulator,
         output: &Output,
         interrupt: &Interrupt,
     ) -> Result<(), String> {
-        if matches!(setup.param(START_PARAM), Some("false" | "0")) {
-            return Ok(());
+        let failed = |error| format!("the remote API cannot start: {error}");
+        if zmq && !ZMQ.is_refused(setup) {
+            let listener = self.listener(setup, &ZMQ, self.remote_api.flatten())?;
+            output.listening(ZMQ.name, sim.serve_zmq(listener, interrupt.flag()).map_err(failed)?);
         }
-        let listener = self.listener(setup)?;
-        let address = sim
-            .serve_zmq(listener, interrupt.flag())
-            .map_err(|error| format!("the remote API cannot start: {error}"))?;
-        output.listening("ZeroMQ", address);
+        if let Some(port) = self.ws_remote_api.filter(|_| !WS.is_refused(setup)) {
+            let listener = self.listener(setup, &WS, port)?;
+            output.listening(WS.name, sim.serve_ws(listener).map_err(failed)?);
+        }
         Ok(())
     }
 
-    fn listener(&self, setup: &Setup) -> Result<TcpListener, String> {
+    fn listener(&self, setup: &Setup, api: &Api, port: Option<u16>) -> Result<TcpListener, String> {
         let address = self.bind;
-        let param =
-            setup.param(PORT_PARAM).map(|text| text.parse().map_err(|_| format!("{PORT_PARAM}: no port: {text}")));
-        if let Some(port) = self.remote_api.flatten().or(param.transpose()?) {
+        let Api { first_port, param, .. } = api;
+        let given = setup.param(param).map(|text| text.parse().map_err(|_| format!("{param}: no port: {text}")));
+        if let Some(port) = port.or(given.transpose()?) {
             let refused = |error| format!("cannot listen at {address}:{port}: {error}");
             return TcpListener::bind((address, port)).map_err(refused);
         }
-        let mut listeners = (FIRST_PORT..FIRST_PORT + TRIED_PORTS).map(|port| TcpListener::bind((address, port)));
+        let mut listeners = (*first_port..first_port + TRIED_PORTS).map(|port| TcpListener::bind((address, port)));
         let free = listeners.find_map(Result::ok);
-        free.ok_or_else(|| format!("no port from {FIRST_PORT} on is free at {address}"))
+        free.ok_or_else(|| format!("no port from {first_port} on is free at {address}"))
     }
 }

@@ -79,9 +79,8 @@ pub(super) fn run(args: &Args) -> ExitCode {
     let options = args.remote.guard(args.setup.options(Some(&args.scene), &interrupt));
     let mut sim = Simulator::with_console(options, Box::new(output.clone()));
     args.setup.fill(&mut sim, &sources, args.kind.into(), Some(&args.scene));
-    if args.remote.is_asked_for()
-        && let Err(reason) = args.remote.serve(&args.setup, &mut sim, &output, &interrupt)
-    {
+    let zmq = args.remote.asks_for_zmq();
+    if let Err(reason) = args.remote.serve(zmq, &args.setup, &mut sim, &output, &interrupt) {
         return refuse(&reason);
     }
     let failed_to_load = sim.errors() > 0;

@@ -24,7 +24,7 @@ const INTERRUPTED: u8 = 130;
 pub(super) struct Args {
     /// The Lua file of the scene [default: the default scene]
     scene: Option<PathBuf>,
-    /// Serve nobody: only scripts drive the simulator
+    /// Leave out the ZeroMQ remote API
     #[arg(long, conflicts_with = "remote_api")]
     no_remote_api: bool,
     #[command(flatten)]
@@ -45,9 +45,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     let options = args.remote.guard(args.setup.options(scene, &interrupt));
     let mut sim = Simulator::with_console(options, Box::new(output.clone()));
     args.setup.fill(&mut sim, &sources, ScriptKind::Customization, scene);
-    if !args.no_remote_api
-        && let Err(reason) = args.remote.serve(&args.setup, &mut sim, &output, &interrupt)
-    {
+    if let Err(reason) = args.remote.serve(!args.no_remote_api, &args.setup, &mut sim, &output, &interrupt) {
         return refuse(&reason);
     }
     while !interrupt.is_requested() && !sim.quit_requested() {

@@ -106,13 +106,19 @@ impl<'a> Session<'a> {
         let before = (self.sim.state(), self.sim.steps(), self.sim.time());
         self.sim.pass();
         if before.0.is_advancing() {
-            if self.sim.steps() == before.1 && self.sim.scene().settings().real_time {
-                // The next step is not due yet.
-                std::thread::sleep(REAL_TIME_NAP);
+            if self.sim.steps() == before.1 {
+                self.rest();
             }
             self.steps += self.sim.steps().saturating_sub(before.1);
             self.time += (self.sim.time() - before.2).max(0.0);
             self.progress.show(self.sim);
+        }
+    }
+
+    /// Rests after a pass without a step: the next one is not due yet, or somebody outside holds it up.
+    fn rest(&self) {
+        if !self.sim.wait_for_request(REAL_TIME_NAP) && self.sim.scene().settings().real_time {
+            std::thread::sleep(REAL_TIME_NAP);
         }
     }
 

@@ -22,6 +22,7 @@ const INNER: &[&str] = &[
     "quaternion",
     "remote/namespaces",
     "remote/restrict",
+    "remote/ws_codecs",
     "remote/zmq_answers",
     "remote/zmq_clients",
     "remote/zmq_functions",

@@ -57,6 +57,11 @@ impl Endpoint {
         self.handlers.borrow_mut().insert(occasion, Rc::new(handler));
     }
 
+    /// Where a server listens.
+    pub(crate) fn port(&self) -> Option<u16> {
+        self.socket.borrow().as_ref()?.port()
+    }
+
     /// # Errors
     /// Why the connection does not take it.
     pub(crate) fn send(&self, connection: u64, data: Vec<u8>, opcode: i64) -> Result<(), SendError> {

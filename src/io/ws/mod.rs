@@ -111,6 +111,8 @@ pub(crate) struct WsEndpoint {
     event_loop: Rc<EventLoop>,
     inbox: RefCell<Inbox<Arrival>>,
     open: RefCell<BTreeMap<Connection, Outgoing>>,
+    /// Where a server listens.
+    port: Option<u16>,
     task: Option<Task>,
 }
 
@@ -121,8 +123,11 @@ impl WsEndpoint {
     /// When the listener cannot be used.
     pub(crate) fn listen(event_loop: Rc<EventLoop>, listener: TcpListener, numbers: Numbers) -> std::io::Result<Self> {
         listener.set_nonblocking(true)?;
+        let port = listener.local_addr()?.port();
         let listener = event_loop.enter(|| tokio::net::TcpListener::from_std(listener))?;
-        Ok(Self::new(event_loop, numbers, |reports| server::accept_all(listener, reports)))
+        let mut server = Self::new(event_loop, numbers, |reports| server::accept_all(listener, reports));
+        server.port = Some(port);
+        Ok(server)
     }
 
     /// Connects to a server; how that ends is an event.
@@ -138,7 +143,11 @@ impl WsEndpoint {
         let (deliver, inbox) = event_loop.inbox(MOST_EVENTS);
         let reports = Reports { deliver, room: Arc::new(Semaphore::new(MOST_BYTES)), numbers };
         let task = Some(event_loop.spawn(task(reports)));
-        Self { event_loop, inbox: RefCell::new(inbox), open: RefCell::default(), task }
+        Self { event_loop, inbox: RefCell::new(inbox), open: RefCell::default(), port: None, task }
+    }
+
+    pub(crate) fn port(&self) -> Option<u16> {
+        self.port
     }
 
     /// How many events wait.
