@@ -82,12 +82,6 @@ impl EventLoop {
         self.runtime().block_on(future)
     }
 
-    /// Makes something that has to know the event loop it belongs to.
-    pub(super) fn enter<T>(&self, make: impl FnOnce() -> T) -> T {
-        let _entered = self.runtime().enter();
-        make()
-    }
-
     /// Runs a task until it ends or what is returned is dropped.
     pub(super) fn spawn(&self, task: impl Future<Output = ()> + Send + 'static) -> Task {
         Task(self.runtime().spawn(task).abort_handle())

@@ -3,14 +3,11 @@
 mod event_loop;
 mod serial;
 pub(crate) mod socket;
+mod ws;
 mod zmq_server;
 mod zmtp;
 
 pub(crate) use event_loop::EventLoop;
 pub(crate) use serial::SerialPort;
-mod ws;
-mod zmq_server;
-
-pub(crate) use event_loop::EventLoop;
 pub(crate) use ws::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent, WsRequest};
 pub(crate) use zmq_server::{Incoming, ZmqServer};

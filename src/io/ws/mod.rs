@@ -124,7 +124,7 @@ impl WsEndpoint {
     pub(crate) fn listen(event_loop: Rc<EventLoop>, listener: TcpListener, numbers: Numbers) -> std::io::Result<Self> {
         listener.set_nonblocking(true)?;
         let port = listener.local_addr()?.port();
-        let listener = event_loop.enter(|| tokio::net::TcpListener::from_std(listener))?;
+        let listener = event_loop.block_on(async { tokio::net::TcpListener::from_std(listener) })?;
         let mut server = Self::new(event_loop, numbers, |reports| server::accept_all(listener, reports));
         server.port = Some(port);
         Ok(server)
