@@ -21,12 +21,8 @@ struct Api {
     start_param: &'static str,
 }
 
-const ZMQ: Api = Api {
-    name: "ZeroMQ",
-    first_port: 23_000,
-    param: "zmqRemoteApi.rpcPort",
-    start_param: "zmqRemoteApi.autoStart",
-};
+const ZMQ: Api =
+    Api { name: "ZeroMQ", first_port: 23_000, param: "zmqRemoteApi.rpcPort", start_param: "zmqRemoteApi.autoStart" };
 const WS: Api =
     Api { name: "WebSocket", first_port: 23_050, param: "wsRemoteApi.port", start_param: "wsRemoteApi.autoStart" };
 
