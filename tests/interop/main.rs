@@ -8,4 +8,5 @@
 mod server;
 #[path = "../support/mod.rs"]
 mod support;
+mod web;
 mod zmq;

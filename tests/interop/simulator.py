@@ -1,0 +1,68 @@
+"""The program under test with its output, for files that start it themselves."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import threading
+
+ROOT = pathlib.Path(__file__).parents[2]
+LIMIT = 10  # seconds for anything
+
+
+class Simulator:
+    def __init__(self, *args, command="serve"):
+        line = [sys.argv[1], command, "--json", *args]
+        self.process = subprocess.Popen(line, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, cwd=ROOT)
+        self.lines = []
+        self.more = threading.Condition()
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _read(self):
+        for line in self.process.stdout:
+            with self.more:
+                self.lines.append(json.loads(line))
+                self.more.notify_all()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+
+    def line(self, matches, what):
+        """The first line of output that matches; taken out, so that it is found once."""
+        with self.more:
+            found = []
+            if not self.more.wait_for(lambda: found.extend(self._take(matches)) or found, LIMIT):
+                sys.exit(f"{what}: not in the output: {self.lines[-5:]}")
+            return found[0]
+
+    def _take(self, matches):
+        for i, line in enumerate(self.lines):
+            if matches(line):
+                return [self.lines.pop(i)]
+        return []
+
+    def port(self, api):
+        return self.line(lambda line: line["type"] == "listening" and line["api"] == api, api)["port"]
+
+    def printed(self, start):
+        """What a printed line says behind its beginning."""
+        line = self.line(lambda line: line["type"] == "print" and line["text"].startswith(start), start)
+        return line["text"][len(start) :]
+
+    def logged(self, part):
+        return self.line(lambda line: line["type"] == "log" and part in line["text"], part)["text"]
+
+    def sockets(self):
+        """How many file descriptors the program has."""
+        return len(os.listdir(f"/proc/{self.process.pid}/fd"))
+
+    def end(self):
+        """Asks it to end, as ctrl-c does; tells how that went."""
+        self.process.send_signal(signal.SIGTERM)
+        return self.process.wait(LIMIT)

@@ -1,0 +1,42 @@
+//! WebSockets and browsers: the files `ws_*.py`, which start the program themselves.
+
+use std::process::Command;
+
+use crate::server::{folder, python};
+use crate::support::process::run_bounded;
+
+/// Runs one file; it says nothing when all is well.
+fn check(file: &str) {
+    let Some(python) = python() else { return };
+    let mut command = Command::new(python);
+    command.arg(folder().join(file)).arg(env!("CARGO_BIN_EXE_swanilda")).env("PYTHONDONTWRITEBYTECODE", "1");
+    assert_eq!(run_bounded(&mut command).as_deref(), Ok(""), "{file}");
+}
+
+#[test]
+fn servers_and_clients_of_scripts() {
+    check("ws_module.py");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn peers_that_behave_badly() {
+    check("ws_bad_input.py");
+}
+
+#[test]
+fn the_remote_api() {
+    check("ws_remote.py");
+}
+
+#[test]
+fn pages_in_a_browser() {
+    let names = ["chromium", "chromium-browser", "google-chrome"];
+    let is_there =
+        |name: &&str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
+    if names.iter().any(|name| is_there(&name)) {
+        return check("ws_browser.py");
+    }
+    assert!(std::env::var_os("CI").is_none(), "CI must have Chromium");
+    eprintln!("skipped: there is no Chromium");
+}
