@@ -34,7 +34,7 @@ fn pages_in_a_browser() {
     let names = ["chromium", "chromium-browser", "google-chrome"];
     let is_there =
         |name: &&str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
-    if names.iter().any(|name| is_there(&name)) {
+    if names.iter().any(is_there) {
         return check("ws_browser.py");
     }
     assert!(std::env::var_os("CI").is_none(), "CI must have Chromium");
