@@ -1626,6 +1626,12 @@ function sim.isObjectInSelection(objectHandle) end
 ---@return boolean loaded true if so
 function sim.isPluginLoaded(name) end
 
+--- Starts a program that goes on by itself.
+---@param filename string path of the program, or a name to be looked up where the system looks for programs
+---@param parameters? string its arguments, with spaces between; double quotes hold one together
+---@param ShowStatus? integer
+function sim.launchExecutable(filename, parameters, ShowStatus) end
+
 --- Reads an image: PNG, JPEG, BMP or TGA.
 ---@param options integer 1: with an alpha channel
 ---@param filename string|table name of the file, or its content

@@ -45,6 +45,7 @@ mod signal;
 mod sim_ws;
 mod simulation;
 mod socket;
+mod subprocess;
 mod thread;
 mod time;
 mod tube;
@@ -103,6 +104,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Packing", packing::FUNCTIONS),
     ("Tubes", tube::FUNCTIONS),
     ("Serial ports", serial::FUNCTIONS),
+    ("Programs", subprocess::SIM_FUNCTIONS),
     ("Consoles, messages of the interface, semaphores", auxiliary_console::FUNCTIONS),
     ("User parameters", user_param::FUNCTIONS),
     ("Scene files", scene_file::FUNCTIONS),
@@ -118,6 +120,7 @@ const LIBRARIES: &[(&str, &[ApiFn])] = &[
     ("lfsx", lfs::FUNCTIONS),
     ("remote.ws", sim_ws::REMOTE),
     ("remote.ws", remote::NAMES),
+    ("simSubprocess", subprocess::FUNCTIONS),
     ("remote.zmq", remote::FUNCTIONS),
     ("socket.core", socket::FUNCTIONS),
     ("socket.core", socket::OBJECTS),

@@ -1,6 +1,7 @@
-//! The world outside: sockets and whole messages, serial ports. What messages say is not known here.
+//! The world outside: sockets and whole messages, serial ports, programs. What messages say is not known here.
 
 mod event_loop;
+mod process;
 mod serial;
 pub(crate) mod socket;
 mod ws;
@@ -8,6 +9,7 @@ mod zmq_server;
 mod zmtp;
 
 pub(crate) use event_loop::EventLoop;
+pub(crate) use process::{Process, ProcessError, Program};
 pub(crate) use serial::SerialPort;
 pub(crate) use ws::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent, WsRequest};
 pub(crate) use zmq_server::{Incoming, ZmqServer};

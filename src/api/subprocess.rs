@@ -1,0 +1,209 @@
+//! `simSubprocess`: programs that scripts start, and `sim.launchExecutable`.
+//!
+//! A program started by `execAsync` belongs to the script that started it: it is killed when the script ends.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use std::time::Duration;
+
+use api_macro::api;
+
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::io::{Process, ProcessError, Program};
+use crate::scene::Data;
+use crate::script::{Bytes, Nil, Results, Table};
+
+pub(crate) const SIM_FUNCTIONS: &[ApiFn] = functions![launch_executable];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![exec, exec_async, is_running, wait, kill, getpid];
+
+/// How long the outputs of a program that has ended may stay open: another program may hold them.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// The programs a script has started.
+#[derive(Default)]
+struct Processes {
+    started: u64,
+    by_handle: BTreeMap<String, Process>,
+}
+
+impl Processes {
+    fn add(&mut self, process: Process) -> String {
+        self.started += 1;
+        let handle = format!("{:x}:simSubprocess.child", self.started);
+        self.by_handle.insert(handle.clone(), process);
+        handle
+    }
+
+    fn get(&mut self, handle: &str) -> Result<&mut Process> {
+        self.by_handle.get_mut(handle).ok_or_else(unknown)
+    }
+
+    /// Takes note of those that have ended, so that the system forgets them.
+    fn reap(&mut self) {
+        self.by_handle.values_mut().for_each(|process| drop(process.exit_code()));
+    }
+}
+
+/// Those of the calling script.
+fn processes(cx: &Cx) -> Rc<RefCell<Processes>> {
+    cx.library_data()
+}
+
+/// Runs a program to its end; the simulator waits.
+#[api("simSubprocess.exec")]
+fn exec(
+    cx: &mut Cx,
+    program_path: String,
+    arguments: Table,
+    #[default(Bytes(Vec::new()))] input: Bytes,
+    #[default(Table(Data::Nil))] opts: Table,
+) -> Result<(i64, Bytes, Bytes)> {
+    let program = program(cx, program_path, &arguments, &opts)?;
+    let mut run = program.run(input.0).map_err(failure)?;
+    let exit_code = cx.sim().wait_for(None, || run.exit_code())?;
+    let exit_code = exit_code.ok_or(ApiError::Interrupted)?.map_err(failure)?;
+    cx.sim().wait_for(Some(PATIENCE), || run.outputs_are_complete().then_some(()))?;
+    let (out, err) = run.outputs().map_err(failure)?;
+    Ok((exit_code.into(), Bytes(out), Bytes(err)))
+}
+
+/// Starts a program.
+#[api("simSubprocess.execAsync")]
+fn exec_async(
+    cx: &mut Cx,
+    program_path: String,
+    arguments: Table,
+    #[default(Table(Data::Nil))] opts: Table,
+) -> Result<String> {
+    let process = program(cx, program_path, &arguments, &opts)?.start().map_err(failure)?;
+    let processes = processes(cx);
+    processes.borrow_mut().reap();
+    let handle = processes.borrow_mut().add(process);
+    Ok(handle)
+}
+
+/// Whether a program still runs.
+#[api("simSubprocess.isRunning")]
+fn is_running(cx: &Cx, handle: String) -> Result<bool> {
+    Ok(processes(cx).borrow_mut().get(&handle)?.exit_code().is_none())
+}
+
+/// Waits for the end of a program; nil when it still runs after that many seconds.
+#[api("simSubprocess.wait")]
+fn wait(cx: &Cx, handle: String, #[default(5.0)] timeout: f64) -> Result<Results> {
+    let processes = processes(cx);
+    let mut processes = processes.borrow_mut();
+    let process = processes.get(&handle)?;
+    let exit_code = cx.sim().wait_for(limit(timeout), || process.exit_code())?.transpose().map_err(failure)?;
+    Ok(Results(vec![exit_code.map_or(Data::Nil, |code| Data::Int(code.into()))]))
+}
+
+/// Seconds as scripts give them; None for no limit: less than nothing, or more than there is.
+fn limit(timeout: f64) -> Option<Duration> {
+    if timeout.is_nan() { Some(Duration::ZERO) } else { Duration::try_from_secs_f64(timeout).ok() }
+}
+
+/// Ends a program at once; its handle is void then.
+#[api("simSubprocess.kill")]
+fn kill(cx: &mut Cx, handle: String) -> Result<Nil> {
+    processes(cx).borrow_mut().by_handle.remove(&handle).ok_or_else(unknown)?.kill();
+    Ok(Nil)
+}
+
+/// The system's number of a program.
+#[api("simSubprocess.getpid")]
+fn getpid(cx: &Cx, handle: String) -> Result<i64> {
+    Ok(processes(cx).borrow_mut().get(&handle)?.id().into())
+}
+
+/// Starts a program that goes on by itself.
+///
+/// @param filename path of the program, or a name to be looked up where the system looks for programs
+/// @param parameters its arguments, with spaces between; double quotes hold one together
+/// @param showStatus has no effect
+#[api("sim.launchExecutable")]
+fn launch_executable(
+    cx: &mut Cx,
+    filename: String,
+    #[default(String::new())] parameters: String,
+    #[default(1)] _show_status: i64,
+) -> Result<()> {
+    cx.require_unsafe()?;
+    let program = Program { path: filename, args: words(&parameters), search_path: true, ..Program::default() };
+    program.launch().map_err(|error| ApiError::Other(format!("cannot launch {}: {error}.", program.path)))
+}
+
+fn program(cx: &Cx, path: String, args: &Table, opts: &Table) -> Result<Program> {
+    cx.require_unsafe()?;
+    let option = |name, default| opts.0.field(name).map_or(default, Data::truthy);
+    let working_dir = match opts.0.field("workingDir") {
+        None | Some(Data::Nil) => None,
+        Some(folder) => Some(text(folder)?),
+    };
+    Ok(Program {
+        path,
+        args: match &args.0 {
+            Data::Array(args) => args.iter().map(text).collect::<Result<_>>()?,
+            _ => return Err(ApiError::Other("the arguments of a program are a list of strings.".into())),
+        },
+        search_path: option("useSearchPath", true),
+        working_dir,
+        new_console: option("openNewConsole", false),
+    })
+}
+
+fn text(data: &Data) -> Result<String> {
+    match data {
+        Data::Text(bytes) | Data::Buffer(bytes) => Ok(String::from_utf8_lossy(bytes).into_owned()),
+        Data::Int(number) => Ok(number.to_string()),
+        Data::Float(number) => Ok(number.to_string()),
+        _ => Err(ApiError::Other("a string is needed.".into())),
+    }
+}
+
+/// The words of a command line.
+fn words(line: &str) -> Vec<String> {
+    let mut words = Vec::new();
+    let mut word: Option<String> = None;
+    let mut quoted = false;
+    for letter in line.chars() {
+        match letter {
+            '"' => {
+                quoted = !quoted;
+                word.get_or_insert_default();
+            }
+            _ if letter.is_whitespace() && !quoted => words.extend(word.take()),
+            _ => word.get_or_insert_default().push(letter),
+        }
+    }
+    words.extend(word);
+    words
+}
+
+fn unknown() -> ApiError {
+    ApiError::Other("invalid object handle".into())
+}
+
+fn failure(error: ProcessError) -> ApiError {
+    ApiError::Other(error.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{limit, words};
+
+    #[test]
+    fn quotes_hold_words_together() {
+        assert_eq!(words(r#" -a "two words" c"d e"f "" "#), ["-a", "two words", "cd ef", ""]);
+        assert_eq!(words(r#"left "open"#), ["left", "open"]);
+        assert!(words(" ").is_empty());
+    }
+
+    #[test]
+    fn limits_are_what_can_be_waited_for() {
+        assert_eq!(limit(0.5), Some(std::time::Duration::from_millis(500)));
+        assert!(limit(-1.0).is_none() && limit(f64::INFINITY).is_none());
+        assert!(limit(f64::NAN).is_some());
+    }
+}

@@ -1,0 +1,191 @@
+//! Programs on this machine: run to their end with input and output, or left to run. Every child is reaped.
+
+use std::io::{self, Read, Write};
+use std::path::PathBuf;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::{Builder, JoinHandle};
+
+/// Bytes kept of each of the two outputs of a program.
+pub(crate) const MAX_OUTPUT: usize = 256 << 20;
+
+/// Why a program gave no result. In the words of CoppeliaSim.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum ProcessError {
+    #[error("waitForStarted timed out: {0}")]
+    NotStarted(#[from] io::Error),
+    #[error("the process crashed")]
+    Crashed,
+    #[error("the process wrote more than 256 MiB")]
+    TooMuchOutput,
+}
+
+/// What to run, and how.
+#[derive(Debug, Default)]
+pub(crate) struct Program {
+    pub path: String,
+    pub args: Vec<String>,
+    /// Whether a bare name is looked up in the folders of the system.
+    pub search_path: bool,
+    pub working_dir: Option<String>,
+    /// On Windows: in a window of its own.
+    #[cfg_attr(not(windows), expect(dead_code, reason = "elsewhere programs have no windows"))]
+    pub new_console: bool,
+}
+
+impl Program {
+    fn command(&self) -> io::Result<Command> {
+        let path = if self.search_path { PathBuf::from(&self.path) } else { std::path::absolute(&self.path)? };
+        let mut command = Command::new(path);
+        command.args(&self.args);
+        if let Some(folder) = &self.working_dir {
+            command.current_dir(folder);
+        }
+        #[cfg(windows)]
+        if self.new_console {
+            use std::os::windows::process::CommandExt;
+            const CREATE_NEW_CONSOLE: u32 = 0x10;
+            command.creation_flags(CREATE_NEW_CONSOLE);
+        }
+        Ok(command)
+    }
+
+    /// Starts it with `input`; what it writes is read while it runs, so that neither side waits for the other.
+    pub(crate) fn run(&self, input: Vec<u8>) -> Result<Run, ProcessError> {
+        let mut command = self.command()?;
+        let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
+        let mut child = Process(child);
+        let (stdin, stdout, stderr) = (child.0.stdin.take(), child.0.stdout.take(), child.0.stderr.take());
+        if let Some(mut stdin) = stdin {
+            // A program that does not want its input is not at fault. Its end closes the pipe, which ends the thread.
+            Builder::new().spawn(move || drop(stdin.write_all(&input)))?;
+        }
+        Ok(Run { out: Collected::of(stdout)?, err: Collected::of(stderr)?, child })
+    }
+
+    /// Starts it with the outputs of this program. Its input is open and empty.
+    pub(crate) fn start(&self) -> Result<Process, ProcessError> {
+        Ok(Process(self.command()?.stdin(Stdio::piped()).spawn()?))
+    }
+
+    /// Starts it for good: it outlives whoever started it.
+    pub(crate) fn launch(&self) -> io::Result<()> {
+        let mut child = self.command()?.stdin(Stdio::null()).spawn()?;
+        // When it ends, somebody has to take note of it.
+        Builder::new().spawn(move || drop(child.wait())).map(drop)
+    }
+}
+
+/// A program that runs, or ran. It is killed when it is dropped.
+pub(crate) struct Process(Child);
+
+impl Process {
+    pub(crate) fn id(&self) -> u32 {
+        self.0.id()
+    }
+
+    /// The exit code, once the program has ended.
+    pub(crate) fn exit_code(&mut self) -> Option<Result<i32, ProcessError>> {
+        match self.0.try_wait() {
+            Ok(status) => status.map(exit_code),
+            Err(error) => Some(Err(error.into())),
+        }
+    }
+
+    /// Ends it at once.
+    pub(crate) fn kill(&mut self) {
+        // It may have ended by itself.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        self.kill();
+    }
+}
+
+fn exit_code(status: ExitStatus) -> Result<i32, ProcessError> {
+    status.code().ok_or(ProcessError::Crashed)
+}
+
+/// A program whose outputs are collected.
+pub(crate) struct Run {
+    child: Process,
+    out: Collected,
+    err: Collected,
+}
+
+impl Run {
+    /// The exit code, once the program has ended.
+    pub(crate) fn exit_code(&mut self) -> Option<Result<i32, ProcessError>> {
+        if self.out.is_too_much() || self.err.is_too_much() {
+            return Some(Err(ProcessError::TooMuchOutput));
+        }
+        self.child.exit_code()
+    }
+
+    /// Whether both outputs are closed. Those of a program that has ended may be held open by another one it has started.
+    pub(crate) fn outputs_are_complete(&self) -> bool {
+        self.out.is_complete() && self.err.is_complete()
+    }
+
+    /// What came out and what came as errors.
+    pub(crate) fn outputs(&self) -> Result<(Vec<u8>, Vec<u8>), ProcessError> {
+        if self.out.is_too_much() || self.err.is_too_much() {
+            return Err(ProcessError::TooMuchOutput);
+        }
+        Ok((self.out.take(), self.err.take()))
+    }
+}
+
+/// The bytes of one output, gathered by a thread.
+struct Collected {
+    bytes: Arc<Mutex<Vec<u8>>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Collected {
+    fn of(pipe: Option<impl Read + Send + 'static>) -> io::Result<Self> {
+        let bytes = Arc::new(Mutex::new(Vec::new()));
+        let theirs = Arc::clone(&bytes);
+        let thread = pipe.map(|pipe| Builder::new().spawn(move || collect(pipe, &theirs))).transpose()?;
+        Ok(Self { bytes, thread })
+    }
+
+    fn is_complete(&self) -> bool {
+        self.thread.as_ref().is_none_or(JoinHandle::is_finished)
+    }
+
+    fn is_too_much(&self) -> bool {
+        lock(&self.bytes).len() > MAX_OUTPUT
+    }
+
+    fn take(&self) -> Vec<u8> {
+        std::mem::take(&mut lock(&self.bytes))
+    }
+}
+
+/// Reads to the end, or a little more than is kept.
+fn collect(mut pipe: impl Read, bytes: &Mutex<Vec<u8>>) {
+    let mut part = vec![0; 1 << 16];
+    loop {
+        match pipe.read(&mut part) {
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Ok(0) | Err(_) => return,
+            Ok(count) => {
+                let mut bytes = lock(bytes);
+                bytes.extend_from_slice(&part[..count]);
+                if bytes.len() > MAX_OUTPUT {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/// Whole even if a thread that held it panicked: bytes are only added.
+fn lock(bytes: &Mutex<Vec<u8>>) -> MutexGuard<'_, Vec<u8>> {
+    bytes.lock().unwrap_or_else(PoisonError::into_inner)
+}
