@@ -45,26 +45,32 @@ fn seed_random(stack: Stack<'_>, seed: u32) {
 /// Modules that CoppeliaSim has not, or no longer: a script's own file of that name goes first.
 const LAST: &[&str] = &["cbor", "class", "json"];
 
-/// Puts the scene's folders first into `package.path`, and the embedded library into `package.searchers`.
+/// Puts the scene's folders first into `package.path` and `package.cpath`, and the embedded library into `package.searchers`.
 fn install_package(sim: &Sim, stack: Stack<'_>) {
     stack.push_global("package");
-    install_path(sim, stack);
+    install_paths(sim, stack);
     install_searchers(stack);
     stack.pop(1);
 }
 
-/// The table `package` is on top.
-fn install_path(sim: &Sim, stack: Stack<'_>) {
-    stack.raw_get_field(-1, "path");
-    let default = stack.text(-1).unwrap_or_default();
-    stack.pop(1);
-    let mut path = String::new();
+/// What native libraries are called.
+const LIBRARY_EXTENSION: &str = if cfg!(windows) { "dll" } else { "so" };
+
+/// Files in the scene's folders go before those of Lua's own default. The table `package` is on top.
+fn install_paths(sim: &Sim, stack: Stack<'_>) {
+    let (mut path, mut cpath) = (String::new(), String::new());
     for dir in &sim.options.package_dirs {
         let dir = dir.display();
         path.push_str(&format!("{dir}/?.lua;{dir}/?/init.lua;"));
+        cpath.push_str(&format!("{dir}/?.{LIBRARY_EXTENSION};"));
     }
-    stack.push_bytes(&[path.as_bytes(), &default].concat());
-    stack.raw_set_field(-2, "path");
+    for (field, first) in [("path", path), ("cpath", cpath)] {
+        stack.raw_get_field(-1, field);
+        let default = stack.text(-1).unwrap_or_default();
+        stack.pop(1);
+        stack.push_bytes(&[first.as_bytes(), &default].concat());
+        stack.raw_set_field(-2, field);
+    }
 }
 
 /// The table `package` is on top. Its first searcher, that of `package.preload`, stays the first.
