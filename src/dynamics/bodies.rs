@@ -16,10 +16,6 @@ use crate::scene::{Field, Handle, Pose, Scene};
 
 /// A static body that moved less than this between two calls has not moved: metres and radians.
 const STILL: (f64, f64) = (1e-5, 0.05 * std::f64::consts::PI / 180.0);
-/// Sweeps of the solver that bodies held by links get on top of the usual ones.
-/// Chains converge slowly: with fewer a loaded arm sags.
-const LINKED_ITERATIONS: usize = 96;
-
 /// The bodies by shape.
 #[derive(Default)]
 pub(super) struct Bodies {
@@ -241,16 +237,6 @@ impl Bodies {
     pub(super) fn note_local(&mut self, shape: Handle, local: Pose) {
         if let Some(body) = self.by_shape.get_mut(&shape) {
             body.local = local;
-        }
-    }
-
-    /// Gives the bodies at the ends of links more sweeps of the solver, all others the usual number.
-    pub(super) fn set_linked(&self, world: &mut World, is_linked: impl Fn(Handle) -> bool) {
-        for (&shape, body) in &self.by_shape {
-            let iterations = if is_linked(shape) { LINKED_ITERATIONS } else { 0 };
-            if let Some(rigid) = world.bodies.get_mut(body.rigid) {
-                rigid.set_additional_pgs_iterations(iterations);
-            }
         }
     }
 }

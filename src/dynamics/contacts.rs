@@ -1,10 +1,12 @@
 //! Contacts: who may touch whom, what scripts say about it, and the list scripts can read afterwards.
 
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
-    ActiveHooks, ColliderSet, ContactModificationContext, ContactPair, PairFilterContext, PhysicsHooks, SolverFlags,
+    ActiveHooks, ColliderSet, ContactManifold, ContactModificationContext, ContactPair, PairFilterContext,
+    PhysicsHooks, SolverFlags,
 };
 
 use super::bodies::Tag;
@@ -120,6 +122,55 @@ pub(super) fn ask_about_all(world: &mut World, all: bool) {
         };
         collider.set_active_hooks(hooks);
     }
+}
+
+/// The shapes that touch something, or nearly do.
+pub(super) fn shapes_near(world: &World) -> BTreeSet<Handle> {
+    let close =
+        |pair: &&ContactPair| pair.solver_manifolds().iter().any(|manifold| !manifold.data.solver_contacts.is_empty());
+    let pairs = world.narrow_phase.contact_pairs().filter(close);
+    pairs
+        .filter_map(|pair| tags(&world.colliders, pair.collider1, pair.collider2))
+        .flatten()
+        .map(|tag| tag.shape)
+        .collect()
+}
+
+/// An impulse between two shapes, world axes: what the second does to the first.
+pub(super) struct Push {
+    pub shapes: [Handle; 2],
+    pub point: [f64; 3],
+    pub impulse: [f64; 3],
+}
+
+/// What rapier begins the next sub-step with: the impulses of the contacts of the one before, for shapes that matter.
+pub(super) fn expected(world: &World, matters: impl Fn(Handle) -> bool) -> Vec<Push> {
+    let mut pushes = Vec::new();
+    for pair in world.narrow_phase.contact_pairs() {
+        let Some([a, b]) = tags(&world.colliders, pair.collider1, pair.collider2) else { continue };
+        if matters(a.shape) || matters(b.shape) {
+            pair.solver_manifolds()
+                .iter()
+                .for_each(|manifold| expect(world, manifold, [a.shape, b.shape], &mut pushes));
+        }
+    }
+    pushes
+}
+
+/// One push per point along the normal; friction acts at the middle of the points, as one.
+fn expect(world: &World, manifold: &ContactManifold, shapes: [Handle; 2], pushes: &mut Vec<Push>) {
+    let (mut middle, mut friction) = (Vector::ZERO, Vector::ZERO);
+    let count = manifold.data.solver_contacts.len() as f64;
+    for contact in &manifold.data.solver_contacts {
+        let Some(point) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
+        let (a, b) = manifold.data.solver_contact_world_points(contact, &world.bodies);
+        let place = (a + b) * 0.5;
+        let impulse = manifold.data.normal * -point.data.warmstart_impulse;
+        pushes.push(Push { shapes, point: from_vector(place), impulse: from_vector(impulse) });
+        middle += place / count;
+        friction += point.data.warmstart_tangent_world / count;
+    }
+    pushes.push(Push { shapes, point: from_vector(middle), impulse: from_vector(friction) });
 }
 
 /// Adds the contacts of a sub-step of `step` seconds to the list.

@@ -1,13 +1,15 @@
 //! Joints, force sensors and welds as constraints between bodies.
 //!
-//! All of them are rapier's impulse joints, not its multibodies: loops, moving bases and readings of every link then work the same
-//! way. The price is convergence: rapier's warm start of joints is undone by the first sweep over unbounded rows, so each sub-step
-//! begins from nothing and linked bodies get about a hundred sweeps, as Bullet does. A stretched arm of six equal links sags by 0.01 rad
-//! in its second joint. rapier knows no screw: a lead does not act in the dynamics.
+//! What holds them is the articulation, which solves all of them exactly. Those of bodies that touch something are rapier's impulse
+//! joints as well, so that contacts and links can answer each other within a sub-step. rapier's multibodies would not do: they have no
+//! loops, no moving bases, and no reading of what a link or a motor bears.
 
 use std::collections::BTreeMap;
 
-use rapier3d_f64::prelude::{GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, RigidBodyHandle};
+use nalgebra::Vector6;
+use rapier3d_f64::prelude::{
+    GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, RigidBodyHandle, SpringCoefficients,
+};
 
 use super::bodies::Bodies;
 use super::convert::{from_pose, to_pose};
@@ -20,6 +22,8 @@ use crate::scene::{Handle, Pose, Scene};
 
 /// Damping that makes a velocity motor rigid within its force.
 const RIGID: f64 = 1e12;
+/// rapier corrects a fifth of the gaps it finds in a sub-step of 5 ms.
+const SOFTNESS: SpringCoefficients<f64> = SpringCoefficients { natural_frequency: 1.6e4, damping_ratio: 1000.0 };
 /// A revolute joint with a wider range has no stops, radians.
 const WIDEST_STOPS: f64 = 359.0 * std::f64::consts::PI / 180.0;
 
@@ -36,7 +40,13 @@ pub(super) struct Link {
     pub motion: Motion,
     /// No sub-step has run yet since the link was made.
     pub fresh: bool,
-    motor_on: bool,
+    pub drive: Option<Drive>,
+    /// Lowest and highest position, if the joint has stops.
+    pub stops: Option<[f64; 2]>,
+    /// What the articulation found: forces and torques of the rows on the second body, and the motor's share.
+    exact: (Vector6<f64>, f64),
+    /// Whether rapier holds the link as well.
+    shared: bool,
     /// Effort of the motor on the parent in each sub-step of this call.
     pub efforts: Vec<f64>,
     /// What a force sensor felt in each sub-step of this call.
@@ -76,7 +86,8 @@ pub(super) fn follow(
 
 impl Link {
     fn insert(plan: LinkPlan, bodies: [RigidBodyHandle; 2], world: &mut World) -> Self {
-        let mut data = GenericJoint::new(locked_axes(plan.kind));
+        let mut data = GenericJoint::new(locked_axes(&plan));
+        data.softness = SOFTNESS;
         data.set_local_frame1(to_pose(&plan.base)).set_local_frame2(to_pose(&plan.tip));
         let joint = world.joints.insert(bodies[0], bodies[1], data, true);
         let mut link = Self {
@@ -86,7 +97,10 @@ impl Link {
             motor: Motor::default(),
             motion: Motion { position: 0.0, velocity: 0.0 },
             fresh: true,
-            motor_on: false,
+            drive: None,
+            stops: None,
+            exact: (Vector6::zeros(), 0.0),
+            shared: true,
             efforts: Vec::new(),
             loads: Vec::new(),
             rows: None,
@@ -106,26 +120,44 @@ impl Link {
 
     fn take_limits(&mut self, joint: &Joint, world: &mut World) {
         let (Some(axis), Some(link)) = (self.axis(), world.joints.get_mut(self.joint, false)) else { return };
-        let stops = !joint.cyclic && (self.plan.kind == LinkKind::Prismatic || joint.range < WIDEST_STOPS);
-        if stops {
-            link.data.set_limits(axis, [joint.min, joint.min + joint.range]);
-        } else {
-            link.data.limit_axes.remove(axis.into());
+        let has_stops = !joint.cyclic && (self.plan.kind == LinkKind::Prismatic || joint.range < WIDEST_STOPS);
+        self.stops = has_stops.then_some([joint.min, joint.min + joint.range]);
+        match self.stops {
+            Some(stops) => drop(link.data.set_limits(axis, stops)),
+            None => link.data.limit_axes.remove(axis.into()),
         }
     }
 
     /// Sets the motor for the next sub-step; None switches it off.
     pub(super) fn set_drive(&mut self, drive: Option<Drive>, world: &mut World) {
         let (Some(axis), Some(link)) = (self.axis(), world.joints.get_mut(self.joint, true)) else { return };
-        let drive = drive.filter(|drive| drive.velocity.is_finite() && drive.force.is_finite());
-        self.motor_on = drive.is_some();
-        match drive {
+        self.drive = drive.filter(|drive| drive.velocity.is_finite() && drive.force.is_finite());
+        match self.drive {
             Some(Drive { velocity, force }) => {
                 link.data.set_motor_model(axis, MotorModel::AccelerationBased);
                 link.data.set_motor(axis, 0.0, velocity, 0.0, RIGID);
                 link.data.set_motor_max_force(axis, force);
             }
             None => link.data.motor_axes.remove(axis.into()),
+        }
+    }
+
+    /// Whether rapier takes part in holding the link.
+    pub(super) fn share(&mut self, with_engine: bool, world: &mut World) {
+        if self.shared != with_engine
+            && let Some(link) = world.joints.get_mut(self.joint, false)
+        {
+            link.data.set_enabled(with_engine);
+            self.shared = with_engine;
+        }
+    }
+
+    /// Takes what the articulation found; rapier's motor gets what is left.
+    pub(super) fn take_exact(&mut self, rows: &Vector6<f64>, motor: f64, world: &mut World) {
+        self.exact = (*rows, motor);
+        let (Some(axis), Some(drive)) = (self.axis(), self.drive) else { return };
+        if let Some(link) = world.joints.get_mut(self.joint, true) {
+            link.data.set_motor_max_force(axis, (drive.force - motor.abs()).max(0.0));
         }
     }
 
@@ -149,6 +181,13 @@ impl Link {
         }
     }
 
+    /// The coordinate, turns counted on from the last position.
+    pub(super) fn position_near(&self, relative: &Pose) -> f64 {
+        let now = self.coordinate(relative);
+        let before = self.motion.position;
+        if self.plan.kind == LinkKind::Revolute { before + wrap(now - before) } else { now }
+    }
+
     /// Prepares what is needed to read the load after the sub-step.
     pub(super) fn before_step(&mut self, world: &World) {
         if self.plan.kind == LinkKind::Sensor {
@@ -159,24 +198,29 @@ impl Link {
     /// Reads position, velocity, effort and load after a sub-step of `step` seconds; returns the pose of the moving side.
     pub(super) fn after_step(&mut self, world: &World, step: f64) -> Option<Pose> {
         let relative = self.deviation(world)?;
-        let now = self.coordinate(&relative);
         let before = self.motion.position;
-        let change = if self.plan.kind == LinkKind::Revolute { wrap(now - before) } else { now - before };
-        self.motion = Motion { position: before + change, velocity: change / step };
+        let position = self.position_near(&relative);
+        self.motion = Motion { position, velocity: (position - before) / step };
         self.fresh = false;
         let joint = world.joints.get(self.joint)?;
-        let motor = self.axis().filter(|_| self.motor_on).map(|axis| &joint.data.motors[axis as usize]);
-        self.efforts.push(motor.map_or(0.0, |motor| motor.impulse / step));
-        if let Some(rows) = self.rows.take() {
-            self.loads.push(rows.load(&joint.impulses, step));
+        let (rows, force) = std::mem::take(&mut self.exact);
+        let axis = self.axis().filter(|_| self.shared && self.drive.is_some());
+        let impulse = axis.map_or(0.0, |axis| joint.data.motors[axis as usize].impulse);
+        self.efforts.push(impulse / step - force);
+        if let Some(residual) = self.rows.take() {
+            let impulses = if self.shared { joint.impulses } else { Default::default() };
+            let (force, torque) = residual.load(&impulses, step);
+            self.loads.push(([0, 1, 2].map(|i| force[i] - rows[i]), [0, 1, 2].map(|i| torque[i] - rows[i + 3])));
         }
         Some(relative)
     }
 }
 
-fn locked_axes(kind: LinkKind) -> JointAxesMask {
+/// rapier knows no screw: what ties its turns to its way, only the articulation holds.
+fn locked_axes(plan: &LinkPlan) -> JointAxesMask {
     let all = JointAxesMask::all();
-    match kind {
+    match plan.kind {
+        LinkKind::Revolute if plan.pitch != 0.0 => all.difference(JointAxesMask::ANG_Z | JointAxesMask::LIN_Z),
         LinkKind::Revolute => all.difference(JointAxesMask::ANG_Z),
         LinkKind::Prismatic => all.difference(JointAxesMask::LIN_Z),
         LinkKind::Spherical => JointAxesMask::LIN_AXES,

@@ -7,10 +7,12 @@
 //! takes notice at the next call.
 //!
 //! - `plan`: who takes part, decided over the scene alone; compared with what exists, so that only changes touch the engine.
-//! - `bodies`, `colliders`, `links`: plans made real; `motors`: the control law; `load`, `contacts`: what is read back.
+//! - `bodies`, `colliders`, `links`: plans made real; `articulation`: all links solved at once.
+//! - `motors`: the control law; `load`, `contacts`: what is read back.
 //!
 //! Bodies never sleep and no state outlives the run: the same scene gives the same bytes.
 
+mod articulation;
 mod bodies;
 mod colliders;
 mod contacts;
@@ -28,6 +30,7 @@ use std::collections::BTreeMap;
 
 use rapier3d_f64::math::Vector;
 
+use articulation::Articulation;
 use bodies::Bodies;
 use contacts::Contact;
 pub(crate) use contacts::{Judge, Verdict};
@@ -48,6 +51,7 @@ pub(crate) struct Dynamics {
     world: Option<World>,
     bodies: Bodies,
     links: Links,
+    articulation: Articulation,
     contacts: Vec<Contact>,
     /// The state of the scene the plan was made for.
     revision: Option<u64>,
@@ -140,9 +144,8 @@ impl Dynamics {
         let plan = Plan::new(scene);
         self.bodies.follow(plan.bodies, world, scene);
         links::follow(&mut self.links, plan.links, &self.bodies, world, scene);
-        let linked = |shape| self.links.values().any(|link| link.plan.first == shape || link.plan.second == shape);
-        self.bodies.set_linked(world, linked);
         contacts::ask_about_all(world, self.asks);
+        self.articulation.follow(&self.links, &scene.all_breadth_first(), &self.bodies);
         self.revision = Some(scene.changes().dynamics_revision());
     }
 
@@ -191,6 +194,9 @@ impl Dynamics {
         }
         let gravity = scene.settings().dynamics.gravity.map(f64::from);
         let gravity = if gravity.iter().all(|x| x.is_finite()) { gravity } else { [0.0; 3] };
+        if !self.articulation.is_empty() {
+            self.articulation.act(&mut self.links, &mut world, gravity, call.step);
+        }
         Some(Pass { world, gravity: convert::to_vector(gravity), step: call.step })
     }
 

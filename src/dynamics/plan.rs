@@ -85,6 +85,8 @@ pub(super) struct LinkPlan {
     pub base: Pose,
     /// Moving side of the link in the second body's shape frame.
     pub tip: Pose,
+    /// Metres per radian: a screw moves along its axis while it turns.
+    pub pitch: f64,
     /// Whether `second` is the child of the link in the scene, whose pose follows from the link.
     pub second_is_child: bool,
 }
@@ -239,6 +241,7 @@ fn link(scene: &Scene, handle: Handle, roles: &BTreeMap<Handle, bool>) -> Option
         second,
         base: object.pose(),
         tip,
+        pitch: object.joint().map_or(0.0, pitch),
         second_is_child,
     })
 }
@@ -255,6 +258,11 @@ fn weld(scene: &Scene, dummy: &Object, first: Handle, roles: &BTreeMap<Handle, b
         second,
         base: dummy.pose(),
         tip: partner.pose(),
+        pitch: 0.0,
         second_is_child: false,
     })
+}
+
+fn pitch(joint: &Joint) -> f64 {
+    if joint.is_revolute() { joint.screw_lead / std::f64::consts::TAU } else { 0.0 }
 }

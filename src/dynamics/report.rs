@@ -35,10 +35,11 @@ impl Dynamics {
     /// Takes the engine back after pass number `pass` (from 1) and tells the scene: joints and force sensors first, then shapes,
     /// base-to-tip.
     pub(crate) fn finish_pass(&mut self, pass: Pass, number: u32, scene: &mut Scene) {
-        let Pass { world, step, .. } = pass;
+        let Pass { mut world, step, .. } = pass;
         if self.call.is_none() {
             return;
         }
+        self.articulation.settle(&self.links, &mut world, step);
         for (&handle, link) in &mut self.links {
             if let Some(moving_side) = link.after_step(&world, step) {
                 report_link(scene, handle, link, moving_side);

@@ -1,0 +1,172 @@
+//! Symmetric positive definite systems of 6 x 6 blocks, most of which are zero.
+//!
+//! Cholesky's factorisation block by block. In which blocks numbers appear is worked out once; for a tree eliminated from its tips
+//! no block appears that was not there, and the cost is proportional to the number of links.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use nalgebra::{SMatrix, SVector};
+
+pub(super) type Block = SMatrix<f64, 6, 6>;
+pub(super) type Segment = SVector<f64, 6>;
+
+/// Where the blocks are: the lower triangle by columns.
+#[derive(Default)]
+pub(super) struct Pattern {
+    /// For every column: rows below the diagonal, rising, with the place of their block.
+    columns: Vec<Vec<(usize, usize)>>,
+    /// For every column: target, left and right block of `target -= left * right^T`; a diagonal is counted from the end of the others.
+    updates: Vec<Vec<(Target, usize, usize)>>,
+    places: BTreeMap<(usize, usize), usize>,
+}
+
+#[derive(Clone, Copy)]
+enum Target {
+    Diagonal(usize),
+    Below(usize),
+}
+
+impl Pattern {
+    /// A pattern of `size` columns in which `pairs` of them meet; the order of the columns is the order of elimination.
+    pub(super) fn new(size: usize, pairs: impl IntoIterator<Item = (usize, usize)>) -> Self {
+        let mut below = vec![BTreeSet::new(); size];
+        for (a, b) in pairs.into_iter().filter(|(a, b)| a != b) {
+            below[a.min(b)].insert(a.max(b));
+        }
+        let mut pattern = Self::default();
+        for column in 0..size {
+            let rows: Vec<usize> = below[column].iter().copied().collect();
+            for (i, &first) in rows.iter().enumerate() {
+                below[first].extend(&rows[i + 1..]);
+            }
+            pattern.push_column(column, &rows);
+        }
+        pattern.updates = (0..size).map(|column| pattern.updates_of(column)).collect();
+        pattern
+    }
+
+    fn push_column(&mut self, column: usize, rows: &[usize]) {
+        let first = self.places.len();
+        self.places.extend(rows.iter().enumerate().map(|(i, &row)| ((row, column), first + i)));
+        self.columns.push(rows.iter().enumerate().map(|(i, &row)| (row, first + i)).collect());
+    }
+
+    fn updates_of(&self, column: usize) -> Vec<(Target, usize, usize)> {
+        let rows = &self.columns[column];
+        let mut updates = Vec::new();
+        for (i, &(column, right)) in rows.iter().enumerate() {
+            updates.push((Target::Diagonal(column), right, right));
+            updates.extend(
+                rows[i + 1..].iter().map(|&(row, left)| (Target::Below(self.places[&(row, column)]), left, right)),
+            );
+        }
+        updates
+    }
+
+    /// The place of the block in `row` and `column`, the row being the greater.
+    fn place(&self, row: usize, column: usize) -> Option<usize> {
+        self.places.get(&(row, column)).copied()
+    }
+}
+
+/// A matrix of a pattern, or its factor.
+#[derive(Default)]
+pub(super) struct Matrix {
+    pub diagonal: Vec<Block>,
+    pub below: Vec<Block>,
+}
+
+impl Matrix {
+    /// Zero everywhere.
+    pub(super) fn clear(&mut self, pattern: &Pattern) {
+        self.diagonal.clear();
+        self.diagonal.resize(pattern.columns.len(), Block::zeros());
+        self.below.clear();
+        self.below.resize(pattern.places.len(), Block::zeros());
+    }
+
+    /// Adds to the block in `row` and `column`, and to its mirror image.
+    pub(super) fn add(&mut self, pattern: &Pattern, row: usize, column: usize, block: &Block) {
+        if row == column {
+            self.diagonal[row] += block;
+        } else if let Some(place) = pattern.place(row.max(column), row.min(column)) {
+            self.below[place] += if row > column { *block } else { block.transpose() };
+        }
+    }
+
+    /// Replaces the matrix by its lower Cholesky factor; false when it is not positive definite.
+    pub(super) fn factorize(&mut self, pattern: &Pattern) -> bool {
+        for column in 0..pattern.columns.len() {
+            let Some(factor) = self.diagonal[column].cholesky() else { return false };
+            let factor = factor.unpack();
+            self.diagonal[column] = factor;
+            for &(_, place) in &pattern.columns[column] {
+                let mut transposed = self.below[place].transpose();
+                factor.solve_lower_triangular_unchecked_mut(&mut transposed);
+                self.below[place] = transposed.transpose();
+            }
+            for &(target, left, right) in &pattern.updates[column] {
+                let product = self.below[left] * self.below[right].transpose();
+                match target {
+                    Target::Diagonal(row) => self.diagonal[row] -= product,
+                    Target::Below(place) => self.below[place] -= product,
+                }
+            }
+        }
+        true
+    }
+
+    /// Solves the system whose factor this is; `x` is the right side first, the solution then.
+    pub(super) fn solve(&self, pattern: &Pattern, x: &mut [Segment]) {
+        for column in 0..pattern.columns.len() {
+            self.diagonal[column].solve_lower_triangular_unchecked_mut(&mut x[column]);
+            for &(row, place) in &pattern.columns[column] {
+                let known = self.below[place] * x[column];
+                x[row] -= known;
+            }
+        }
+        for column in (0..pattern.columns.len()).rev() {
+            for &(row, place) in &pattern.columns[column] {
+                let known = self.below[place].transpose() * x[row];
+                x[column] -= known;
+            }
+            self.diagonal[column].tr_solve_lower_triangular_mut(&mut x[column]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ring of four with a chord: elimination fills blocks in.
+    const PAIRS: [(usize, usize); 5] = [(0, 1), (1, 2), (2, 3), (3, 0), (1, 4)];
+
+    fn entry(i: usize, j: usize) -> f64 {
+        ((i * 7 + j * 13) % 11) as f64 / 11.0 - 0.5
+    }
+
+    #[test]
+    fn the_solution_solves_the_dense_system() {
+        let pattern = Pattern::new(5, PAIRS);
+        let mut matrix = Matrix::default();
+        matrix.clear(&pattern);
+        let mut dense = nalgebra::DMatrix::<f64>::identity(30, 30) * 20.0;
+        for i in 0..5 {
+            matrix.diagonal[i] = Block::identity() * 20.0;
+        }
+        for (a, b) in PAIRS {
+            let (row, column) = (a.max(b), a.min(b));
+            let block = Block::from_fn(|i, j| entry(i + row, j + column));
+            matrix.below[pattern.place(row, column).expect("the two meet")] = block;
+            dense.view_mut((row * 6, column * 6), (6, 6)).copy_from(&block);
+            dense.view_mut((column * 6, row * 6), (6, 6)).copy_from(&block.transpose());
+        }
+        let right = nalgebra::DVector::from_fn(30, |i, _| entry(i, 3));
+        let mut x: Vec<Segment> = (0..5).map(|i| Segment::from_fn(|j, _| right[i * 6 + j])).collect();
+        assert!(matrix.factorize(&pattern));
+        matrix.solve(&pattern, &mut x);
+        let x = nalgebra::DVector::from_fn(30, |i, _| x[i / 6][i % 6]);
+        assert!((dense * x - right).norm() < 1e-12);
+    }
+}

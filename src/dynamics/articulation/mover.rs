@@ -1,0 +1,119 @@
+//! A body that hangs on links: where it is, how it answers impulses, what velocity it gets.
+
+use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
+use rapier3d_f64::prelude::{RigidBody, RigidBodyHandle};
+
+use super::spatial;
+use crate::dynamics::bodies::Body;
+use crate::dynamics::convert::{from_pose, from_vector, is_finite, to_pose, to_vector};
+use crate::dynamics::world::World;
+use crate::scene::{Handle, Pose};
+
+/// A body that hangs on links.
+pub(super) struct Mover {
+    pub shape: Handle,
+    /// The first of the bodies it is linked with, directly or not; static ones separate.
+    pub group: usize,
+    pub rigid: RigidBodyHandle,
+    pub inverse_mass: f64,
+    pub inverse_inertia: Matrix3<f64>,
+    pub com_in_shape: Vector3<f64>,
+    /// Of this sub-step: pose, centre of mass, response to impulses, velocity before and with the links' impulses.
+    pub pose: Pose,
+    pub com: Vector3<f64>,
+    pub response: Matrix6<f64>,
+    pub free: Vector6<f64>,
+    pub velocity: Vector6<f64>,
+    /// How far it was put back after the sub-step.
+    pub shift: Vector6<f64>,
+}
+
+impl Mover {
+    pub(super) fn new(shape: Handle, body: &Body) -> Self {
+        let mass = &body.build.mass;
+        let inverse = (mass.inertia * mass.mass).try_inverse().filter(|_| body.build.dynamic);
+        Self {
+            shape,
+            group: 0,
+            rigid: body.rigid,
+            inverse_mass: if body.build.dynamic { 1.0 / mass.mass } else { 0.0 },
+            inverse_inertia: inverse.unwrap_or_else(Matrix3::zeros),
+            com_in_shape: mass.com.into(),
+            pose: Pose::identity(),
+            com: Vector3::zeros(),
+            response: Matrix6::zeros(),
+            free: Vector6::zeros(),
+            velocity: Vector6::zeros(),
+            shift: Vector6::zeros(),
+        }
+    }
+
+    pub(super) fn moves(&self) -> bool {
+        self.inverse_mass > 0.0
+    }
+
+    /// Reads where the body is.
+    pub(super) fn place(&mut self, world: &World) {
+        let Some(rigid) = world.bodies.get(self.rigid) else { return };
+        self.pose = from_pose(rigid.position());
+        self.com = self.pose.transform_point(&self.com_in_shape.into()).coords;
+        let turn = self.pose.rotation.to_rotation_matrix();
+        let inertia = turn.matrix() * self.inverse_inertia * turn.matrix().transpose();
+        self.response.fixed_view_mut::<3, 3>(0, 0).copy_from(&(Matrix3::identity() * self.inverse_mass));
+        self.response.fixed_view_mut::<3, 3>(3, 3).copy_from(&inertia);
+    }
+
+    /// What velocity the body will have without the links.
+    pub(super) fn predict(&mut self, world: &World, gravity: [f64; 3], step: f64) {
+        let Some(rigid) = world.bodies.get(self.rigid) else { return };
+        if !self.moves() {
+            self.free = self.swept(rigid, step);
+            return;
+        }
+        let push = spatial(from_vector(rigid.user_force()).into(), from_vector(rigid.user_torque()).into()) * step;
+        let gyration = Vector3::from(from_vector(rigid.angvel_with_gyroscopic_forces(step)));
+        self.free = spatial(from_vector(rigid.linvel()).into(), gyration) + self.response * push;
+        let fall = self.free.fixed_rows::<3>(0) + Vector3::from(gravity) * step;
+        self.free.fixed_rows_mut::<3>(0).copy_from(&fall);
+    }
+
+    /// Moves the centre of mass and turns about it.
+    pub(super) fn shift(&mut self, by: &Vector6<f64>) {
+        let rotation = UnitQuaternion::from_scaled_axis(by.fixed_rows::<3>(3).into_owned()) * self.pose.rotation;
+        self.com += by.fixed_rows::<3>(0);
+        self.pose = Pose::from_parts((self.com - rotation * self.com_in_shape).into(), rotation);
+        self.shift += by;
+    }
+
+    /// Tells rapier where the body was shifted to, which makes its velocity another one; `most` bounds its spin, rad/s.
+    pub(super) fn tell(&self, world: &mut World, step: f64, most: f64) {
+        let Some(rigid) = world.bodies.get_mut(self.rigid) else { return };
+        if self.shift == Vector6::zeros() || !is_finite(&self.pose) {
+            return;
+        }
+        rigid.set_position(to_pose(&self.pose), false);
+        let [linear, angular] = [0, 3].map(|part| to_vector((self.shift.fixed_rows::<3>(part) / step).into()));
+        rigid.set_linvel(rigid.linvel() + linear, false);
+        let spin = rigid.angvel() + angular;
+        rigid.set_angvel(spin.clamp_length_max(most), false);
+    }
+
+    /// Velocity of a static body that is moved to its next place.
+    fn swept(&self, rigid: &RigidBody, step: f64) -> Vector6<f64> {
+        if !rigid.is_kinematic() {
+            return Vector6::zeros();
+        }
+        let next = from_pose(rigid.next_position());
+        let shift = next.transform_point(&self.com_in_shape.into()).coords - self.com;
+        let turn = (next.rotation * self.pose.rotation.inverse()).scaled_axis();
+        spatial(shift, turn) / step
+    }
+
+    /// Gives rapier impulses as forces that last a sub-step.
+    pub(super) fn give(&self, impulse: &Vector6<f64>, world: &mut World, step: f64) {
+        if let Some(rigid) = world.bodies.get_mut(self.rigid) {
+            rigid.add_force(to_vector((impulse.fixed_rows::<3>(0) / step).into()), true);
+            rigid.add_torque(to_vector((impulse.fixed_rows::<3>(3) / step).into()), true);
+        }
+    }
+}
