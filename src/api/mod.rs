@@ -50,6 +50,7 @@ mod thread;
 mod time;
 mod tube;
 mod user_param;
+mod zmq;
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -206,7 +207,8 @@ fn embedded_modules() -> HashMap<&'static str, Embedded> {
 fn libraries() -> HashMap<&'static str, Vec<Bound>> {
     let bound = |function: &'static ApiFn| Bound { name: function.name, function, deprecation: None };
     let mut libraries = HashMap::<_, Vec<_>>::new();
-    for &(module, functions) in LIBRARIES {
+    let zmq = zmq::TABLES.iter().map(|&functions| ("simZMQ", functions));
+    for (module, functions) in LIBRARIES.iter().copied().chain(zmq) {
         libraries.entry(module).or_default().extend(functions.iter().map(bound));
     }
     libraries

@@ -26,6 +26,8 @@ const INNER: &[&str] = &[
     "remote/zmq_answers",
     "remote/zmq_clients",
     "remote/zmq_functions",
+    "simZMQ/constants",
+    "simZMQ/proxy",
     "trajectory",
 ];
 

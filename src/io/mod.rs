@@ -5,6 +5,7 @@ mod process;
 mod serial;
 pub(crate) mod socket;
 mod ws;
+pub(crate) mod zmq;
 mod zmq_server;
 mod zmtp;
 

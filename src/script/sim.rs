@@ -22,7 +22,7 @@ use super::tubes::Tubes;
 use super::verbosity;
 use super::web_sockets::WebSockets;
 use crate::dynamics::Dynamics;
-use crate::io::{EventLoop, SerialPort, ZmqServer};
+use crate::io::{EventLoop, SerialPort, ZmqServer, zmq};
 use crate::scene::script_object::ScriptType;
 use crate::scene::{Handle, Scene};
 
@@ -108,6 +108,8 @@ pub(crate) struct Sim {
     pub web_sockets: RefCell<WebSockets>,
     /// Where the WebSocket remote API listens.
     pub remote_listener: RefCell<Option<TcpListener>>,
+    /// The ZeroMQ context all scripts share; made at first need.
+    pub zmq_context: OnceCell<Rc<zmq::Context>>,
     next_detached: Cell<i64>,
     once: RefCell<HashSet<(String, i64, String)>>,
     started: std::time::Instant,
@@ -142,6 +144,7 @@ impl Sim {
             zmq_server: RefCell::default(),
             web_sockets: RefCell::default(),
             remote_listener: RefCell::default(),
+            zmq_context: OnceCell::new(),
             next_detached: Cell::new(FIRST_DETACHED),
             once: RefCell::default(),
             started: super::wall_clock::now(),

@@ -1,0 +1,336 @@
+--[[
+ZeroMQ: sockets that carry whole messages between programs. The functions and constants of libzmq 4.3.4 without the prefix zmq_.
+
+    ctx_new() -> context                              ctx_singleton() -> context, one for all scripts
+    ctx_get(context, option) -> value                 ctx_set(context, option, value) -> result
+    ctx_shutdown(context), ctx_term(context) -> result
+    socket(context, type) -> socket                   close(socket) -> result
+    bind, unbind, connect, disconnect(socket, endpoint) -> result
+    setsockopt(socket, option, bytes) -> result       getsockopt(socket, option, len) -> result, bytes
+    getsockopt_int(socket, option) -> result, value
+    send(socket, data, flags) -> result               recv(socket, flags, max_buf_size) -> result, data
+    poll(sockets, events, timeout = 0) -> result, revents
+    proxy(frontend, backend, capture), proxy_steerable(frontend, backend, capture, control) -> result
+    socket_monitor(socket, endpoint, events) -> result
+    msg_new() -> msg                                  msg_destroy(msg)
+    msg_init(msg), msg_init_size(msg, size), msg_close(msg) -> result
+    msg_data(msg) -> data                             msg_size(msg), msg_more(msg) -> number
+    msg_get(msg, property), msg_set(msg, property, value) -> result
+    msg_gets(msg, property) -> result, text           msg_copy(dest, src), msg_move(dest, src) -> result
+    msg_send(msg, socket, flags), msg_recv(msg, socket, flags) -> result
+    errnum() -> number                                strerror(number) -> text
+    has(capability) -> 0 or 1                         version() -> major, minor, patch
+    z85_encode(data) -> text                          z85_decode(text) -> data
+
+Failures are results, -1, and errnum() tells why. __raiseErrors(true) makes errors of them for the calling script; __noError.name and
+__raiseError.name are the two forms of each function. Options are bytes: sim.packInt32Table{0} for most.
+
+send, recv, msg_send, msg_recv and poll wait when they are told to. In a thread the simulation goes on meanwhile; elsewhere it waits
+too, until a message comes or the program ends (EINTR). __send, __recv, __msg_send and __msg_recv obey the options SNDTIMEO and RCVTIMEO.
+ctx_term gives up after two seconds outside of threads, and at once while there are open sockets: -1 with EINTR; call it again.
+
+Of drafts of libzmq nothing is built: ctx_set_ext, ctx_get_ext, join, leave, connect_peer, msg_set_routing_id, msg_routing_id,
+msg_set_group and msg_group do nothing.
+]]
+
+local _, native = ...
+local sim = require 'sim'
+
+local simZMQ = {__checkError = {}, __noError = {}, __raiseError = {}}
+for name, value in pairs(require 'simZMQ.constants') do simZMQ[name] = value end
+for name, value in pairs(native.errors()) do simZMQ[name] = value end
+
+local DONTWAIT <const>, POLLIN <const>, POLLOUT <const> = simZMQ.DONTWAIT, simZMQ.POLLIN, simZMQ.POLLOUT
+local EAGAIN <const>, EINTR <const>, FOREVER <const> = simZMQ.EAGAIN, simZMQ.EINTR, -1
+local errnum, pollNow = native.errnum, native.poll
+
+---------------------------------------------------------------- arguments
+
+-- By type: the value as it is passed on, or nil.
+local accept = {}
+
+function accept.int(value)
+    if math.type(value) == 'integer' then return value end
+    if type(value) ~= 'number' then return nil end
+    return math.tointeger(value < 0 and math.ceil(value - 0.1) or math.floor(value + 0.1))
+end
+
+function accept.string(value)
+    if type(value) == 'string' then return value end
+    return isbuffer(value) and tostring(value) or nil
+end
+
+accept.buffer = accept.string
+
+local function acceptList(value, element)
+    if type(value) ~= 'table' or isbuffer(value) then return nil end
+    local list = {}
+    for i = 1, #value do
+        list[i] = element(value[i])
+        if list[i] == nil then return nil end
+    end
+    return list
+end
+
+function accept.strings(value) return acceptList(value, accept.string) end
+function accept.ints(value) return acceptList(value, accept.int) end
+
+-- 'socket:string flags:int max_buf_size:int?' as a list.
+local function parse(signature)
+    local parameters, required = {}, 0
+    for name, kind, optional in signature:gmatch '(%S+):(%a+)(%??)' do
+        parameters[#parameters + 1] = {name = name, kind = kind, accept = accept[kind], optional = optional ~= ''}
+        if optional == '' then required = #parameters end
+    end
+    return parameters, required
+end
+
+local function accepted(name, i, parameter, value)
+    if value == nil and parameter.optional then return nil end
+    local result = parameter.accept(value)
+    if result ~= nil then return result end
+    error(('in simZMQ.%s: read in arg %d (%s): expected %s'):format(name, i, parameter.name, parameter.kind), 4)
+end
+
+-- A function that returns its arguments as the signature wants them. It blames who called its caller.
+local function checker(name, signature)
+    local parameters, required = parse(signature)
+    local first, second, third, fourth = table.unpack(parameters)
+    return function(...)
+        local count = select('#', ...)
+        if count < required then error(('in simZMQ.%s: not enough arguments'):format(name), 3) end
+        if count > #parameters then error(('in simZMQ.%s: too many arguments'):format(name), 3) end
+        local a, b, c, d = ...
+        if first then a = accepted(name, 1, first, a) end
+        if second then b = accepted(name, 2, second, b) end
+        if third then c = accepted(name, 3, third, c) end
+        if fourth then d = accepted(name, 4, fourth, d) end
+        return a, b, c, d
+    end
+end
+
+---------------------------------------------------------------- waiting
+
+local function canYield()
+    if not getYieldAllowed() then return false end
+    local _, isMain = coroutine.running()
+    return not isMain
+end
+
+-- Lets the others go on, or waits here for an event, at most that many milliseconds. False when the program is about to end.
+local function pause(sockets, events, milliseconds)
+    if canYield() then
+        sim.yield()
+        return true
+    end
+    return pollNow(sockets, events, milliseconds) >= 0 or errnum() ~= EINTR
+end
+
+local function clock(milliseconds) return milliseconds >= 0 and sim.getSystemTime() + milliseconds / 1000 or math.huge end
+
+local function milliseconds(deadline)
+    if deadline == math.huge then return FOREVER end
+    return math.max(0, math.ceil((deadline - sim.getSystemTime()) * 1000))
+end
+
+-- The native function's error, blamed on who called a function of this module.
+local function blame(message) error((message:gsub('^%-?%d+: ', '')), 3) end
+
+-- Tries again until there is something to tell.
+local function persist(attempt, socket, event, patience, ...)
+    local sockets, events, deadline = {socket}, {event}, clock(patience)
+    while true do
+        local ok, result, data = pcall(attempt, ...)
+        if not ok then blame(result) end
+        if result ~= -1 then
+            if data == nil then return result end
+            return result, data
+        end
+        local left = milliseconds(deadline)
+        if left == 0 or errnum() ~= EAGAIN or not pause(sockets, events, left) then return -1, nil end
+    end
+end
+
+local function optionOf(socket, option)
+    local result, value = native.getsockopt(socket, option, 4)
+    return result == 0 and ('=i4'):unpack(tostring(value)) or FOREVER
+end
+
+-- A function that can wait for `event`, in two forms: for ever, and as long as an option says.
+local function declareWaiting(name, signature, socketAt, flagsAt, event, timeout)
+    local check, attempt = checker(name, signature), native[name]
+    simZMQ[name] = function(...)
+        local flags = select(flagsAt, ...)
+        if flags & DONTWAIT ~= 0 then return attempt(check(...)) end
+        return persist(attempt, (select(socketAt, ...)), event, FOREVER, check(...))
+    end
+    simZMQ['__' .. name] = function(...)
+        local flags = select(flagsAt, check(...))
+        if flags & DONTWAIT ~= 0 then return attempt(check(...)) end
+        local socket = select(socketAt, ...)
+        return persist(attempt, socket, event, optionOf(socket, timeout), check(...))
+    end
+end
+
+declareWaiting('send', 'socket:string data:buffer flags:int', 1, 3, POLLOUT, simZMQ.SNDTIMEO)
+declareWaiting('recv', 'socket:string flags:int max_buf_size:int?', 1, 2, POLLIN, simZMQ.RCVTIMEO)
+declareWaiting('msg_send', 'msg:string socket:string flags:int', 2, 3, POLLOUT, simZMQ.SNDTIMEO)
+declareWaiting('msg_recv', 'msg:string socket:string flags:int', 2, 3, POLLIN, simZMQ.RCVTIMEO)
+
+---------------------------------------------------------------- everything else
+
+local function declare(name, signature, perform)
+    local check = checker(name, signature)
+    perform = perform or native[name]
+    simZMQ[name] = function(...) return perform(check(...)) end
+end
+
+declare('ctx_new', '')
+declare('ctx_singleton', '')
+declare('ctx_get', 'context:string option_name:int')
+declare('ctx_set', 'context:string option_name:int option_value:int')
+declare('ctx_shutdown', 'context:string')
+
+-- How long the end of a context is waited for, milliseconds: in a thread, where it is tried again, and elsewhere.
+local SHORTLY <const>, PATIENTLY <const> = 10, 2000
+
+declare('ctx_term', 'context:string', function(context)
+    local patience = SHORTLY
+    while true do
+        local waits = canYield()
+        local ok, result = pcall(native.ctx_term, context, waits and patience or PATIENTLY)
+        if not ok then blame(result) end
+        if result == 0 or errnum() ~= EINTR or not waits then return result end
+        sim.yield()
+        patience = 0
+    end
+end)
+
+declare('socket', 'context:string type:int')
+declare('close', 'socket:string')
+declare('bind', 'socket:string endpoint:string')
+declare('unbind', 'socket:string endpoint:string')
+declare('connect', 'socket:string endpoint:string')
+declare('disconnect', 'socket:string endpoint:string')
+declare('setsockopt', 'socket:string option_name:int option_value:buffer')
+declare('getsockopt', 'socket:string option_name:int option_len:int')
+
+declare('getsockopt_int', 'socket:string option_name:int', function(socket, option)
+    local ok, result, value = pcall(native.getsockopt, socket, option, 4)
+    if not ok then blame(result) end
+    return result, result == 0 and #value == 4 and ('=i4'):unpack(tostring(value)) or 0
+end)
+
+declare('socket_monitor', 'socket:string endpoint:string events:int')
+
+-- In a thread, sockets are looked at once per pass.
+local function pollYielding(sockets, events, timeout)
+    local deadline = clock(timeout)
+    while true do
+        local ok, result, revents = pcall(pollNow, sockets, events, 0)
+        if not ok then blame(result) end
+        if result ~= 0 or sim.getSystemTime() >= deadline then return result, revents end
+        sim.yield()
+    end
+end
+
+local function poll(sockets, events, timeout)
+    timeout = timeout or 0
+    if #sockets == 0 and timeout < 0 then timeout = 0 end
+    if timeout ~= 0 and canYield() then return pollYielding(sockets, events, timeout) end
+    return pollNow(sockets, events, timeout)
+end
+
+declare('poll', 'sockets:strings events:ints timeout:int?', function(sockets, events, timeout)
+    if #sockets ~= #events then error("in simZMQ.poll: 'sockets' and 'events' must have the same length", 2) end
+    return poll(sockets, events, timeout)
+end)
+
+local proxy = require 'simZMQ.proxy' {native = native, poll = poll, pause = pause, msg_send = simZMQ.msg_send}
+
+local function proxyOf(...)
+    local sockets, events = {...}, {}
+    for i = 1, #sockets do events[i] = 0 end
+    -- Nothing is waited for: this finds out whether all are sockets.
+    local ok, message = pcall(pollNow, sockets, events, 0)
+    if not ok then blame(message) end
+    return proxy(...)
+end
+
+declare('proxy', 'frontend:string backend:string capture:string', proxyOf)
+declare('proxy_steerable', 'frontend:string backend:string capture:string control:string', proxyOf)
+
+declare('msg_new', '')
+declare('msg_init', 'msg:string')
+declare('msg_init_size', 'msg:string size:int')
+declare('msg_close', 'msg:string')
+declare('msg_destroy', 'msg:string')
+declare('msg_data', 'msg:string')
+declare('msg_size', 'msg:string')
+declare('msg_more', 'msg:string')
+declare('msg_get', 'msg:string property:int')
+declare('msg_set', 'msg:string property:int value:int')
+declare('msg_gets', 'msg:string property:string')
+declare('msg_copy', 'dest:string src:string')
+declare('msg_move', 'dest:string src:string')
+
+declare('errnum', '')
+declare('strerror', 'errnum:int')
+declare('has', 'capability:string')
+declare('version', '')
+declare('z85_encode', 'data:buffer')
+declare('z85_decode', 'text:buffer')
+
+-- Without drafts the original's functions of drafts return what nothing leaves behind.
+local function nothing() return 0 end
+declare('ctx_set_ext', 'context:string option_name:int option_value:buffer', nothing)
+declare('ctx_get_ext', 'context:string option_name:int', function() return 0, nil end)
+declare('join', 'socket:string group:string', nothing)
+declare('leave', 'socket:string group:string', nothing)
+declare('connect_peer', 'socket:string addr:string', nothing)
+declare('msg_set_routing_id', 'msg:string routing_id:int', nothing)
+declare('msg_routing_id', 'msg:string', nothing)
+declare('msg_set_group', 'msg:string group:string', nothing)
+declare('msg_group', 'msg:string', function() return 0, '' end)
+
+---------------------------------------------------------------- errors instead of results
+
+local function isNotZero(result) return result ~= 0 end
+local function isNegative(result) return result < 0 end
+
+local FAILED = {ctx_new = function(context) return context == '' end}
+for name in ([[bind close connect ctx_set ctx_shutdown ctx_term disconnect getsockopt msg_close msg_copy msg_gets msg_get msg_init
+    msg_init_size msg_move msg_set unbind]]):gmatch '%S+' do FAILED[name] = isNotZero end
+for name in ([[ctx_get msg_recv msg_send poll proxy proxy_steerable recv send setsockopt socket_monitor]]):gmatch '%S+' do
+    FAILED[name] = isNegative
+end
+
+--- Raises the error errnum() tells.
+function simZMQ.__raise(level) error(simZMQ.__noError.strerror(errnum()), (level or 1) + 1) end
+
+for name, failed in pairs(FAILED) do
+    simZMQ.__checkError[name] = function(result) if failed(result) then simZMQ.__raise(4) end end
+end
+
+local function raising(name, plain)
+    local check = simZMQ.__checkError[name]
+    if not check then return plain end
+    local function pass(...)
+        check(...)
+        return ...
+    end
+    return function(...) return pass(plain(...)) end
+end
+
+for name, member in pairs(simZMQ) do
+    if type(member) == 'function' and not name:find '^__' then
+        simZMQ.__noError[name], simZMQ.__raiseError[name] = member, raising(name, member)
+    end
+end
+
+--- Makes the functions of this script raise what they would return as -1, or return it again.
+function simZMQ.__raiseErrors(enable)
+    for name, member in pairs(enable and simZMQ.__raiseError or simZMQ.__noError) do simZMQ[name] = member end
+end
+
+return simZMQ

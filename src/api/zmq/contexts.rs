@@ -1,0 +1,109 @@
+//! The native part of `simZMQ`: contexts.
+
+use std::rc::Rc;
+use std::time::Duration;
+
+use api_macro::api;
+
+use super::super::{ApiFn, Cx, Result, functions};
+use super::objects::{forbid_singleton, no_socket, objects, singleton_handle};
+use crate::io::zmq::{Context, Socket};
+use crate::script::Number;
+
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![ctx_new, ctx_singleton, ctx_get, ctx_set, ctx_shutdown, ctx_term, socket];
+
+/// Longest wait for the end of a context, milliseconds.
+const LONGEST_WAIT: i64 = 10_000;
+
+/// Makes a context.
+///
+/// @return context
+#[api("simZMQ.ctx_new")]
+fn ctx_new(cx: &Cx) -> Result<String> {
+    let objects = objects(cx);
+    match Context::new() {
+        Ok(context) => objects.add_context(cx, context),
+        Err(errno) => {
+            objects.failed(errno);
+            Ok(String::new())
+        }
+    }
+}
+
+/// The context all scripts share.
+///
+/// @return context
+#[api("simZMQ.ctx_singleton")]
+fn ctx_singleton(_cx: &Cx) -> Result<String> {
+    Ok(singleton_handle())
+}
+
+/// An option of a context.
+///
+/// @param context the context
+/// @param optionName one of simZMQ's constants
+/// @return result the value, or -1
+#[api("simZMQ.ctx_get")]
+fn ctx_get(cx: &Cx, context: String, option_name: Number) -> Result<i64> {
+    let objects = objects(cx);
+    let context = objects.context(cx, &context)?;
+    Ok(objects.told(context.get(super::int(option_name))))
+}
+
+/// Sets an option of a context.
+///
+/// @param context the context
+/// @param optionName one of simZMQ's constants
+/// @param optionValue its value
+/// @return result 0 or -1
+#[api("simZMQ.ctx_set")]
+fn ctx_set(cx: &Cx, context: String, option_name: Number, option_value: Number) -> Result<i64> {
+    let objects = objects(cx);
+    let context = objects.context(cx, &context)?;
+    Ok(objects.done(context.set(super::int(option_name), super::int(option_value))))
+}
+
+/// Makes all sockets of a context answer that it is over.
+///
+/// @param context the context
+/// @return result 0 or -1
+#[api("simZMQ.ctx_shutdown")]
+fn ctx_shutdown(cx: &Cx, context: String) -> Result<i64> {
+    forbid_singleton(&context, "shutdown")?;
+    let objects = objects(cx);
+    let context = objects.context(cx, &context)?;
+    Ok(objects.done(objects.shut_down(&context)))
+}
+
+/// Ends a context.
+///
+/// @param context the context
+/// @param patience milliseconds to wait for messages on their way
+/// @return result 0, or -1: it goes on with EINTR
+#[api("simZMQ.ctx_term")]
+fn ctx_term(cx: &Cx, context: String, patience: Number) -> Result<i64> {
+    forbid_singleton(&context, "terminated")?;
+    let objects = objects(cx);
+    let patience = Duration::from_millis(patience.0.clamp(0, LONGEST_WAIT).unsigned_abs());
+    let outcome = objects.end_context(&context, |termination| termination.wait(patience))?;
+    Ok(objects.done(outcome))
+}
+
+/// Makes a socket.
+///
+/// @param context the context
+/// @param type one of simZMQ's constants
+/// @return socket
+#[api("simZMQ.socket")]
+fn socket(cx: &Cx, context: String, kind: Number) -> Result<String> {
+    let objects = objects(cx);
+    let context: Rc<Context> = objects.context(cx, &context)?;
+    match Socket::new(&context, super::int(kind)) {
+        Ok(socket) => Ok(objects.add_socket(cx, socket)),
+        Err(errno) => {
+            objects.failed(errno);
+            Ok(no_socket())
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! The native part of `simZMQ` (`lua/simZMQ.lua`): libzmq, call by call.
+//!
+//! No call waits but `poll` and `ctx_term`, which end with the program; how blocking functions wait is said in Lua, which can yield.
+
+mod contexts;
+mod messages;
+mod objects;
+mod sockets;
+
+use std::ffi::c_int;
+
+use api_macro::api;
+
+use super::{ApiFn, Cx, Result, functions};
+use crate::io::zmq::{self, ERRORS};
+use crate::scene::Data;
+use crate::script::{Bytes, Number, Table, Text};
+use objects::objects;
+
+pub(crate) const TABLES: &[&[ApiFn]] = &[contexts::FUNCTIONS, sockets::FUNCTIONS, messages::FUNCTIONS, FUNCTIONS];
+
+const FUNCTIONS: &[ApiFn] = functions![errnum, strerror, has, version, z85_encode, z85_decode, errors];
+
+/// Numbers beyond C's integers become the nearest.
+fn int(number: Number) -> c_int {
+    number.0.clamp(c_int::MIN.into(), c_int::MAX.into()) as c_int
+}
+
+/// Why the last call of this script that failed did.
+///
+/// @return result one of simZMQ's constants, or a number of the system
+#[api("simZMQ.errnum")]
+fn errnum(cx: &Cx) -> Result<i64> {
+    Ok(objects(cx).errno())
+}
+
+/// The text of an error.
+///
+/// @param errnum from simZMQ.errnum
+/// @return message
+#[api("simZMQ.strerror")]
+fn strerror(_cx: &Cx, errnum: Number) -> Result<String> {
+    Ok(zmq::strerror(int(errnum)))
+}
+
+/// Whether libzmq was built with a capability.
+///
+/// @param capability its name
+/// @return result 1 or 0
+#[api("simZMQ.has")]
+fn has(_cx: &Cx, capability: String) -> Result<i64> {
+    Ok(zmq::has(&capability).into())
+}
+
+/// The version of libzmq.
+///
+/// @return major
+/// @return minor
+/// @return patch
+#[api("simZMQ.version")]
+fn version(_cx: &Cx) -> Result<(i64, i64, i64)> {
+    let (major, minor, patch) = zmq::version();
+    Ok((major.into(), minor.into(), patch.into()))
+}
+
+/// Bytes as printable text.
+///
+/// @param data as many bytes as can be divided by 4
+/// @return text nothing for another number of bytes
+#[api("simZMQ.z85_encode")]
+fn z85_encode(_cx: &Cx, data: Bytes) -> Result<Option<Text>> {
+    Ok(zmq::z85_encode(&data.0).map(Text))
+}
+
+/// The bytes of a text that simZMQ.z85_encode made.
+///
+/// @param text the text
+/// @return data nothing for another text
+#[api("simZMQ.z85_decode")]
+fn z85_decode(_cx: &Cx, text: Bytes) -> Result<Option<Bytes>> {
+    Ok(zmq::z85_decode(&text.0).map(Bytes))
+}
+
+/// The names of errors.
+///
+/// @return errors numbers by name
+#[api("simZMQ.errors")]
+fn errors(_cx: &Cx) -> Result<Table> {
+    let entries = ERRORS.iter().map(|&(name, number)| (name.as_bytes().to_vec(), i64::from(number)));
+    Ok(Table(Data::Map(entries.map(|(name, number)| (crate::scene::Key::Text(name), number.into())).collect())))
+}

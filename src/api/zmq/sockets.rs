@@ -1,0 +1,211 @@
+//! The native part of `simZMQ`: sockets. Nothing here waits but `poll`.
+
+use std::rc::Rc;
+
+use api_macro::api;
+
+use super::super::{ApiError, ApiFn, Cx, Result, functions};
+use super::int;
+use super::objects::objects;
+use crate::io::zmq::{self, Errno, Message, Socket};
+use crate::scene::Data;
+use crate::script::{Bytes, Number, Table};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    close,
+    bind,
+    unbind,
+    connect,
+    disconnect,
+    setsockopt,
+    getsockopt,
+    socket_monitor,
+    send,
+    recv,
+    poll,
+];
+
+/// How long a wait goes on before the end of the program is thought of, milliseconds.
+const SLICE: i64 = 50;
+/// The time left of a wait without a limit.
+const FOREVER: i64 = -1;
+
+/// Closes a socket.
+///
+/// @param socket the socket
+/// @return result 0 or -1
+#[api("simZMQ.close")]
+fn close(cx: &Cx, socket: String) -> Result<i64> {
+    objects(cx).take_socket(&socket)?.close();
+    Ok(0)
+}
+
+/// Accepts connections at an address.
+///
+/// @param socket the socket
+/// @param endpoint such as tcp://127.0.0.1:5555
+/// @return result 0 or -1
+#[api("simZMQ.bind")]
+fn bind(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
+    let objects = objects(cx);
+    Ok(objects.done(objects.socket(&socket)?.bind(&endpoint)))
+}
+
+/// Accepts no more connections at an address.
+///
+/// @param socket the socket
+/// @param endpoint the address
+/// @return result 0 or -1
+#[api("simZMQ.unbind")]
+fn unbind(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
+    let objects = objects(cx);
+    Ok(objects.done(objects.socket(&socket)?.unbind(&endpoint)))
+}
+
+/// Connects to an address, now or as soon as somebody is there.
+///
+/// @param socket the socket
+/// @param endpoint such as tcp://127.0.0.1:5555
+/// @return result 0 or -1
+#[api("simZMQ.connect")]
+fn connect(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
+    let objects = objects(cx);
+    Ok(objects.done(objects.socket(&socket)?.connect(&endpoint)))
+}
+
+/// Ends a connection.
+///
+/// @param socket the socket
+/// @param endpoint the address
+/// @return result 0 or -1
+#[api("simZMQ.disconnect")]
+fn disconnect(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
+    let objects = objects(cx);
+    Ok(objects.done(objects.socket(&socket)?.disconnect(&endpoint)))
+}
+
+/// Sets an option of a socket.
+///
+/// @param socket the socket
+/// @param optionName one of simZMQ's constants
+/// @param optionValue its bytes
+/// @return result 0 or -1
+#[api("simZMQ.setsockopt")]
+fn setsockopt(cx: &Cx, socket: String, option_name: Number, option_value: Bytes) -> Result<i64> {
+    let objects = objects(cx);
+    Ok(objects.done(objects.socket(&socket)?.set(int(option_name), &option_value.0)))
+}
+
+/// An option of a socket.
+///
+/// @param socket the socket
+/// @param optionName one of simZMQ's constants
+/// @param optionLen most bytes
+/// @return result 0 or -1
+/// @return value its bytes
+#[api("simZMQ.getsockopt")]
+fn getsockopt(cx: &Cx, socket: String, option_name: Number, option_len: Number) -> Result<(i64, Bytes)> {
+    let objects = objects(cx);
+    let room = usize::try_from(option_len.0).unwrap_or(0);
+    Ok(match objects.socket(&socket)?.get(int(option_name), room) {
+        Ok(value) => (0, Bytes(value)),
+        Err(errno) => (objects.failed(errno), Bytes(Vec::new())),
+    })
+}
+
+/// Tells what happens to the connections of a socket.
+///
+/// @param socket the socket
+/// @param endpoint inproc address of the teller
+/// @param events which
+/// @return result 0 or -1
+#[api("simZMQ.socket_monitor")]
+fn socket_monitor(cx: &Cx, socket: String, endpoint: String, events: Number) -> Result<i64> {
+    let objects = objects(cx);
+    Ok(objects.done(objects.socket(&socket)?.monitor(&endpoint, int(events))))
+}
+
+/// Sends a part of a message, or all of it, without waiting.
+///
+/// @param socket the socket
+/// @param data its bytes
+/// @param flags simZMQ.SNDMORE when more parts follow
+/// @return result bytes sent, or -1
+#[api("simZMQ.send")]
+fn send(cx: &Cx, socket: String, data: Bytes, flags: Number) -> Result<i64> {
+    let objects = objects(cx);
+    Ok(objects.told(objects.socket(&socket)?.send(&data.0, int(flags))))
+}
+
+/// Receives a part of a message without waiting.
+///
+/// @param socket the socket
+/// @param flags none has an effect
+/// @param maxBufSize most bytes to return
+/// @return result length of the message, or -1
+/// @return data its bytes, nil on failure
+#[api("simZMQ.recv")]
+fn recv(cx: &Cx, socket: String, flags: Number, max_buf_size: Option<Number>) -> Result<(i64, Data)> {
+    let objects = objects(cx);
+    let socket = objects.socket(&socket)?;
+    let mut message = Message::closed();
+    message.open();
+    Ok(match message.receive(&socket, int(flags)) {
+        Ok(length) => {
+            let most = max_buf_size.map_or(usize::MAX, |most| usize::try_from(most.0).unwrap_or(0));
+            (length.into(), Data::Buffer(message.bytes()[..message.size().min(most)].to_vec()))
+        }
+        Err(errno) => (objects.failed(errno), Data::Nil),
+    })
+}
+
+/// Waits until a socket is ready. The end of the program ends the wait.
+///
+/// @param sockets the sockets
+/// @param events what each is waited for
+/// @param timeout milliseconds, -1 for as long as it takes
+/// @return result how many are ready, or -1
+/// @return revents what each is ready for
+#[api("simZMQ.poll")]
+fn poll(cx: &Cx, sockets: Table, events: Vec<i64>, timeout: Number) -> Result<(i64, Vec<i64>)> {
+    let objects = objects(cx);
+    let sockets = texts(&sockets.0)?.into_iter().map(|handle| objects.socket(handle)).collect::<Result<Vec<_>>>()?;
+    let items: Vec<_> = sockets.into_iter().zip(events.iter().map(|&events| events as i16)).collect();
+    Ok(match wait(cx, &items, timeout.0) {
+        Ok(ready) => {
+            let count = ready.iter().filter(|&&events| events != 0).count();
+            (count as i64, ready.into_iter().map(i64::from).collect())
+        }
+        Err(errno) => (objects.failed(errno), vec![0; items.len()]),
+    })
+}
+
+/// The texts of a list.
+fn texts(list: &Data) -> Result<Vec<&str>> {
+    let Data::Array(items) = list else { return Err(ApiError::ArgumentType) };
+    let text = |item| match item {
+        &Data::Text(ref bytes) => std::str::from_utf8(bytes).map_err(|_| ApiError::ArgumentType),
+        _ => Err(ApiError::ArgumentType),
+    };
+    items.iter().map(text).collect()
+}
+
+/// Polls for a bounded time again and again.
+fn wait(cx: &Cx, items: &[(Rc<Socket>, i16)], timeout: i64) -> zmq::ZmqResult<Vec<i16>> {
+    let mut left = if items.is_empty() { timeout.max(0) } else { timeout };
+    loop {
+        let slice = if left < 0 { SLICE } else { left.min(SLICE) };
+        let ready = match zmq::poll(items, slice as _) {
+            // A signal: if it means the end, that is seen below.
+            Err(Errno::INTERRUPTED) => vec![0; items.len()],
+            outcome => outcome?,
+        };
+        left = if left < 0 { FOREVER } else { left - slice };
+        if left == 0 || ready.iter().any(|&events| events != 0) {
+            return Ok(ready);
+        }
+        if cx.sim().is_ending() {
+            return Err(Errno::INTERRUPTED);
+        }
+    }
+}
