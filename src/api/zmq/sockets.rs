@@ -11,19 +11,8 @@ use crate::io::zmq::{self, Errno, Message, Socket};
 use crate::scene::Data;
 use crate::script::{Bytes, Number, Table};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![
-    close,
-    bind,
-    unbind,
-    connect,
-    disconnect,
-    setsockopt,
-    getsockopt,
-    socket_monitor,
-    send,
-    recv,
-    poll,
-];
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![close, bind, unbind, connect, disconnect, setsockopt, getsockopt, socket_monitor, send, recv, poll,];
 
 /// How long a wait goes on before the end of the program is thought of, milliseconds.
 const SLICE: i64 = 50;
@@ -181,10 +170,10 @@ fn poll(cx: &Cx, sockets: Table, events: Vec<i64>, timeout: Number) -> Result<(i
 }
 
 /// The texts of a list.
-fn texts(list: &Data) -> Result<Vec<&str>> {
+fn texts<'a>(list: &'a Data) -> Result<Vec<&'a str>> {
     let Data::Array(items) = list else { return Err(ApiError::ArgumentType) };
-    let text = |item| match item {
-        &Data::Text(ref bytes) => std::str::from_utf8(bytes).map_err(|_| ApiError::ArgumentType),
+    let text = |item: &'a Data| match item {
+        Data::Text(bytes) => std::str::from_utf8(bytes).map_err(|_| ApiError::ArgumentType),
         _ => Err(ApiError::ArgumentType),
     };
     items.iter().map(text).collect()

@@ -176,7 +176,10 @@ mod tests {
         let mut message = Message::closed();
         message.open_with_size(1000).expect("there is room");
         assert_eq!(message.bytes(), [0; 1000]);
-        assert_eq!((message.copy().expect("open").size(), message.take().expect("open").size(), message.size()), (1000, 1000, 0));
+        assert_eq!(
+            (message.copy().expect("open").size(), message.take().expect("open").size(), message.size()),
+            (1000, 1000, 0)
+        );
         for size in [-1, i64::MIN, i64::MAX, MAX_SIZE + 1] {
             assert_eq!(message.open_with_size(size), Err(Errno::NO_MEMORY));
         }
