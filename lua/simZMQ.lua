@@ -26,7 +26,7 @@ Failures are results, -1, and errnum() tells why. __raiseErrors(true) makes erro
 __raiseError.name are the two forms of each function. Options are bytes: sim.packInt32Table{0} for most.
 
 send, recv, msg_send, msg_recv and poll wait when they are told to. In a thread the simulation goes on meanwhile; elsewhere it waits
-too, until a message comes or the program ends (EINTR). __send, __recv, __msg_send and __msg_recv obey the options SNDTIMEO and RCVTIMEO.
+too, until a message comes; ctrl-c makes an error of that. __send, __recv, __msg_send and __msg_recv obey the options SNDTIMEO and RCVTIMEO.
 ctx_term gives up after two seconds outside of threads, and at once while there are open sockets: -1 with EINTR; call it again.
 
 Of drafts of libzmq nothing is built: ctx_set_ext, ctx_get_ext, join, leave, connect_peer, msg_set_routing_id, msg_routing_id,
@@ -117,13 +117,11 @@ local function canYield()
     return not isMain
 end
 
--- Lets the others go on, or waits here for an event, at most that many milliseconds. False when the program is about to end.
+-- Lets the others go on, or waits here for an event, at most that many milliseconds. Raises an error when the program is about to end.
 local function pause(sockets, events, milliseconds)
-    if canYield() then
-        sim.yield()
-        return true
-    end
-    return pollNow(sockets, events, milliseconds) >= 0 or errnum() ~= EINTR
+    if canYield() then return sim.yield() end
+    -- What is wrong with the sockets is told by whoever uses them next.
+    pollNow(sockets, events, milliseconds)
 end
 
 local function clock(milliseconds) return milliseconds >= 0 and sim.getSystemTime() + milliseconds / 1000 or math.huge end
@@ -147,7 +145,8 @@ local function persist(attempt, socket, event, patience, ...)
             return result, data
         end
         local left = milliseconds(deadline)
-        if left == 0 or errnum() ~= EAGAIN or not pause(sockets, events, left) then return -1, nil end
+        if left == 0 or errnum() ~= EAGAIN then return -1, nil end
+        pause(sockets, events, left)
     end
 end
 

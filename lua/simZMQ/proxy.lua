@@ -84,7 +84,8 @@ local function turn(state)
     if front ~= back then went = forward(state, back, front, state.fromBack, state.toFront) or went end
     if state.failed then return false end
     -- What cannot go now waits until there is room.
-    return pause({front, back}, {POLLOUT, POLLOUT}, went and 0 or PATIENCE)
+    pause({front, back}, {POLLOUT, POLLOUT}, went and 0 or PATIENCE)
+    return true
 end
 
 local function proxy(frontend, backend, capture, control)

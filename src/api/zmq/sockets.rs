@@ -148,7 +148,7 @@ fn recv(cx: &Cx, socket: String, flags: Number, max_buf_size: Option<Number>) ->
     })
 }
 
-/// Waits until a socket is ready. The end of the program ends the wait.
+/// Waits until a socket is ready; an error when the program is about to end.
 ///
 /// @param sockets the sockets
 /// @param events what each is waited for
@@ -160,7 +160,7 @@ fn poll(cx: &Cx, sockets: Table, events: Vec<i64>, timeout: Number) -> Result<(i
     let objects = objects(cx);
     let sockets = texts(&sockets.0)?.into_iter().map(|handle| objects.socket(handle)).collect::<Result<Vec<_>>>()?;
     let items: Vec<_> = sockets.into_iter().zip(events.iter().map(|&events| events as i16)).collect();
-    Ok(match wait(cx, &items, timeout.0) {
+    Ok(match wait(cx, &items, timeout.0)? {
         Ok(ready) => {
             let count = ready.iter().filter(|&&events| events != 0).count();
             (count as i64, ready.into_iter().map(i64::from).collect())
@@ -180,21 +180,22 @@ fn texts<'a>(list: &'a Data) -> Result<Vec<&'a str>> {
 }
 
 /// Polls for a bounded time again and again.
-fn wait(cx: &Cx, items: &[(Rc<Socket>, i16)], timeout: i64) -> zmq::ZmqResult<Vec<i16>> {
+fn wait(cx: &Cx, items: &[(Rc<Socket>, i16)], timeout: i64) -> Result<zmq::ZmqResult<Vec<i16>>> {
     let mut left = if items.is_empty() { timeout.max(0) } else { timeout };
     loop {
         let slice = if left < 0 { SLICE } else { left.min(SLICE) };
         let ready = match zmq::poll(items, slice as _) {
             // A signal: if it means the end, that is seen below.
             Err(Errno::INTERRUPTED) => vec![0; items.len()],
-            outcome => outcome?,
+            Err(errno) => return Ok(Err(errno)),
+            Ok(ready) => ready,
         };
         left = if left < 0 { FOREVER } else { left - slice };
         if left == 0 || ready.iter().any(|&events| events != 0) {
-            return Ok(ready);
+            return Ok(Ok(ready));
         }
-        if cx.sim().is_ending() {
-            return Err(Errno::INTERRUPTED);
+        if cx.sim().is_interrupted() {
+            return Err(ApiError::Interrupted);
         }
     }
 }

@@ -7,7 +7,7 @@ sim = require 'sim'
 local z = require 'simZMQ'
 local function try(f, ...)
     local ok, message = pcall(f, ...)
-    print(ok, (tostring(message):gsub('^.-in simZMQ', 'in simZMQ')))
+    print(ok, (tostring(message):gsub('^.-in simZMQ', 'in simZMQ'):gsub('^%[string.-: ', '')))
 end
 local c = z.ctx_new()
 local s, q, m = z.socket(c, z.PAIR), z.socket(c, z.PAIR), z.msg_new()
