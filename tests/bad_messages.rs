@@ -120,3 +120,40 @@ fn wrong_types() {
     ));
     assert!(output.ends_with("over\n"), "{output}");
 }
+
+/// The requests of remote clients, without their sockets.
+#[test]
+fn spoilt_remote_requests() {
+    let harness = include_str!("support/remote_requests.lua");
+    let output = run(&format!(
+        "{harness}
+        local cbor = require 'org.conman.cbor'
+        local requests = {{
+            cbor.encode{{func = 'sim.getObject', args = {{'/Floor'}}, argsL = 1, uuid = 'u', ver = 2, timeout = 600}},
+            cbor.encode{{func = 'sim.testCB', args = {{1, 'f@func', 2, 1}}, uuid = 'u'}},
+            cbor.encode{{func = '_*executed*_', args = {{8}}, argsL = 1, uuid = 'u'}},
+            cbor.encode{{func = 'swanilda.batch', args = {{{{{{func = 'string.rep', args = {{'a', 2}}}}, {{}}}}, true}}, uuid = 'u'}},
+        }}
+        local count, odd = 0, {{0, 1, 0x1b, 0x3b, 0x5b, 0x5f, 0x7b, 0x9b, 0x9f, 0xbb, 0xbf, 0xc2, 0xd9, 0xf6, 0xfb, 0xff}}
+        for _, bytes in ipairs(requests) do
+            for at = 1, #bytes do
+                ask(bytes:sub(1, at))
+                for _, byte in ipairs(odd) do
+                    ask(bytes:sub(1, at - 1) .. string.char(byte) .. bytes:sub(at + 1))
+                    count = count + 1
+                end
+            end
+        end
+        print(count > 3000)
+        local function answer(request) return (cbor.decode(ask(cbor.encode(request)))) end
+        print(answer{{uuid = ('u'):rep(2000), func = 'f'}}.err)
+        print(answer{{uuid = 'n', func = 'type', args = {{}}, argsL = math.maxinteger}}.err)
+        print(answer{{uuid = 'n', func = 'type', args = {{nil, 1}}, argsL = math.mininteger}}.err)
+        print(answer{{uuid = 'n', func = 'string.rep', args = {{'x', 1 << 40}}, argsL = 2}}.err ~= nil)
+        print(answer{{uuid = 'n', func = 'string.rep', args = {{'ab', 2}}, argsL = 2}}.ret[1])"
+    ));
+    let lines: Vec<&str> = output.lines().collect();
+    assert_eq!(lines[..3], ["true", "the uuid is too long", "too many arguments"], "{output}");
+    assert!(lines[3].contains("value expected"), "{output}");
+    assert_eq!(lines[4..], ["true", "abab"], "{output}");
+}

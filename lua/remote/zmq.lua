@@ -17,17 +17,16 @@ local load = load -- for chunks of clients, whatever is taken from their reach
 local answers = require('remote.zmq_answers')
 local clients = require('remote.zmq_clients')
 local namespaces = require('remote.namespaces')
+local requests = require('remote.zmq_arguments')
+local given = requests.given
 local decode = require('simCBOR').decode
 local resume, yield, status = coroutine.resume, coroutine.yield, coroutine.status
 local pack, unpack = table.pack, table.unpack
 
-local EXECUTED <const>, END <const>, NIL <const> = '_*executed*_', '_*end*_', '_*NIL*_'
-local CALLBACK <const> = '^(.*)@func$'
+local EXECUTED <const>, END <const> = '_*executed*_', '_*end*_'
 local PATIENCE <const> = 0.5 -- seconds a client waits without a word
 local QUIET <const> = 0.002 -- seconds without a request after which an idle simulator looks after everything else
 local NAP <const> = 0.05 -- the same while a client holds it up
-local SEARCHED <const> = 16 -- entries of a table that are looked through for callbacks
-local MOST_ARGUMENTS <const> = 100000
 local MOST_QUEUED <const> = 1000 -- callbacks nobody waits for, by client
 local MOST_HELD <const> = 1000 -- requests put off
 local MOST_AT_ONCE <const> = 10000 -- requests between two looks at everything else
@@ -158,49 +157,12 @@ function deliverQueue(client)
     client.delivering = false
 end
 
-local function withCallbacks(client, value, depth)
-    if type(value) == 'string' then
-        local name = value:match(CALLBACK)
-        return name and callbackOf(client, name) or value
-    end
-    if depth == 0 and type(value) == 'table' and not getmetatable(value) then
-        local looked = 0
-        for key, entry in pairs(value) do
-            looked = looked + 1
-            if looked > SEARCHED then break end
-            value[key] = withCallbacks(client, entry, 1)
-        end
-    end
-    return value
-end
-
 ---------------------------------------------------------------- requests
 
 local function lookup(path)
     local value = namespaces.find(path)
     if not value then error('No such function: ' .. path, 0) end
     return value
-end
-
--- The arguments and their number: null at the end of a list is told by the number only.
-local function given(request)
-    local args = type(request.args) == 'table' and request.args or {}
-    local n = math.tointeger(request.argsL) or #args
-    if n > MOST_ARGUMENTS then error('too many arguments', 0) end
-    return args, math.max(0, n)
-end
-
-local function arguments(client, request)
-    local args, n = given(request)
-    for i = 1, n do
-        local value = args[i]
-        local kind = type(value)
-        if kind == 'string' or kind == 'table' then
-            if value == NIL then value = nil end
-            args[i] = withCallbacks(client, value, 0)
-        end
-    end
-    return args, n
 end
 
 -- As direct requests these count for the client; within Lua code they mean what they mean everywhere.
@@ -212,7 +174,7 @@ local LOCKS <const> = {
 local function perform(client, request)
     local func = request.func
     if func and func ~= '' then
-        local args, n = arguments(client, request)
+        local args, n = requests.arguments(client, request, callbackOf)
         local code = LOCKS[func] or lookup(func)
         return answers.results(pack(code(unpack(args, 1, n))), native.returns(func))
     end
@@ -385,6 +347,9 @@ function sysCall_actuation()
     currentStep = currentStep + 1
     if restarting then return {cmd = 'restart'} end
 end
+
+-- Between two steps in real-time mode.
+function sysCall_realTimeIdle() serveWindow('running', QUIET) end
 
 function sysCall_afterSimulation()
     currentStep = 0

@@ -24,6 +24,7 @@ const INNER: &[&str] = &[
     "remote/restrict",
     "remote/ws_codecs",
     "remote/zmq_answers",
+    "remote/zmq_arguments",
     "remote/zmq_clients",
     "remote/zmq_functions",
     "simZMQ/constants",

@@ -1,0 +1,50 @@
+--[[
+The arguments of a request of the ZeroMQ remote API, with the words in them that mean something else.
+]]
+
+local NIL <const> = '_*NIL*_'
+local CALLBACK <const> = '^(.*)@func$'
+local SEARCHED <const> = 16 -- entries of a table that are looked through for callbacks
+local MOST_ARGUMENTS <const> = 100000
+
+local M = {}
+
+--- The arguments as they came, and their number: null at the end of a list is told by the number only.
+function M.given(request)
+    local args = type(request.args) == 'table' and request.args or {}
+    local n = math.tointeger(request.argsL) or #args
+    if n > MOST_ARGUMENTS then error('too many arguments', 0) end
+    return args, math.max(0, n)
+end
+
+local function withCallbacks(client, value, callbackOf, depth)
+    if type(value) == 'string' then
+        local name = value:match(CALLBACK)
+        return name and callbackOf(client, name) or value
+    end
+    if depth == 0 and type(value) == 'table' and not getmetatable(value) then
+        local looked = 0
+        for key, entry in pairs(value) do
+            looked = looked + 1
+            if looked > SEARCHED then break end
+            value[key] = withCallbacks(client, entry, callbackOf, 1)
+        end
+    end
+    return value
+end
+
+--- The arguments as the function gets them, and their number. `callbackOf` makes a function of a name of the client.
+function M.arguments(client, request, callbackOf)
+    local args, n = M.given(request)
+    for i = 1, n do
+        local value = args[i]
+        local kind = type(value)
+        if kind == 'string' or kind == 'table' then
+            if value == NIL then value = nil end
+            args[i] = withCallbacks(client, value, callbackOf, 0)
+        end
+    end
+    return args, n
+end
+
+return M
