@@ -37,11 +37,25 @@ local function describe(value, simMembers, objects, above)
     return out
 end
 
+local MOST_PATHS <const>, LONGEST_PATH <const> = 10000, 200 -- remembered
+local paths, pathCount = {}, 0
+
+-- The words of a path, which many requests have in common.
+local function wordsOf(path)
+    local words = {}
+    for word in path:gmatch('[%w_]+') do words[#words + 1] = word end
+    if #path > LONGEST_PATH then return words end
+    if pathCount >= MOST_PATHS then paths, pathCount = {}, 0 end
+    paths[path], pathCount = words, pathCount + 1
+    return words
+end
+
 --- The global a path like `sim.getObject` leads to; nothing when there is none.
 local function find(path)
     local value = _G
-    for word in path:gmatch('[%w_]+') do
-        value = value[word]
+    local words = paths[path] or wordsOf(path)
+    for i = 1, #words do
+        value = value[words[i]]
         if not value then return end
     end
     return value

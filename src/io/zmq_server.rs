@@ -5,13 +5,18 @@
 
 use std::collections::HashMap;
 use std::io::{self, ErrorKind};
+use std::mem::MaybeUninit;
 use std::net::TcpListener;
+use std::pin::Pin;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::task::{Context, Poll, ready};
 use std::time::Duration;
 
+use tokio::io::{AsyncRead, ReadBuf};
 use tokio::net::TcpStream;
+use tokio::net::tcp::{OwnedReadHalf, OwnedWriteHalf};
 use tokio::sync::Notify;
 use tokio::task::JoinSet;
 
@@ -55,8 +60,9 @@ pub(crate) struct ZmqServer {
 #[derive(Default)]
 struct Connections(Mutex<HashMap<Peer, Arc<Connection>>>);
 
+/// The sending side of a connection.
 struct Connection {
-    stream: TcpStream,
+    stream: OwnedWriteHalf,
     outgoing: Mutex<Outgoing>,
     /// Tells the connection's task that there is something to send.
     more: Notify,
@@ -110,7 +116,7 @@ impl Connections {
 }
 
 impl Connection {
-    fn new(stream: TcpStream) -> Self {
+    fn new(stream: OwnedWriteHalf) -> Self {
         Self { stream, outgoing: Mutex::default(), more: Notify::new() }
     }
 
@@ -168,49 +174,64 @@ impl Connection {
         if outgoing.given_up { Err(ErrorKind::ConnectionAborted.into()) } else { Ok(!outgoing.unsent.is_empty()) }
     }
 
-    /// Reads what is there. An error at its end.
-    fn read(&self, decoder: &mut Decoder) -> io::Result<()> {
-        let mut chunk = [0; CHUNK];
-        match self.stream.try_read(&mut chunk) {
-            Ok(0) => Err(ErrorKind::UnexpectedEof.into()),
-            Ok(count) => {
-                decoder.feed(&chunk[..count]);
-                Ok(())
-            }
-            Err(error) if error.kind() == ErrorKind::WouldBlock => Ok(()),
-            Err(error) => Err(error),
+    /// Waits until what was kept can be sent on.
+    async fn wait_to_send(&self) -> io::Result<()> {
+        if self.has_unsent()? {
+            self.stream.writable().await?;
+            self.flush()
+        } else {
+            self.more.notified().await;
+            Ok(())
         }
     }
+}
 
-    /// What the peer says next; pings are answered here.
-    async fn hear(&self, decoder: &mut Decoder) -> io::Result<zmtp::Request> {
-        loop {
-            match decoder.next().map_err(io::Error::other)? {
-                Some(Said::Request(request)) => return Ok(request),
-                Some(Said::Ping(context)) => self.send(&mut self.outgoing(), &zmtp::pong(&context))?,
-                None => self.move_on(decoder).await?,
-            }
+/// The receiving side of a connection.
+struct Receiver {
+    stream: OwnedReadHalf,
+    decoder: Decoder,
+}
+
+impl Receiver {
+    /// Takes what has come; an error at its end.
+    fn poll_read(&mut self, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        let mut chunk = [MaybeUninit::uninit(); CHUNK];
+        let mut chunk = ReadBuf::uninit(&mut chunk);
+        ready!(Pin::new(&mut self.stream).poll_read(context, &mut chunk))?;
+        if chunk.filled().is_empty() {
+            return Poll::Ready(Err(ErrorKind::UnexpectedEof.into()));
         }
+        self.decoder.feed(chunk.filled());
+        Poll::Ready(Ok(()))
     }
 
-    /// Waits until there is something to read or to write, and does that.
-    async fn move_on(&self, decoder: &mut Decoder) -> io::Result<()> {
-        let unsent = self.has_unsent()?;
+    /// Waits until there is something to read or to send, and does that.
+    async fn move_on(&mut self, connection: &Connection) -> io::Result<()> {
         tokio::select! {
-            ready = self.stream.readable() => ready.and_then(|()| self.read(decoder)),
-            ready = self.stream.writable(), if unsent => ready.and_then(|()| self.flush()),
-            () = self.more.notified() => Ok(()),
+            read = std::future::poll_fn(|context| self.poll_read(context)) => read,
+            sent = connection.wait_to_send() => sent,
         }
     }
 
     /// Greets the peer and waits until it has introduced itself.
-    async fn shake_hands(&self, decoder: &mut Decoder) -> io::Result<()> {
-        self.send(&mut self.outgoing(), &zmtp::hello())?;
-        while !decoder.is_ready() {
-            self.move_on(decoder).await?;
-            decoder.shake_hands().map_err(io::Error::other)?;
+    async fn shake_hands(&mut self, connection: &Connection) -> io::Result<()> {
+        connection.send(&mut connection.outgoing(), &zmtp::hello())?;
+        while !self.decoder.is_ready() {
+            self.move_on(connection).await?;
+            self.decoder.shake_hands().map_err(io::Error::other)?;
         }
         Ok(())
+    }
+
+    /// What the peer asks next; pings are answered here.
+    async fn hear(&mut self, connection: &Connection) -> io::Result<zmtp::Request> {
+        loop {
+            match self.decoder.next().map_err(io::Error::other)? {
+                Some(Said::Request(request)) => return Ok(request),
+                Some(Said::Ping(context)) => connection.send(&mut connection.outgoing(), &zmtp::pong(&context))?,
+                None => self.move_on(connection).await?,
+            }
+        }
     }
 }
 
@@ -238,14 +259,15 @@ async fn accept_all(listener: tokio::net::TcpListener, connections: Arc<Connecti
 async fn serve(stream: TcpStream, peer: Peer, connections: Arc<Connections>, deliver: Deliver<Incoming>) {
     // Where this cannot be set, answers are slower.
     let _ = stream.set_nodelay(true);
-    let connection = Arc::new(Connection::new(stream));
-    let mut decoder = Decoder::new();
-    let introduced = tokio::time::timeout(HANDSHAKE, connection.shake_hands(&mut decoder)).await;
+    let (reading, writing) = stream.into_split();
+    let connection = Arc::new(Connection::new(writing));
+    let mut receiver = Receiver { stream: reading, decoder: Decoder::new() };
+    let introduced = tokio::time::timeout(HANDSHAKE, receiver.shake_hands(&connection)).await;
     if !matches!(introduced, Ok(Ok(()))) {
         return;
     }
     connections.lock().insert(peer, connection.clone());
-    while let Ok(request) = connection.hear(&mut decoder).await {
+    while let Ok(request) = receiver.hear(&connection).await {
         connection.outgoing().envelope = request.envelope;
         deliver.deliver(Incoming::Request(peer, request.content)).await;
     }
