@@ -5,6 +5,7 @@ import socket
 import subprocess
 import sys
 import threading
+import time
 
 from compare import same
 from raw import PORT, Peer
@@ -42,6 +43,7 @@ def the_server(a, b):
     replies = []
     waiting = threading.Thread(target=lambda: replies.append(a.call("sim.step")))
     waiting.start()
+    time.sleep(0.3)  # until it waits
     same("the request itself", b.call("sim.restartServer"), {"ret": {}})
     waiting.join(10)
     same("who waited is told", replies, [{"err": AGAIN}])
