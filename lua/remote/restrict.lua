@@ -42,9 +42,12 @@ local FORBIDDEN <const> = {
 
 local callScriptFunction = sim.callScriptFunction
 
-function sim.callScriptFunction(name, ...)
-    if type(name) == 'string' and FORBIDDEN[name:match('^[^.@]*')] then name = 'FORBIDDEN' end
-    return callScriptFunction(name, ...)
+local function allowed(value)
+    local name = isbuffer(value) and tostring(value) or value
+    return type(name) == 'string' and FORBIDDEN[name:match('^[^.@]*')] and 'FORBIDDEN' or value
 end
+
+-- The name may come first or second.
+function sim.callScriptFunction(first, second, ...) return callScriptFunction(allowed(first), allowed(second), ...) end
 
 simCallScriptFunction = sim.callScriptFunction

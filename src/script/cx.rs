@@ -45,7 +45,6 @@ impl<'a> Cx<'a> {
     ///
     /// # Errors
     /// When scripts may not do that.
-    #[allow(dead_code, reason = "no such function is built yet")]
     pub(crate) fn require_unsafe(&self) -> ApiResult<()> {
         if self.sim.options.exec_unsafe { Ok(()) } else { Err(ApiError::Unsafe) }
     }

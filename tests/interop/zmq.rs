@@ -69,3 +69,9 @@ fn the_official_client_with_cbor2() {
 fn several_calls_in_one_request() {
     check("zmq_batch.py", &[]);
 }
+
+#[test]
+fn what_clients_do_not_get() {
+    let Some(python) = python() else { return };
+    run(python, "zmq_restricted.py", &Server::start_with(&["--remote-api=0", "--no-unsafe"]), &[]);
+}
