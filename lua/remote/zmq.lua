@@ -317,7 +317,7 @@ local function serveWindow(kind, quiet)
     served, servedCount = {}, 0
     if not serveOne(0) then return end
     local begun, state, count = sim.getSystemTime(), sim.getSimulationState(), 1
-    while count < MOST_AT_ONCE and not mustLeave() and sim.getSimulationState() == state do
+    while count < MOST_AT_ONCE and not mustLeave() and not native.others() and sim.getSimulationState() == state do
         local window = windows[kind] * (kind == 'running' and servedCount or 1)
         local left = begun + window - sim.getSystemTime()
         if kind == 'running' and clients.allAwaitStep(served) then left = 0 end

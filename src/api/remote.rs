@@ -10,7 +10,7 @@ use super::{ApiFn, CATEGORIES, Cx, Result, functions, lua_files, registry};
 use crate::io::Incoming;
 use crate::script::{Bytes, Text};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, returns, members];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, others, returns, members];
 
 /// What every remote API needs.
 pub(crate) const NAMES: &[ApiFn] = functions![members];
@@ -50,6 +50,14 @@ fn reply(cx: &mut Cx, peer: i64, message: Bytes) -> Result<()> {
 #[api("remote.zmq.closed")]
 fn closed(cx: &Cx) -> Result<bool> {
     Ok(cx.sim().zmq_server().is_none_or(|server| server.is_closed()))
+}
+
+/// Whether something has come in by other sockets of the simulator, which are served when this function's caller returns.
+///
+/// @return waiting
+#[api("remote.zmq.others")]
+fn others(cx: &Cx) -> Result<bool> {
+    Ok(cx.sim().zmq_server().is_some_and(|server| server.others_wait()))
 }
 
 /// The types a function is declared to return.

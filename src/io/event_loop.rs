@@ -63,6 +63,11 @@ impl EventLoop {
         let _ = self.block_on(async { tokio::time::timeout(patience, something).await });
     }
 
+    /// How much has arrived and is not fetched yet.
+    pub(super) fn arrivals(&self) -> usize {
+        self.waiting.count.load(Ordering::Relaxed)
+    }
+
     /// What has arrived in an inbox; waits for it at most that long.
     pub(super) fn fetch<T>(&self, inbox: &mut Inbox<T>, patience: Duration) -> Option<T> {
         let there = inbox.fetch();

@@ -102,6 +102,11 @@ impl ZmqServer {
         self.stop.load(Ordering::Relaxed)
     }
 
+    /// Whether something has come in by other sockets of the event loop.
+    pub(crate) fn others_wait(&self) -> bool {
+        self.event_loop.arrivals() > self.inbox.borrow().len()
+    }
+
     /// Answers a connection; nothing happens when it is gone.
     pub(crate) fn reply(&self, peer: Peer, bytes: &[u8]) {
         let Some(connection) = self.connections.lock().get(&peer).cloned() else { return };

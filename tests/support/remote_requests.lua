@@ -17,6 +17,8 @@ function server.reply(_, bytes) answers[#answers + 1] = bytes end
 
 function server.closed() return pending == nil end -- nobody waits for what will not come
 
+function server.others() return false end
+
 loader('remote.zmq', server)
 local serve = sysCall_nonSimulation
 sysCall_nonSimulation, sysCall_suspended, sysCall_actuation, sysCall_ext = nil
