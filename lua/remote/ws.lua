@@ -64,20 +64,10 @@ local function perform(request)
     if request.eval ~= nil then return pack(assert(load('return ' .. tostring(request.eval), nil, 't'))()) end
 end
 
--- A reply that cannot be encoded becomes one that says so.
-local function encode(request, codec, ok, outcome)
-    if ok then
-        local done, bytes = pcall(codec.success, request.id, outcome)
-        if done then return bytes end
-        outcome = type(bytes) == 'table' and bytes.message or bytes
-    end
-    return codec.failure(request.id, tostring(outcome))
-end
-
 local function reply(task, ok, outcome)
-    local done, bytes = pcall(encode, task.request, task.codec, ok, outcome)
-    if done then done, bytes = pcall(simWS.send, task.server, task.connection, bytes, task.codec.opcode) end
-    if not done then log(sim.verbosity_scripterrors, 'cannot reply to %s: %s', task.connection, tostring(bytes)) end
+    local bytes = codecs.reply(task.codec, task.request.id, ok, outcome)
+    local sent, reason = pcall(simWS.send, task.server, task.connection, bytes, task.codec.opcode)
+    if not sent then log(sim.verbosity_scripterrors, 'cannot reply to %s: %s', task.connection, tostring(reason)) end
 end
 
 -- Goes on with a request until it ends or waits for a step.

@@ -78,6 +78,20 @@ function CBOR.failure(id, message)
     return withId(id, {'\x67success', '\xf4', '\x65error', cbor.encode(message)})
 end
 
+---------------------------------------------------------------- replies
+
+--- The bytes of a reply: results, or an error. What cannot be encoded becomes an error, with the id unless it is the id.
+function M.reply(codec, id, ok, outcome)
+    if ok then
+        local done, bytes = pcall(codec.success, id, outcome)
+        if done then return bytes end
+        outcome = bytes
+    end
+    local message = type(outcome) == 'table' and rawget(outcome, 'message') or outcome
+    local done, bytes = pcall(codec.failure, id, tostring(message))
+    return done and bytes or codec.failure(nil, 'the id cannot be encoded')
+end
+
 ---------------------------------------------------------------- requests
 
 local function decodedBy(decode, bytes)

@@ -35,8 +35,7 @@ pub(crate) const REMOTE: &[ApiFn] = functions![start_remote];
 fn start(cx: &mut Cx, listen_port: i64) -> Result<String> {
     let port = u16::try_from(listen_port).map_err(|_| ApiError::Other(format!("invalid port: {listen_port}")))?;
     let address = cx.sim().options.listen_address;
-    let listener = TcpListener::bind((address, port));
-    serve(cx, listener).map_err(|error| unusable(&format!("{address}:{port}"), &error))
+    serve(cx, TcpListener::bind((address, port))).map_err(|error| unusable(&format!("{address}:{port}"), &error))
 }
 
 /// Where a server listens. Not in CoppeliaSim.

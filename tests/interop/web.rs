@@ -1,16 +1,20 @@
 //! WebSockets and browsers: the files `ws_*.py`, which start the program themselves.
 
 use std::process::Command;
+use std::time::Duration;
 
 use crate::server::{folder, python};
-use crate::support::process::run_bounded;
+use crate::support::process::run_within;
+
+/// These files bound each of their waits; browsers take long to start on a busy machine.
+const LIMIT: Duration = Duration::from_secs(120);
 
 /// Runs one file; it says nothing when all is well.
 fn check(file: &str) {
     let Some(python) = python() else { return };
     let mut command = Command::new(python);
     command.arg(folder().join(file)).arg(env!("CARGO_BIN_EXE_swanilda")).env("PYTHONDONTWRITEBYTECODE", "1");
-    assert_eq!(run_bounded(&mut command).as_deref(), Ok(""), "{file}");
+    assert_eq!(run_within(&mut command, LIMIT).as_deref(), Ok(""), "{file}");
 }
 
 #[test]

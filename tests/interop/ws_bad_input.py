@@ -6,6 +6,7 @@ import struct
 import time
 
 from compare import same
+from simulator import Simulator
 from websockets.sync.client import connect
 from ws_peer import Control, eventually
 
@@ -144,7 +145,22 @@ def crowd(control):
         client.socket.close()
 
 
+def other_addresses():
+    """Servers of scripts listen where --bind says, and nowhere else."""
+    with Simulator("scenes/ws_echo.lua", "--no-remote-api", "-D", "port=0", "--bind", "127.0.0.2") as sim:
+        port = int(sim.printed("ws://127.0.0.1:").strip("/"))
+        with connect(f"ws://127.0.0.2:{port}") as client:
+            client.send("hi")
+            same("an echo", client.recv(10), "hi")
+        try:
+            raw(port)
+            same("another address", "there", "refused")
+        except ConnectionRefusedError:
+            pass
+
+
 def main():
+    other_addresses()
     with Control() as control:
         control("return 0")
         before = control.sim.sockets()

@@ -2,6 +2,7 @@
 
 import json
 import math
+import random
 import sys
 import time
 import urllib.error
@@ -161,6 +162,21 @@ def oversized(port, other):
     same("a large message", other.call("string.len", "x" * 30_000_000), [30_000_000])
 
 
+def garbage(client):
+    """Requests with bytes changed or missing; what is still a request is answered."""
+    chance = random.Random(1)
+    for good in (b'{"func": "tostring", "args": [1, "a", null], "id": {"a": [1.5, true]}}', cbor2.dumps({"func": "tostring", "args": [1, "a"], "id": 7})):
+        for _ in range(500):
+            bad = bytearray(good[: chance.randrange(len(good) + 1)])
+            for _ in range(chance.randrange(4)):
+                if bad:
+                    bad[chance.randrange(len(bad))] = chance.randrange(256)
+            client.socket.send(bytes(bad))
+    client.socket.send(json.dumps({"id": "the end of it"}))
+    while client.socket.recv(LIMIT) != '{"id":"the end of it","success":true}':
+        pass
+
+
 def page(port):
     try:
         urllib.request.urlopen(f"http://127.0.0.1:{port}/", None, LIMIT)
@@ -169,7 +185,17 @@ def page(port):
         same("a page", error.status, 404)
 
 
+def fence():
+    """--no-unsafe: no files, no programs, but expressions."""
+    with Simulator("--no-remote-api", "--ws-remote-api=0", "--no-unsafe") as sim:
+        client = Client(sim.port("WebSocket"))
+        same("files", client.ask(eval="io.open, io.popen, load")["ret"], [])
+        same("programs", client.ask(func="os.execute", args=["true"])["success"], False)
+        same("an expression", client.ask(eval="1 + 1")["ret"], [2])
+
+
 def main():
+    fence()
     with Simulator("--no-remote-api", "--ws-remote-api=0") as sim:
         port = sim.port("WebSocket")
         a, b = Client(port), Client(port)
@@ -182,6 +208,7 @@ def main():
         stepping(a, b)
         two_clients(a, b)
         departures(port, b)
+        garbage(a)
         oversized(port, b)
         page(port)
         same("still there", b.call("string.rep", "ab", 2), ["abab"])

@@ -13,18 +13,26 @@ const LIMIT: Duration = Duration::from_secs(20);
 /// # Errors
 /// When it does not end in time, or by a signal.
 pub fn run_bounded(command: &mut Command) -> Result<String, String> {
+    run_within(command, LIMIT)
+}
+
+/// The same with a bound of one's own.
+///
+/// # Errors
+/// When it does not end in time, or by a signal.
+pub fn run_within(command: &mut Command, limit: Duration) -> Result<String, String> {
     let mut output = tempfile();
     let (out, err) =
         (output.try_clone().expect("files can be cloned"), output.try_clone().expect("files can be cloned"));
     let mut child = command.stdin(Stdio::null()).stdout(out).stderr(err).spawn().expect("the command starts");
-    let deadline = Instant::now() + LIMIT;
+    let deadline = Instant::now() + limit;
     let status = loop {
         match child.try_wait().expect("the child is ours") {
             Some(status) => break status,
             None if Instant::now() > deadline => {
                 let _ = child.kill();
                 let _ = child.wait();
-                return Err(format!("did not end within {LIMIT:?}; it said last:\n{}", last_lines(&mut output)));
+                return Err(format!("did not end within {limit:?}; it said last:\n{}", last_lines(&mut output)));
             }
             None => std::thread::sleep(Duration::from_millis(2)),
         }

@@ -184,6 +184,22 @@ mod tests {
     }
 
     #[test]
+    fn any_bytes_are_a_head_or_none() {
+        let good = b"POST /a?b HTTP/1.1\r\nContent-Length: 12\r\nUpgrade: websocket\r\n\r\n";
+        for at in 0..good.len() {
+            assert!(matches!(Head::parse(&good[..at]), Ok(None)), "{at} bytes");
+            for byte in 0..=255 {
+                let mut bytes = good.to_vec();
+                bytes[at] = byte;
+                if let Ok(Some((head, length))) = Head::parse(&bytes) {
+                    assert!(length <= bytes.len());
+                    let _ = (head.body_length(), head.handshake(), head.is_upgrade());
+                }
+            }
+        }
+    }
+
+    #[test]
     fn lengths_that_cannot_be() {
         for (value, status) in [("-1", 400), ("", 400), ("1, 1", 400), ("99999999999999999999", 413), ("32000001", 413)]
         {
