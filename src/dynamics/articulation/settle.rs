@@ -10,9 +10,11 @@ use crate::dynamics::world::World;
 
 /// Gaps this small are none, metres and radians.
 const CLOSED: f64 = 1e-9;
+/// Gaps that should have been closed at once, metres and radians.
+const WIDE: f64 = 1e-4;
 /// How often the bodies may be put back in a sub-step.
 const ROUNDS: usize = 6;
-/// Where forces along the links as they were do not close the gaps, the motion is too fast for the step: bodies turn by no more than
+/// Where forces along the links as they were do not close wide gaps, the motion is too fast for the step: bodies turn by no more than
 /// this in a sub-step then, radians, lest energy comes from nowhere.
 const RESOLVED_TURN: f64 = 0.1;
 
@@ -24,7 +26,7 @@ impl Articulation {
             mover.place(world);
             mover.shift = Vector6::zeros();
         }
-        let (mut before, mut renewed) = (f64::INFINITY, false);
+        let (mut before, mut unresolved) = (f64::INFINITY, false);
         for _ in 0..ROUNDS {
             let mut pushes = self.gaps(links);
             let widest = pushes.iter().map(|gap| gap.amax()).fold(0.0, f64::max);
@@ -33,7 +35,7 @@ impl Articulation {
             }
             // Forces act along the links as they were; only where that leads nowhere, as they are now.
             if widest > before / 4.0 {
-                renewed = true;
+                unresolved |= widest > WIDE;
                 if !self.renew(links) {
                     break;
                 }
@@ -42,7 +44,7 @@ impl Articulation {
             self.matrix.solve(&self.pattern, &mut pushes);
             self.close(&pushes);
         }
-        let most = if renewed { RESOLVED_TURN / step } else { f64::MAX };
+        let most = if unresolved { RESOLVED_TURN / step } else { f64::MAX };
         self.movers.iter().for_each(|mover| mover.tell(world, step, most));
     }
 
