@@ -112,7 +112,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
 ];
 
 /// Native functions of Lua modules: `module.function` each. A Lua file of the module's name gets them as its second argument.
-const LIBRARIES: &[(&str, &[ApiFn])] = &[
+pub(crate) const LIBRARIES: &[(&str, &[ApiFn])] = &[
     ("org.conman.cbor", cbor::TREES),
     ("org.conman.cbor_c", cbor::HEADS),
     ("simCBOR", cbor::TREES),

@@ -24,8 +24,8 @@ pub(super) struct Args {
 }
 
 pub(super) fn init(args: &Args) -> ExitCode {
-    let files =
-        [(args.folder.join(".luarc.json"), settings()), (args.folder.join(STUBS).join("sim.lua"), docs::stubs())];
+    let stubs = docs::stubs().into_iter().map(|(path, text)| (args.folder.join(STUBS).join(path), text));
+    let files: Vec<_> = std::iter::once((args.folder.join(".luarc.json"), settings())).chain(stubs).collect();
     if let Some((path, _)) = files.iter().find(|(path, _)| path.exists() && !args.force) {
         return refuse(&format!("{} exists; --force overwrites it", path.display()));
     }
@@ -33,8 +33,13 @@ pub(super) fn init(args: &Args) -> ExitCode {
         if let Err(error) = write(path, text) {
             return refuse(&format!("cannot write {}: {error}", path.display()));
         }
-        println!("wrote {}", path.display());
     }
+    println!(
+        "wrote {} and {} files below {}",
+        files[0].0.display(),
+        files.len() - 1,
+        args.folder.join(STUBS).display()
+    );
     ExitCode::SUCCESS
 }
 

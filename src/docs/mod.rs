@@ -6,6 +6,7 @@
 mod coverage;
 mod lua_comments;
 mod markdown;
+mod module_stubs;
 mod modules;
 mod properties;
 mod row;
@@ -19,7 +20,7 @@ pub use markdown::function_text;
 pub use row::{Function, Parameter, Returned};
 
 /// Where the editor stubs are kept in the repository.
-pub const STUBS: &str = "docs/stubs/sim.lua";
+pub const STUBS: &str = "docs/stubs";
 
 /// Every documented function, sorted by name: native ones, those of the Lua library, and other names for them. Names that begin with
 /// an underscore are inner ones and not listed.
@@ -51,15 +52,16 @@ pub fn files() -> Vec<(String, String)> {
     let functions = functions();
     let mut files = markdown::pages(&functions);
     files.push(("docs/api/modules.md".to_owned(), modules::page()));
-    files.push((STUBS.to_owned(), stubs::text(&functions)));
+    files.extend(stubs().into_iter().map(|(path, text)| (format!("{STUBS}/{path}"), text)));
     files.push(("docs/COVERAGE.md".to_owned(), coverage::text(&functions)));
     files.push(("docs/PROPERTIES.md".to_owned(), properties::text()));
     files
 }
 
-/// The editor stubs.
-pub fn stubs() -> String {
-    stubs::text(&functions())
+/// The editor stubs: path below their folder and text.
+pub fn stubs() -> Vec<(String, String)> {
+    let sim = ("sim.lua".to_owned(), stubs::text(&functions()));
+    std::iter::once(sim).chain(module_stubs::files()).collect()
 }
 
 /// Signature of a function of CoppeliaSim's reference, empty when unknown; None when there is no such function.

@@ -48,13 +48,19 @@ pub(super) fn names() -> impl Iterator<Item = String> {
     public().map(|(name, _)| name.replace('/', "."))
 }
 
-fn public() -> impl Iterator<Item = (&'static str, &'static str)> {
+/// Path below `lua` and text of every module for scripts.
+pub(super) fn public() -> impl Iterator<Item = (&'static str, &'static str)> {
     api::embedded_files().filter(|(name, _)| !name.starts_with("sim/") && !INNER.contains(name))
+}
+
+/// The comment a file begins with.
+pub(super) fn head(source: &str) -> &str {
+    source.strip_prefix("--[[").and_then(|rest| rest.split_once("]]")).map_or("", |(head, _)| head).trim()
 }
 
 /// The first paragraph of the head as text, the rest as it stands, and the list of functions.
 fn section(source: &str) -> String {
-    let head = source.strip_prefix("--[[").and_then(|rest| rest.split_once("]]")).map_or("", |(head, _)| head).trim();
+    let head = head(source);
     let (summary, rest) = head.split_once("\n\n").unwrap_or((head, ""));
     let mut out = format!("{summary}\n");
     if !rest.is_empty() {

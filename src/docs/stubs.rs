@@ -45,7 +45,7 @@ fn declare(out: &mut String, function: &Function) {
     *out = out.replace(" \n", "\n");
 }
 
-fn parameter_name(name: &str) -> String {
+pub(super) fn parameter_name(name: &str) -> String {
     if KEYWORDS.contains(&name) { format!("{name}_") } else { name.to_owned() }
 }
 

@@ -59,3 +59,45 @@ impl Sim {
         acquired.transpose().map(drop).map_err(ApiError::Other)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::Ordering;
+    use std::time::Duration;
+
+    use super::super::{ApiError, Options, Registry, Silent, Sim};
+
+    /// Runs with a simulator of its own.
+    fn with_sim<R>(options: Options, test: impl FnOnce(&Sim) -> R) -> R {
+        let registry = Box::leak(Box::<Registry>::default());
+        test(&Sim::new(options, registry, Box::new(Silent)))
+    }
+
+    #[test]
+    fn a_wait_ends_when_the_program_is_to_end() {
+        let key = format!("test of {}", std::process::id()).into_bytes();
+        with_sim(Options::default(), |holder| {
+            assert_eq!(holder.acquire_semaphore(&key), Ok(()));
+            assert_eq!(holder.acquire_semaphore(&key), Ok(()), "it has it already");
+            let options = Options::default();
+            let stop = options.stop.clone();
+            let waiting = {
+                let key = key.clone();
+                std::thread::spawn(move || with_sim(options, |sim| sim.acquire_semaphore(&key)))
+            };
+            assert!(!waiting.is_finished());
+            stop.store(true, Ordering::Relaxed);
+            assert_eq!(waiting.join().expect("it does not panic"), Err(ApiError::Interrupted));
+            holder.semaphores.borrow_mut().release(&key);
+        });
+        with_sim(Options::default(), |next| assert_eq!(next.acquire_semaphore(&key), Ok(()), "it is free"));
+    }
+
+    #[test]
+    fn a_wait_with_a_limit_ends() {
+        with_sim(Options::default(), |sim| {
+            assert_eq!(sim.wait_for(Some(Duration::from_millis(2)), || None::<()>), Ok(None));
+            assert_eq!(sim.wait_for(Some(Duration::ZERO), || Some(1)), Ok(Some(1)), "the answer is asked for first");
+        });
+    }
+}

@@ -68,7 +68,7 @@ pub(super) fn update(
     let unusable = |error| Failure::Unusable { path: folder.join(NAME), error };
     fs::create_dir_all(folder).map_err(unusable)?;
     let lock = File::options().create(true).truncate(false).write(true).open(folder.join(LOCK)).map_err(unusable)?;
-    take_turn(&lock).map_err(unusable)?;
+    take_turn(&lock, LONGEST_TURN).map_err(unusable)?;
     let (mut contents, failure) = match read(folder) {
         Ok(contents) => (contents, None),
         Err(corrupt @ Failure::Corrupt { .. }) => (Contents::default(), Some(corrupt)),
@@ -80,8 +80,8 @@ pub(super) fn update(
 }
 
 /// Waits for other writers, but not for one that hangs.
-fn take_turn(lock: &File) -> std::io::Result<()> {
-    let deadline = wall_clock::now() + LONGEST_TURN;
+fn take_turn(lock: &File, longest: Duration) -> std::io::Result<()> {
+    let deadline = wall_clock::now() + longest;
     loop {
         match FileExt::try_lock(lock) {
             Ok(()) => return Ok(()),
@@ -155,4 +155,24 @@ fn decode_blocks(data: &Data) -> Option<Blocks> {
         _ => None,
     };
     entries.iter().map(entry).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use fs4::FileExt;
+
+    use super::take_turn;
+
+    #[test]
+    fn a_writer_that_hangs_is_not_waited_for() {
+        let file = tempfile::NamedTempFile::new().expect("a temporary file can be made");
+        let other = file.reopen().expect("it can be opened again");
+        FileExt::lock(&other).expect("nobody else has it");
+        let error = take_turn(file.as_file(), Duration::from_millis(5)).expect_err("the other has it");
+        assert_eq!(error.kind(), std::io::ErrorKind::TimedOut);
+        drop(other);
+        take_turn(file.as_file(), Duration::ZERO).expect("the other has gone");
+    }
 }
