@@ -7,92 +7,14 @@
 --- Use `socket`, which adds to this.
 local core = {}
 
---- Closes the socket; closing twice does no harm.
-function core.any:close(object) end
-
---- Whether something has arrived that nobody has asked for.
-function core.any:dirty(object) end
-
---- `inet4` or `inet6`.
-function core.any:getfamily(object) end
-
---- The system's number of the socket; -1 for none.
-function core.any:getfd(object) end
-
---- Reads an option.
-function core.any:getoption(object, option) end
-
---- Address, port and family of the other end; or the path.
-function core.any:getpeername(object) end
-
---- Address, port (as a string) and family of this end; or the path.
-function core.any:getsockname(object) end
-
---- Both limits in seconds; -1 for none.
-function core.any:gettimeout(object) end
-
---- Gives the object another socket of this script, by its number; -1 takes it away without closing it.
-function core.any:setfd(object, number) end
-
---- Changes an option.
-function core.any:setoption(object, option, value) end
-
---- Limits each wait (mode b) or whole operations (mode t); nil and negative numbers take the limit away.
-function core.any:settimeout(object, seconds, mode) end
-
---- What the object has become, for `tostring`.
-function core.class_name(object) end
-
---- Forgets an object nobody refers to any more; its socket is closed.
-function core.collect(object) end
-
 --- A connected object. The own address may be given.
 function core.connect(host, port, ownHost, ownPort, family) end
-
---- Takes an address and a port (`*` and 0 for any), or a path.
-function core.datagram:bind(object, host, port) end
-
---- Speaks to one peer from now on; with `*` to everybody.
-function core.datagram:connect(object, host, port) end
-
---- The next datagram; what is longer than `size` bytes is cut.
-function core.datagram:receive(object, size) end
-
---- The next datagram, with the address and the port it came from.
-function core.datagram:receivefrom(object, size) end
-
---- Sends a datagram to the peer.
-function core.datagram:send(object, data) end
-
---- Sends a datagram to an address (no name) and a port, or to a path.
-function core.datagram:sendto(object, data, host, port) end
-
---- Makes a table the metatable of a class of objects.
-function core.define() end
-
---- All addresses of a host: a list of tables with `family` and `addr`.
-function core.dns:getaddrinfo(host) end
-
---- The name of this machine.
-function core.dns:gethostname() end
-
---- The names of a host's addresses, and the name of a service.
-function core.dns:getnameinfo(host, service) end
-
---- The name of a host, and what is known of it.
-function core.dns:tohostname(host) end
-
---- The IPv4 address of a host, and what is known of it.
-function core.dns:toip(host) end
 
 --- Unix time in seconds.
 function core.gettime() end
 
 --- A function that returns its arguments, or raises the second when the first is nothing, after calling `finalizer`.
 function core.newtry(finalizer) end
-
---- Waits for sockets, given by their numbers. Returns for each whether it is ready.
-function core.poll(readers, writers, seconds) end
 
 --- A function whose exceptions become results.
 function core.protect(f) end
@@ -103,33 +25,6 @@ function core.skip(count, ...) end
 
 --- Blocks the script.
 function core.sleep(seconds) end
-
---- Waits for a connection and returns its object.
-function core.stream:accept(object) end
-
---- Takes an address and a port (`*` and 0 for any), or a path.
-function core.stream:bind(object, host, port) end
-
---- Connects to a host and a port, or to a path.
-function core.stream:connect(object, host, port) end
-
---- Bytes received, bytes sent, and the age in seconds.
-function core.stream:getstats(object) end
-
---- Becomes a server.
-function core.stream:listen(object, backlog) end
-
---- Receives a line (`*l`), everything (`*a`), or a number of bytes; a prefix goes in front and counts.
-function core.stream:receive(object, pattern, prefix) end
-
---- Sends bytes `i` to `j` of the data.
-function core.stream:send(object, data, i, j) end
-
---- What `getstats` begins with from now on.
-function core.stream:setstats(object, received, sent, age) end
-
---- Ends one direction of the connection, or both.
-function core.stream:shutdown(object, how) end
 
 --- A TCP object; its first address decides on the family.
 function core.tcp() end
@@ -148,11 +43,5 @@ function core.udp4() end
 
 --- A UDP object for IPv6.
 function core.udp6() end
-
---- A datagram object for paths of this machine.
-function core.unix_dgram() end
-
---- A stream object for paths of this machine.
-function core.unix_stream() end
 
 return core
