@@ -186,6 +186,9 @@ local function defaultHeaders(request)
     if request.user and request.password then headers.authorization = basic(request.user, request.password) end
     if request.proxyUser then headers['proxy-authorization'] = basic(request.proxyUser, request.proxyPassword) end
     for name, value in pairs(request.givenHeaders or {}) do headers[name:lower()] = value end
+    if request.source and not headers['content-length'] then
+        headers['transfer-encoding'] = headers['transfer-encoding'] or 'chunked'
+    end
     return headers
 end
 

@@ -1,4 +1,4 @@
-//! Programs of others against `swanilda serve`: the Python files of this folder.
+//! Programs of others against Swanilda: the Python files of this folder.
 //!
 //! Needs python3 with `venv`, and the Python index once: the environment stays in `target/`. Without python3 the tests are skipped,
 //! except where `CI` is set.
@@ -7,6 +7,7 @@
 
 mod rust_client;
 mod server;
+mod sockets;
 #[path = "../support/mod.rs"]
 mod support;
 mod web;

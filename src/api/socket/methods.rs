@@ -74,7 +74,9 @@ fn setfd(cx: &Cx, object: AnySocket, number: LuaNumber) -> Result<()> {
     };
     let mut detached = sockets.detached.borrow_mut();
     detached.remove(&number);
-    detached.extend(before.map(|socket: Socket| (descriptor(&socket), socket)));
+    // One that another object holds needs no keeping.
+    let left = before.filter(|socket| Socket::strong_count(socket) == 1);
+    detached.extend(left.map(|socket| (descriptor(&socket), socket)));
     Ok(())
 }
 

@@ -100,11 +100,13 @@ impl FromScript for Pattern {
     const TYPE: &'static str = "string";
 
     fn from_script(args: &Args<'_>) -> Result<Self> {
-        match (args.bytes(), args.lua_number()) {
-            (_, Some(count)) if count >= 0.0 => Ok(Self::Count(count as usize)),
-            (Some([b'*', b'l', ..]), None) => Ok(Self::Line),
-            (Some([b'*', b'a', ..]), None) => Ok(Self::All),
-            _ => Err(args.refused("invalid receive pattern")),
+        match args.bytes() {
+            Some([b'*', b'l', ..]) => Ok(Self::Line),
+            Some([b'*', b'a', ..]) => Ok(Self::All),
+            _ => match args.lua_number() {
+                Some(count) if count >= 0.0 => Ok(Self::Count(count as usize)),
+                _ => Err(args.refused("invalid receive pattern")),
+            },
         }
     }
 }

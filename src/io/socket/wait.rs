@@ -31,14 +31,15 @@ impl Default for Timeout {
 /// The waits of one operation.
 pub(crate) struct Wait<'a> {
     timeout: Timeout,
-    began: Instant,
+    /// Looked up only where it matters.
+    began: Option<Instant>,
     stop: &'a AtomicBool,
 }
 
 impl<'a> Wait<'a> {
     /// An operation begins. Once `stop` is set, it waits no longer.
     pub(crate) fn begin(timeout: Timeout, stop: &'a AtomicBool) -> Self {
-        Self { timeout, began: now(), stop }
+        Self { timeout, began: (timeout.total >= 0.0).then(now), stop }
     }
 
     /// Whether the operation may not wait at all.
@@ -48,7 +49,8 @@ impl<'a> Wait<'a> {
 
     fn limit(&self) -> Option<Duration> {
         let block = duration(self.timeout.block);
-        let total = duration(self.timeout.total).map(|total| total.saturating_sub(self.began.elapsed()));
+        let spent = self.began.map(|began| began.elapsed()).unwrap_or_default();
+        let total = duration(self.timeout.total).map(|total| total.saturating_sub(spent));
         match (block, total) {
             (Some(block), Some(total)) => Some(block.min(total)),
             (block, total) => block.or(total),

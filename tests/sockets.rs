@@ -1,0 +1,91 @@
+//! The module `socket`: what LuaSocket 3.0.0 printed for `sockets/probe.lua`, and the end of a script that waits.
+
+mod support;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use support::process::run_bounded;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/sockets")
+}
+
+fn run(file: &Path) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+    command.arg("run").arg(file).args(["--as", "sandbox", "--empty", "--quiet", "--no-start", "--loops", "0"]);
+    run_bounded(&mut command).expect("the script ends")
+}
+
+/// What is different in every run, or with every installation: addresses, free ports, times, names of files.
+fn masked(line: &str) -> String {
+    let label = line.split(" => ").next().unwrap_or_default();
+    match label {
+        "stats type" => return line.rsplit_once(", ").map_or(line, |(rest, _)| rest).to_owned(),
+        "unix" => return "unix => true, table".to_owned(),
+        _ => {}
+    }
+    let words = line.split(' ').map(|word| match word {
+        _ if word.starts_with("0x") => word.split_once(',').map_or("ADDR".into(), |(_, rest)| format!("ADDR,{rest}")),
+        _ if is_port(word) => "PORT".into(),
+        _ if word.contains("sock.lua:") => word.replace("sock.lua:", "[string \\\"probe\\\"]:"),
+        _ => word.into(),
+    });
+    words.collect::<Vec<String>>().join(" ")
+}
+
+/// A number above the well-known ports, with its quotes and comma.
+fn is_port(word: &str) -> bool {
+    word.trim_matches(['"', ',']).parse::<u16>().is_ok_and(|port| port > 10_000)
+}
+
+#[test]
+fn the_probe_prints_what_luasocket_printed() {
+    let recorded = fs::read_to_string(folder().join("probe.txt")).expect("the recording is readable");
+    let mut expected = recorded.lines().filter(|line| !line.starts_with("# ")).map(masked);
+    let printed = run(&folder().join("probe.lua"));
+    let mut lines = printed.lines().map(masked);
+    for expected in expected.by_ref() {
+        let line = lines.next().unwrap_or_default();
+        match expected.split_once("try:f") {
+            // The recording cuts the list of names.
+            Some(_) => assert!(line.starts_with(&expected), "{line}"),
+            // Serial ports have functions of their own: sim.serialOpen.
+            None if expected.starts_with("serial => ") => assert!(line.starts_with("serial => false"), "{line}"),
+            None => assert_eq!(line, expected),
+        }
+        if line.starts_with("serial => ") {
+            break;
+        }
+    }
+    assert_eq!(lines.last(), expected.last());
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupt_ends_every_wait() {
+    let script = "
+        local socket = require 'socket'
+        local server = socket.bind('127.0.0.1', 0)
+        local _, port = server:getsockname()
+        local client = socket.connect('127.0.0.1', port)
+        local waits = {
+            accept = function() server:accept() server:accept() end,
+            receive = function() client:receive() end,
+            send = function() while true do client:send(('x'):rep(1000000)) end end,
+            select = function() socket.select({client}) end,
+            sleep = function() socket.sleep(1000000) end,
+        }
+        waits[sim.getNamedStringParam('wait')]()";
+    let dir = tempfile::tempdir().expect("a temporary folder can be made");
+    let file = dir.path().join("waits.lua");
+    fs::write(&file, script).expect("the folder is ours");
+    for wait in ["accept", "receive", "send", "select", "sleep"] {
+        let mut command = Command::new("timeout");
+        command.args(["-s", "INT", "-k", "15", "0.5", env!("CARGO_BIN_EXE_swanilda"), "run"]).arg(&file);
+        command.args(["--as", "sandbox", "--empty", "--quiet", "-D", &format!("wait={wait}")]);
+        let said = run_bounded(&mut command).expect("the interrupt ends the script");
+        assert!(said.contains("interrupted"), "{wait}: {said}");
+    }
+}
