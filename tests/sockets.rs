@@ -3,8 +3,9 @@
 mod support;
 
 use std::fs;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use support::process::run_bounded;
 
@@ -77,15 +78,20 @@ fn an_interrupt_ends_every_wait() {
             select = function() socket.select({client}) end,
             sleep = function() socket.sleep(1000000) end,
         }
+        print('waiting')
         waits[sim.getNamedStringParam('wait')]()";
     let dir = tempfile::tempdir().expect("a temporary folder can be made");
     let file = dir.path().join("waits.lua");
     fs::write(&file, script).expect("the folder is ours");
     for wait in ["accept", "receive", "send", "select", "sleep"] {
-        let mut command = Command::new("timeout");
-        command.args(["-s", "INT", "-k", "15", "0.5", env!("CARGO_BIN_EXE_swanilda"), "run"]).arg(&file);
-        command.args(["--as", "sandbox", "--empty", "--quiet", "-D", &format!("wait={wait}")]);
-        let said = run_bounded(&mut command).expect("the interrupt ends the script");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+        command.arg("run").arg(&file).args(["--as", "sandbox", "--empty", "--quiet", "-D", &format!("wait={wait}")]);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the command starts");
+        let mut out = BufReader::new(child.stdout.take().expect("standard output is piped"));
+        out.read_line(&mut String::new()).expect("the script says when it waits");
+        run_bounded(Command::new("kill").args(["-INT", &child.id().to_string()])).expect("the signal is sent");
+        let output = child.wait_with_output().expect("the command ends");
+        let said = String::from_utf8_lossy(&output.stderr);
         assert!(said.contains("interrupted"), "{wait}: {said}");
     }
 }
