@@ -8,6 +8,7 @@
 mod rust_client;
 mod server;
 mod sockets;
+mod simzmq;
 #[path = "../support/mod.rs"]
 mod support;
 mod web;

@@ -10,7 +10,7 @@ use crate::support::process::run_within;
 const LIMIT: Duration = Duration::from_secs(120);
 
 /// Runs one file; it says nothing when all is well.
-fn check(file: &str) {
+pub fn check(file: &str) {
     let Some(python) = python() else { return };
     let mut command = Command::new(python);
     command.arg(folder().join(file)).arg(env!("CARGO_BIN_EXE_swanilda")).env("PYTHONDONTWRITEBYTECODE", "1");

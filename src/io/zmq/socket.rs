@@ -13,6 +13,11 @@ use super::{Errno, ZmqResult, c_text, check};
 /// The last of the stable types of sockets. Those beyond are drafts, of which only parts are built.
 const LAST_TYPE: c_int = ffi::ZMQ_STREAM as c_int;
 const LINGER: c_int = ffi::ZMQ_LINGER as c_int;
+const POLLIN: c_short = ffi::ZMQ_POLLIN as c_short;
+const POLLOUT: c_short = ffi::ZMQ_POLLOUT as c_short;
+/// How often and how long, in milliseconds, the good-bye of a monitor is waited for.
+const GOOD_BYE_SLICES: usize = 20;
+const GOOD_BYE_SLICE: c_long = 5;
 const USE_FD: c_int = ffi::ZMQ_USE_FD as c_int;
 const CONNECT_ROUTING_ID: c_int = ffi::ZMQ_CONNECT_ROUTING_ID as c_int;
 /// No option is longer.
@@ -27,6 +32,8 @@ pub(crate) struct Socket {
     is_closed: Cell<bool>,
     /// Names given to connections to be made; libzmq ends the program at the second of the same name.
     connection_names: RefCell<BTreeSet<Vec<u8>>>,
+    /// Where it tells of its connections.
+    monitor: RefCell<Option<String>>,
     /// Goes after the socket: a context must not end before its sockets.
     context: Rc<Context>,
 }
@@ -42,7 +49,13 @@ impl Socket {
             return Err(Errno::last());
         }
         let context = context.clone();
-        Ok(Self { raw, is_closed: Cell::new(false), connection_names: RefCell::default(), context })
+        Ok(Self {
+            raw,
+            is_closed: Cell::new(false),
+            connection_names: RefCell::default(),
+            monitor: RefCell::default(),
+            context,
+        })
     }
 
     pub(super) fn raw(&self) -> *mut c_void {
@@ -72,6 +85,18 @@ impl Socket {
         let _ = self.set(LINGER, &milliseconds.to_ne_bytes());
     }
 
+    /// Waits until its peer has said something or does not want it, for a short time at most.
+    fn hear_out(self) {
+        let this = Rc::new(self);
+        for _ in 0..GOOD_BYE_SLICES {
+            let heard = poll(&[(this.clone(), POLLIN)], GOOD_BYE_SLICE);
+            let wanted = poll(&[(this.clone(), POLLOUT)], 0);
+            if heard != Ok(vec![0]) || wanted != Ok(vec![POLLOUT]) {
+                return;
+            }
+        }
+    }
+
     pub(crate) fn bind(&self, endpoint: &str) -> ZmqResult<()> {
         let endpoint = c_text(endpoint)?;
         // SAFETY (this and the next three): the socket lives, the text ends with NUL and is copied.
@@ -95,9 +120,21 @@ impl Socket {
 
     /// Tells what happens to its connections to a PAIR socket at `endpoint`.
     pub(crate) fn monitor(&self, endpoint: &str, events: c_int) -> ZmqResult<()> {
-        let endpoint = c_text(endpoint)?;
+        let text = c_text(endpoint)?;
+        // The monitor there was says good-bye first.
+        let _listener = self.listener();
         // SAFETY: the socket lives, the text ends with NUL and is copied.
-        check(unsafe { ffi::zmq_socket_monitor(self.raw, endpoint.as_ptr(), events) }).map(drop)
+        check(unsafe { ffi::zmq_socket_monitor(self.raw, text.as_ptr(), events) })?;
+        self.monitor.replace(Some(endpoint.to_owned()));
+        Ok(())
+    }
+
+    /// Somebody who hears the good-bye of the monitor: libzmq waits for ever for one. The socket of a script goes before.
+    fn listener(&self) -> Option<Self> {
+        let monitor = self.monitor.borrow();
+        let endpoint = monitor.as_deref()?;
+        let listener = Self::new(&self.context, ffi::ZMQ_PAIR as c_int).ok()?;
+        listener.connect(endpoint).ok().map(|()| listener)
     }
 
     /// Sets an option to a value of whatever type, given as bytes.
@@ -142,8 +179,12 @@ impl Drop for Socket {
         if !self.is_closed.get() {
             self.set_linger(0);
         }
+        let listener = self.listener();
         // SAFETY: the socket lives, and is not used afterwards. It fails only for what is no socket.
         unsafe { ffi::zmq_close(self.raw) };
+        if let Some(listener) = listener {
+            listener.hear_out();
+        }
     }
 }
 
@@ -166,4 +207,22 @@ fn place(items: &mut Vec<ffi::zmq_pollitem_t>, socket: &Socket, events: c_short)
     }
     items[place].events |= events;
     place
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn a_monitor_nobody_listens_to_holds_up_nobody() {
+        let context = Rc::new(Context::new().expect("a context"));
+        let socket = Socket::new(&context, ffi::ZMQ_REP as c_int).expect("a socket");
+        for endpoint in ["inproc://first", "inproc://second"] {
+            assert_eq!(socket.monitor(endpoint, ffi::ZMQ_EVENT_MONITOR_STOPPED as c_int), Ok(()));
+        }
+        drop(socket);
+        let context = Rc::try_unwrap(context).ok().expect("the socket is gone");
+        assert!(context.terminate().wait(Duration::from_secs(30)));
+    }
 }
