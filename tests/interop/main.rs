@@ -7,8 +7,8 @@
 
 mod rust_client;
 mod server;
-mod sockets;
 mod simzmq;
+mod sockets;
 #[path = "../support/mod.rs"]
 mod support;
 mod web;
