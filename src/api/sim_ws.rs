@@ -6,7 +6,7 @@ use std::rc::Rc;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::io::{SendError, WsEndpoint, WsRequest};
+use crate::io::{SendError, WsEndpoint, WsPages, WsRequest};
 use crate::script::web_sockets::{Endpoint, Occasion, Role, handle_number};
 use crate::script::{Bytes, Handler, ScriptFunction};
 
@@ -35,7 +35,8 @@ pub(crate) const REMOTE: &[ApiFn] = functions![start_remote];
 fn start(cx: &mut Cx, listen_port: i64) -> Result<String> {
     let port = u16::try_from(listen_port).map_err(|_| ApiError::Other(format!("invalid port: {listen_port}")))?;
     let address = cx.sim().options.listen_address;
-    serve(cx, TcpListener::bind((address, port))).map_err(|error| unusable(&format!("{address}:{port}"), &error))
+    serve(cx, TcpListener::bind((address, port)), WsPages::All)
+        .map_err(|error| unusable(&format!("{address}:{port}"), &error))
 }
 
 /// Where a server listens. Not in CoppeliaSim.
@@ -54,13 +55,14 @@ fn get_port(cx: &Cx, server_handle: String) -> Result<i64> {
 fn start_remote(cx: &mut Cx) -> Result<String> {
     let listener = cx.sim().remote_listener.borrow().as_ref().map(TcpListener::try_clone);
     let listener = listener.ok_or_else(|| ApiError::Other("there is no port for the remote API.".into()))?;
-    serve(cx, listener).map_err(|error| unusable("the remote API's port", &error))
+    let pages = WsPages::Own(cx.sim().options.web_origins.clone());
+    serve(cx, listener, pages).map_err(|error| unusable("the remote API's port", &error))
 }
 
-fn serve(cx: &Cx, listener: std::io::Result<TcpListener>) -> std::io::Result<String> {
+fn serve(cx: &Cx, listener: std::io::Result<TcpListener>, pages: WsPages) -> std::io::Result<String> {
     let sim = cx.sim();
     let numbers = sim.web_sockets.borrow().numbers.clone();
-    let socket = WsEndpoint::listen(sim.event_loop()?, listener?, numbers)?;
+    let socket = WsEndpoint::listen(sim.event_loop()?, listener?, pages, numbers)?;
     Ok(sim.add_web_socket(cx, Role::Server, socket).handle())
 }
 

@@ -41,6 +41,9 @@ pub(super) struct Remote {
     /// Serve the WebSocket remote API as well; its default port is the first free one from 23050
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
     ws_remote_api: Option<Option<u16>>,
+    /// Origin of web pages that may use the WebSocket remote API, besides those of this machine (`*`: all); may be repeated
+    #[arg(long, value_name = "ORIGIN")]
+    allow_origin: Vec<String>,
     /// Address to listen at, for remote APIs and servers of scripts; who connects there can do whatever a script can. Another than this machine's own implies --no-unsafe
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
@@ -61,7 +64,13 @@ impl Remote {
     /// The options as those who can connect make necessary.
     pub(super) fn guard(&self, options: Options) -> Options {
         let allowed = !self.no_unsafe && (self.bind.is_loopback() || self.allow_unsafe);
-        Options { exec_unsafe: allowed, exec_unsafe_ext: allowed, listen_address: self.bind, ..options }
+        Options {
+            exec_unsafe: allowed,
+            exec_unsafe_ext: allowed,
+            listen_address: self.bind,
+            web_origins: self.allow_origin.clone(),
+            ..options
+        }
     }
 
     /// Serves the remote APIs, unless parameters say not to, and tells where; ZeroMQ's if `zmq`, the other one if it is asked for.

@@ -12,5 +12,5 @@ mod zmtp;
 pub(crate) use event_loop::EventLoop;
 pub(crate) use process::{Process, ProcessError, Program};
 pub(crate) use serial::SerialPort;
-pub(crate) use ws::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent, WsRequest};
+pub(crate) use ws::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent, WsPages, WsRequest};
 pub(crate) use zmq_server::{Incoming, ZmqServer};

@@ -52,6 +52,8 @@ pub struct Options {
     pub stop: Arc<AtomicBool>,
     /// Where servers of scripts listen.
     pub listen_address: IpAddr,
+    /// Origins of web pages that may use the remote API, besides those of this machine; `*` for all.
+    pub web_origins: Vec<String>,
 }
 
 impl Default for Options {
@@ -67,6 +69,7 @@ impl Default for Options {
             exec_unsafe_ext: true,
             stop: Arc::default(),
             listen_address: Ipv4Addr::LOCALHOST.into(),
+            web_origins: Vec::new(),
         }
     }
 }

@@ -166,7 +166,9 @@ impl Sim {
         };
         match event {
             WsEvent::Open(connection) => drop(call(Occasion::Open, connection, &[])),
-            WsEvent::Fail(connection, _) => drop(call(Occasion::Fail, connection, &[])),
+            WsEvent::Fail(connection, _) | WsEvent::Refused(connection, _) => {
+                drop(call(Occasion::Fail, connection, &[]))
+            }
             WsEvent::Close(connection) => drop(call(Occasion::Close, connection, &[])),
             WsEvent::Message(connection, data) => drop(call(Occasion::Message, connection, &[Data::Buffer(data)])),
             WsEvent::Http { connection, resource, body, asker } => {
@@ -178,10 +180,16 @@ impl Sim {
 
     /// The access log, for those who ask for it.
     fn log_web_socket(&self, endpoint: &Endpoint, event: &WsEvent) {
+        if let WsEvent::Refused(_, origin) = event {
+            let text =
+                format!("{}: a page of {origin} was refused; --allow-origin {origin} lets it in", endpoint.handle());
+            self.log(verbosity::SCRIPT_WARNINGS | verbosity::ONCE, &text);
+        }
         let verbose = self.app.borrow().named_params.get("simWS.verbose").is_some_and(|value| value != b"0");
         let text = match event {
             _ if !verbose => return,
             WsEvent::Open(connection) => format!("{connection:x} is open"),
+            WsEvent::Refused(..) => return,
             WsEvent::Fail(connection, reason) => format!("{connection:x} has failed: {reason}"),
             WsEvent::Close(connection) => format!("{connection:x} is closed"),
             WsEvent::Message(..) => return,

@@ -9,6 +9,7 @@ import urllib.error
 import urllib.request
 
 import cbor2
+from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from compare import near, same
@@ -128,6 +129,17 @@ def stepping(client, other):
     eventually(lambda: client.call("sim.getSimulationState"), [0])
 
 
+def strangers(port):
+    """Pages from elsewhere are refused; those of this machine, and what is no page, are not."""
+    for origin in ("http://example.org", "null"):
+        try:
+            connect(f"ws://127.0.0.1:{port}/", origin=origin)
+            same(f"a page of {origin}", "let in", "refused")
+        except InvalidStatus as error:
+            same(f"a page of {origin}", error.response.status_code, 403)
+    connect(f"ws://127.0.0.1:{port}/", origin="http://localhost:8000").close()
+
+
 def two_clients(a, b):
     for name, client in (("a", a), ("b", b)):
         client.socket.send(json.dumps({"func": "tostring", "args": [name], "id": 1}))
@@ -207,6 +219,7 @@ def main():
         namespaces(a)
         stepping(a, b)
         two_clients(a, b)
+        strangers(port)
         departures(port, b)
         garbage(a)
         oversized(port, b)

@@ -6,6 +6,7 @@
 mod client;
 mod connection;
 mod http;
+mod pages;
 mod server;
 
 use std::cell::RefCell;
@@ -24,6 +25,7 @@ pub(crate) use client::Request as WsRequest;
 pub(crate) use connection::{Outgoing, SendError};
 use http::Asker;
 pub(crate) use http::Reply as HttpReply;
+pub(crate) use pages::Pages as WsPages;
 
 /// The largest message and the largest body of an HTTP request, bytes.
 const LARGEST_MESSAGE: usize = 32_000_000;
@@ -58,6 +60,8 @@ pub(crate) enum WsEvent {
     Open(Connection),
     /// There will be no connection, and why.
     Fail(Connection, String),
+    /// The same for a page of this origin, which is not welcome.
+    Refused(Connection, String),
     Close(Connection),
     Message(Connection, Vec<u8>),
     /// A plain HTTP request, to be answered; without an answer its connection just ends.
@@ -117,15 +121,20 @@ pub(crate) struct WsEndpoint {
 }
 
 impl WsEndpoint {
-    /// Serves those who connect to `listener`.
+    /// Serves those who connect to `listener`, of web pages only `pages`.
     ///
     /// # Errors
     /// When the listener cannot be used.
-    pub(crate) fn listen(event_loop: Rc<EventLoop>, listener: TcpListener, numbers: Numbers) -> std::io::Result<Self> {
+    pub(crate) fn listen(
+        event_loop: Rc<EventLoop>,
+        listener: TcpListener,
+        pages: WsPages,
+        numbers: Numbers,
+    ) -> std::io::Result<Self> {
         listener.set_nonblocking(true)?;
         let port = listener.local_addr()?.port();
         let listener = event_loop.block_on(async { tokio::net::TcpListener::from_std(listener) })?;
-        let mut server = Self::new(event_loop, numbers, |reports| server::accept_all(listener, reports));
+        let mut server = Self::new(event_loop, numbers, |reports| server::accept_all(listener, pages, reports));
         server.port = Some(port);
         Ok(server)
     }

@@ -11,10 +11,11 @@ use tokio::time::{sleep, timeout};
 use tokio_tungstenite::WebSocketStream;
 use tokio_tungstenite::tungstenite::handshake::server::{create_response, write_response};
 use tokio_tungstenite::tungstenite::http::StatusCode;
-use tokio_tungstenite::tungstenite::http::header::{EXPECT, HeaderValue, SEC_WEBSOCKET_PROTOCOL};
+use tokio_tungstenite::tungstenite::http::header::{EXPECT, HeaderValue, ORIGIN, SEC_WEBSOCKET_PROTOCOL};
 use tokio_tungstenite::tungstenite::protocol::Role;
 
 use super::http::{Asker, Head, Reply, response};
+use super::pages::Pages;
 use super::{Connection, HANDSHAKE, READ_BUFFER, Reports, WsEvent, config, connection};
 
 /// Connections of one server; more wait until one ends.
@@ -25,7 +26,8 @@ const REST: Duration = Duration::from_millis(100);
 const READING: Duration = Duration::from_secs(60);
 
 /// Serves everyone who connects.
-pub(super) async fn accept_all(listener: TcpListener, reports: Reports) {
+pub(super) async fn accept_all(listener: TcpListener, pages: Pages, reports: Reports) {
+    let pages = Arc::new(pages);
     let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
     let mut tasks = JoinSet::new();
     while let Ok(place) = places.clone().acquire_owned().await {
@@ -34,20 +36,25 @@ pub(super) async fn accept_all(listener: TcpListener, reports: Reports) {
             sleep(REST).await;
             continue;
         };
-        let reports = reports.clone();
+        let (reports, pages) = (reports.clone(), pages.clone());
         tasks.spawn(async move {
-            serve(stream, &reports).await;
+            serve(stream, &pages, &reports).await;
             drop(place);
         });
     }
 }
 
-async fn serve(mut stream: TcpStream, reports: &Reports) {
+async fn serve(mut stream: TcpStream, pages: &Pages, reports: &Reports) {
     let connection = reports.numbers.next();
     // Small messages go at once; without that they go all the same.
     let _ = stream.set_nodelay(true);
     let mut received = Vec::new();
     let refused = match timeout(HANDSHAKE, read_head(&mut stream, &mut received)).await {
+        Ok(Ok(head)) if head.is_upgrade() && !pages.admit(head.header(ORIGIN)) => {
+            let origin = head.header(ORIGIN).unwrap_or_default().to_owned();
+            reports.tell(WsEvent::Refused(connection, origin)).await;
+            return respond(&mut stream, &Reply::status(StatusCode::FORBIDDEN.as_u16()), "", true).await;
+        }
         Ok(Ok(head)) if head.is_upgrade() => match upgrade(&mut stream, &head).await {
             Ok(()) => {
                 let socket = WebSocketStream::from_partially_read(stream, received, Role::Server, Some(config())).await;

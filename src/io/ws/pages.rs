@@ -1,0 +1,68 @@
+//! Which web pages may connect to a server. A browser lets any page connect to this machine, and says where the page comes from.
+
+use std::net::IpAddr;
+
+/// The pages a server admits, by their origin.
+#[derive(Debug, Clone)]
+pub(crate) enum Pages {
+    All,
+    /// Those of this machine, and these.
+    Own(Vec<String>),
+}
+
+impl Pages {
+    /// Whether a connection is welcome; only browsers name an origin.
+    pub(super) fn admit(&self, origin: Option<&str>) -> bool {
+        match (self, origin) {
+            (Self::All, _) | (_, None) => true,
+            (Self::Own(others), Some(origin)) => {
+                is_local(origin) || others.iter().any(|other| other == origin || other == "*")
+            }
+        }
+    }
+}
+
+/// A file, or a page of a server on this machine. What says `null` may be a frame of any page.
+fn is_local(origin: &str) -> bool {
+    if origin == "file://" {
+        return true;
+    }
+    let Some((_, authority)) = origin.split_once("://") else { return false };
+    let host = match authority.strip_prefix('[') {
+        Some(rest) => rest.split(']').next(),
+        None => authority.split(':').next(),
+    };
+    host.is_some_and(|host| host == "localhost" || host.parse::<IpAddr>().is_ok_and(|address| address.is_loopback()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pages_of_this_machine_are_welcome() {
+        let own = Pages::Own(vec!["https://lab.example".to_owned()]);
+        for origin in ["file://", "http://localhost:8000", "http://127.0.0.1", "https://[::1]:1", "https://lab.example"]
+        {
+            assert!(own.admit(Some(origin)), "{origin}");
+        }
+        assert!(own.admit(None));
+    }
+
+    #[test]
+    fn other_pages_are_not() {
+        let own = Pages::Own(Vec::new());
+        let others = [
+            "null",
+            "",
+            "http://",
+            "http://example.org",
+            "http://localhost.example.org",
+            "http://127.0.0.1.example.org",
+        ];
+        for origin in others {
+            assert!(!own.admit(Some(origin)), "{origin}");
+            assert!(Pages::All.admit(Some(origin)) && Pages::Own(vec!["*".to_owned()]).admit(Some(origin)), "{origin}");
+        }
+    }
+}
