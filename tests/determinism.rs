@@ -12,8 +12,8 @@ use swanilda::{Console, LogLine, Options, ScriptKind, Simulator};
 /// Steps after which a scene that does not end by itself is stopped.
 const LONGEST: u64 = 400;
 
-/// Scenes that listen at a port; how they go is a matter of who connects.
-const OUTSIDE: &str = "ws_";
+/// Scenes that speak with the world outside; how they go is a matter of who is there.
+const OUTSIDE: [&str; 4] = ["ws_", "zmq_", "serial_", "fetch_"];
 
 fn scenes() -> Vec<PathBuf> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
@@ -21,7 +21,8 @@ fn scenes() -> Vec<PathBuf> {
     let entries = folders.iter().flat_map(|folder| fs::read_dir(folder).expect("scenes/ is readable").flatten());
     let files = entries.map(|entry| entry.path());
     let mut scenes: Vec<_> = files.filter(|path| path.extension().is_some_and(|e| e == "lua")).collect();
-    scenes.retain(|path| !path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(OUTSIDE)));
+    let is_outside = |name: &str| OUTSIDE.iter().any(|start| name.starts_with(start));
+    scenes.retain(|path| !path.file_name().is_some_and(|name| is_outside(&name.to_string_lossy())));
     scenes.sort();
     scenes
 }

@@ -1,7 +1,11 @@
 """The pages of the examples in a headless Chromium."""
 
+import contextlib
+import functools
+import http.server
 import pathlib
 import sys
+import threading
 
 from browser import Browser, program
 from compare import same
@@ -11,10 +15,25 @@ ROOT = pathlib.Path(__file__).parents[2]
 TEXT = "document.getElementById('{}').textContent"
 
 
+class Files(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        """Says nothing: what a file here prints is an error."""
+
+
+@contextlib.contextmanager
+def served(folder):
+    """The address at which the files of a folder are served."""
+    handler = functools.partial(Files, directory=folder)
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{server.server_port}"
+        server.shutdown()
+
+
 def remote_page(browser):
     """remote.html: objects, start and stop, a pose read and set."""
-    with Simulator("--no-remote-api", "--ws-remote-api=0") as sim:
-        browser.open(f"file://{ROOT}/examples/web/remote.html?port={sim.port('WebSocket')}")
+    with Simulator("--no-remote-api", "--ws-remote-api=0") as sim, served(ROOT / "examples/web") as address:
+        browser.open(f"{address}/remote.html?port={sim.port('WebSocket')}")
         options = "[...document.getElementById('objects').options].map(option => option.text).join()"
         names = browser.shows(options, "the list of objects")
         same("the list", "/Floor (" in names, True)

@@ -168,7 +168,7 @@ mod tests {
         assert_eq!(read(&mut reader, &mut parts, Pattern::Line), (b"abcd".to_vec(), Ok(())));
         assert_eq!(read(&mut reader, &mut parts, Pattern::Line), (Vec::new(), Ok(())));
         assert_eq!(read(&mut reader, &mut parts, Pattern::Line), (b"rest".to_vec(), Err(Failure::Closed)));
-        assert_eq!(reader.received, 13);
+        assert_eq!(reader.received, 12);
     }
 
     #[test]

@@ -22,11 +22,8 @@ impl Pages {
     }
 }
 
-/// A file, or a page of a server on this machine. What says `null` may be a frame of any page.
+/// A page of a server on this machine. `null` is a page opened from the disk, but also a frame of any page.
 fn is_local(origin: &str) -> bool {
-    if origin == "file://" {
-        return true;
-    }
     let Some((_, authority)) = origin.split_once("://") else { return false };
     let host = match authority.strip_prefix('[') {
         Some(rest) => rest.split(']').next(),
@@ -42,8 +39,7 @@ mod tests {
     #[test]
     fn pages_of_this_machine_are_welcome() {
         let own = Pages::Own(vec!["https://lab.example".to_owned()]);
-        for origin in ["file://", "http://localhost:8000", "http://127.0.0.1", "https://[::1]:1", "https://lab.example"]
-        {
+        for origin in ["http://localhost:8000", "http://127.0.0.1", "https://[::1]:1", "https://lab.example"] {
             assert!(own.admit(Some(origin)), "{origin}");
         }
         assert!(own.admit(None));
@@ -55,6 +51,7 @@ mod tests {
         let others = [
             "null",
             "",
+            "file://",
             "http://",
             "http://example.org",
             "http://localhost.example.org",
