@@ -25,6 +25,42 @@ for i = 0, 99 do
 end
 ";
 
+/// 1000 boxes that lie on the floor.
+const FLOOR: &str = "
+sim = require 'sim'
+for i = 0, 999 do
+    local box = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1})
+    sim.setObjectPosition(box, {i % 32 * 0.15 - 2.4, i // 32 * 0.15 - 2.4, 0.05})
+    sim.setObjectInt32Param(box, sim.shapeintparam_static, 0)
+    sim.setObjectInt32Param(box, sim.shapeintparam_respondable, 1)
+    sim.setShapeMass(box, 1)
+end
+";
+
+/// An arm of seven joints in position control, which a script moves.
+const ARM: &str = "
+sim = require 'sim'
+local joints, parent = {}, sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.2, 0.2, 0.1})
+for i = 1, 7 do
+    local joint = sim.createJoint(sim.joint_revolute, sim.jointmode_dynamic, 0)
+    sim.setObjectPosition(joint, {0, 0, 0.16 * i})
+    sim.setObjectOrientation(joint, i % 2 == 1 and {0, 0, 0} or {-math.pi / 2, 0, 0})
+    sim.setObjectParent(joint, parent, true)
+    sim.setIntProperty(joint, 'dynCtrlMode', sim.jointdynctrl_position)
+    sim.setJointTargetForce(joint, 200)
+    parent = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.06, 0.06, 0.14})
+    sim.setObjectPosition(parent, {0, 0, 0.16 * i + 0.08})
+    sim.setShapeMass(parent, 2.5 - 0.3 * i)
+    sim.setObjectParent(parent, joint, true)
+    sim.setBoolProperty(parent, 'dynamic', true)
+    joints[i] = joint
+end
+function sysCall_actuation()
+    local t = sim.getSimulationTime()
+    for i = 1, 7 do sim.setJointTargetPosition(joints[i], 0.6 * math.sin(1.5 * t + i)) end
+end
+";
+
 /// 1000 objects that move in every step, and nobody, one or one choosy listener.
 const MOVING: &str = "
 sim = require 'sim'
@@ -73,6 +109,17 @@ fn pile(criterion: &mut Criterion) {
     group.finish();
 }
 
+fn bodies(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("bodies");
+    group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
+    for (name, scene) in [("1000 boxes on the floor", FLOOR), ("arm of seven joints", ARM)] {
+        let mut sim = running(ScriptKind::Customization, scene);
+        sim.step(20);
+        group.bench_function(name, |bencher| bencher.iter(|| sim.pass()));
+    }
+    group.finish();
+}
+
 fn events(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("1000 moving objects");
     group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
@@ -83,5 +130,5 @@ fn events(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, child_scripts, pile, events);
+criterion_group!(benches, child_scripts, pile, bodies, events);
 criterion_main!(benches);
