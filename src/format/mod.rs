@@ -1,3 +1,5 @@
 //! Files of other programs.
 
 pub(crate) mod picture;
+
+pub mod ttt;

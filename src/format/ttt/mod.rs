@@ -1,0 +1,96 @@
+//! Scenes and models of CoppeliaSim and V-REP: `.ttt` and `.ttm`.
+//!
+//! [`container`] is the header and the compression, [`chunks`] the streams of chunks as types, [`tree`] what a file holds. Nothing
+//! here knows what a scene is; that is `crate::format::scene_file`.
+
+pub mod chunks;
+pub mod container;
+mod error;
+mod huffman;
+mod read;
+mod stream;
+pub mod tree;
+mod value;
+mod write;
+
+use std::cell::RefCell;
+
+pub use container::{FileKind, Header, is_binary};
+pub use error::{FileError, FileResult};
+pub use read::Skipped;
+pub use value::{Counted, EngineBlock, Heights, Indices, Normals, OriginalReference, PositionFirst, Rest, RotationFirst, ScriptText, Text, decode, unit_quaternion};
+
+use read::{Reader, Real};
+use stream::Stream;
+use tree::Contents;
+use value::Value;
+use write::Writer;
+
+/// A scene or model as it stands in a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct File {
+    pub header: Header,
+    pub contents: Contents,
+    /// The chunks nobody knows; they are not written again.
+    pub skipped: Vec<Skipped>,
+}
+
+impl File {
+    /// # Errors
+    ///
+    /// What is wrong with the bytes, with the offset in the uncompressed body and the path of chunks. Memory stays in
+    /// proportion to the size of the file, whatever its numbers announce.
+    pub fn read(bytes: &[u8]) -> FileResult<Self> {
+        let (header, body) = container::unpack(bytes)?;
+        let skipped = RefCell::default();
+        let contents = contents(&mut Reader::new(&body, &skipped))?;
+        Ok(Self { header, contents, skipped: skipped.into_inner() })
+    }
+
+    /// The bytes of a file of serialization 25, compressed.
+    pub fn write(&self) -> Vec<u8> {
+        let mut body = Writer::default();
+        self.contents.write_stream(&mut body);
+        container::pack(&self.header, &body.bytes)
+    }
+}
+
+fn contents(body: &mut Reader<'_>) -> FileResult<Contents> {
+    let mut contents = Contents::default();
+    while let Some(mut chunk) = body.chunk(Contents::END)? {
+        if contents.take(&mut chunk)? {
+            chunk.finish()?;
+        } else if chunk.is_object() {
+            contents.objects.push(Value::read(&mut chunk, Real::Double)?);
+        } else {
+            chunk.skip();
+        }
+    }
+    Ok(contents)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[ignore]
+    fn scan() {
+        for path in std::fs::read_dir("/work/shared/scenes/files").unwrap() {
+            let path = path.unwrap().path();
+            let bytes = std::fs::read(&path).unwrap();
+            let t = std::time::Instant::now();
+            match File::read(&bytes) {
+                Ok(f) => {
+                    let d = t.elapsed();
+                    let again = File { header: Header::current(FileKind::Scene), ..f.clone() };
+                    let back = File::read(&again.write()).unwrap();
+                    let (a, b) = (format!("{:#?}", f.contents), format!("{:#?}", back.contents));
+                    for (l, m) in a.lines().zip(b.lines()).filter(|(l, m)| l != m).take(3) { println!("    {l} | {m}"); }
+                    println!("{:?} {} {} {} {:?} {:?} {}", path.file_name().unwrap(), bytes.len(), f.header.version_text(), f.contents.objects.len(), d, f.skipped, f.contents == back.contents);
+                }
+                Err(e) => println!("{path:?} {e}"),
+            }
+        }
+    }
+}
