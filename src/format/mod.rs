@@ -2,4 +2,5 @@
 
 pub(crate) mod picture;
 
+pub(crate) mod scene_file;
 pub mod ttt;

@@ -108,7 +108,7 @@ impl Scene {
 }
 
 /// A value nobody set is the default.
-fn value_in(values: &Kept, param: &EngineParam) -> Data {
+pub(super) fn value_in(values: &Kept, param: &EngineParam) -> Data {
     values.get(param.name).unwrap_or(&param.default).clone()
 }
 
@@ -124,7 +124,7 @@ fn set_in(object: &mut Object, param: &EngineParam, value: Data) -> SceneResult<
     Ok(())
 }
 
-fn element(value: &Data, at: usize) -> Option<f64> {
+pub(super) fn element(value: &Data, at: usize) -> Option<f64> {
     match value {
         Data::Bool(on) => Some(f64::from(u8::from(*on))),
         Data::Array(items) => items.get(at)?.as_f64(),
@@ -132,7 +132,7 @@ fn element(value: &Data, at: usize) -> Option<f64> {
     }
 }
 
-fn with_element(whole: Data, at: usize, value: f64) -> Data {
+pub(super) fn with_element(whole: Data, at: usize, value: f64) -> Data {
     match whole {
         Data::Bool(_) => Data::Bool(value != 0.0),
         Data::Int(_) => Data::Int(value as i64),
@@ -176,7 +176,7 @@ impl Material {
         engine_params(EngineOwner::Material).find(|param| param.name == name).map(|param| self.engine_value(param))
     }
 
-    fn engine_value(&self, param: &EngineParam) -> Data {
+    pub(super) fn engine_value(&self, param: &EngineParam) -> Data {
         match param.name {
             "bullet.restitution" => self.restitution.into(),
             "bullet.frictionOld" => self.friction.into(),
@@ -186,7 +186,7 @@ impl Material {
         }
     }
 
-    fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
+    pub(super) fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
         match (self.field(param.name), value.as_f64()) {
             (Some(field), Some(number)) => *field = number,
             _ => {
@@ -197,11 +197,11 @@ impl Material {
 }
 
 impl Joint {
-    fn engine_value(&self, param: &EngineParam) -> Data {
+    pub(super) fn engine_value(&self, param: &EngineParam) -> Data {
         engine_of_gains(param).map_or_else(|| value_in(&self.engine_values, param), |engine| self.gains[engine].into())
     }
 
-    fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
+    pub(super) fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
         match engine_of_gains(param) {
             Some(engine) => self.gains[engine] = [0, 1, 2].map(|at| element(&value, at).unwrap_or_default()),
             None => {

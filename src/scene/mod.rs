@@ -13,6 +13,7 @@ mod default_scene;
 mod display_params;
 pub mod dummy;
 pub mod dynamics_report;
+pub mod engine_blocks;
 pub mod engine_params;
 mod engine_values;
 pub mod error;

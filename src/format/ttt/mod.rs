@@ -18,7 +18,10 @@ use std::cell::RefCell;
 pub use container::{FileKind, Header, is_binary};
 pub use error::{FileError, FileResult};
 pub use read::Skipped;
-pub use value::{Counted, EngineBlock, Heights, Indices, Normals, OriginalReference, PositionFirst, Rest, RotationFirst, ScriptText, Text, decode, unit_quaternion};
+pub use value::{
+    Counted, EngineBlock, Heights, Indices, Normals, OriginalReference, PositionFirst, Rest, RotationFirst, ScriptText,
+    Text, decode, unit_quaternion,
+};
 
 use read::{Reader, Real};
 use stream::Stream;
@@ -86,8 +89,19 @@ mod tests {
                     let again = File { header: Header::current(FileKind::Scene), ..f.clone() };
                     let back = File::read(&again.write()).unwrap();
                     let (a, b) = (format!("{:#?}", f.contents), format!("{:#?}", back.contents));
-                    for (l, m) in a.lines().zip(b.lines()).filter(|(l, m)| l != m).take(3) { println!("    {l} | {m}"); }
-                    println!("{:?} {} {} {} {:?} {:?} {}", path.file_name().unwrap(), bytes.len(), f.header.version_text(), f.contents.objects.len(), d, f.skipped, f.contents == back.contents);
+                    for (l, m) in a.lines().zip(b.lines()).filter(|(l, m)| l != m).take(3) {
+                        println!("    {l} | {m}");
+                    }
+                    println!(
+                        "{:?} {} {} {} {:?} {:?} {}",
+                        path.file_name().unwrap(),
+                        bytes.len(),
+                        f.header.version_text(),
+                        f.contents.objects.len(),
+                        d,
+                        f.skipped,
+                        f.contents == back.contents
+                    );
                 }
                 Err(e) => println!("{path:?} {e}"),
             }

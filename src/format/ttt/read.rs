@@ -69,9 +69,10 @@ impl<'a> Reader<'a> {
 
     /// The next bytes.
     pub fn take(&mut self, count: usize) -> FileResult<&'a [u8]> {
-        let (head, tail) = self.bytes.split_at_checked(count).ok_or_else(|| {
-            self.error(format!("{count} bytes are announced, {} are left", self.bytes.len()))
-        })?;
+        let (head, tail) = self
+            .bytes
+            .split_at_checked(count)
+            .ok_or_else(|| self.error(format!("{count} bytes are announced, {} are left", self.bytes.len())))?;
         self.bytes = tail;
         self.offset += count;
         Ok(head)

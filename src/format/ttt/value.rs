@@ -216,9 +216,11 @@ impl From<Pose> for PositionFirst {
 }
 
 fn pose(position: [f64; 3], rotation: [f64; 4]) -> Option<Pose> {
-    position.iter().chain(&rotation).all(|n| n.is_finite()).then(|| {
-        Pose::from_parts(position.into(), unit_quaternion(rotation))
-    })
+    position
+        .iter()
+        .chain(&rotation)
+        .all(|n| n.is_finite())
+        .then(|| Pose::from_parts(position.into(), unit_quaternion(rotation)))
 }
 
 /// The rotation w x y z, made one in length; none at all where the length is zero.
@@ -278,7 +280,9 @@ impl Value for Heights {
         let (columns, rows) = (input.count(0)?, input.count(0)?);
         let Rest(heights) = Rest::read(input, real)?;
         if columns.checked_mul(rows) != Some(heights.len()) {
-            return Err(input.error(format!("{columns} times {rows} heights are announced, {} are there", heights.len())));
+            return Err(
+                input.error(format!("{columns} times {rows} heights are announced, {} are there", heights.len()))
+            );
         }
         Ok(Self { columns, rows, heights })
     }

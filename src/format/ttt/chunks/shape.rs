@@ -2,7 +2,7 @@
 
 use super::Colour;
 use crate::format::ttt::stream::streams;
-use crate::format::ttt::tree::{MeshTree, Mesh};
+use crate::format::ttt::tree::{Mesh, MeshTree};
 use crate::format::ttt::value::{EngineBlock, Heights, Indices, Normals, PositionFirst, Rest, RotationFirst, Text};
 
 streams! {

@@ -1,0 +1,130 @@
+//! What all objects have.
+
+use super::{Context, custom_data};
+use crate::format::ttt::chunks::{Common, UserParams};
+use crate::format::ttt::tree::{Class, Object as FileObject};
+use crate::format::ttt::{Counted, Text};
+use crate::scene::{Data, Field, Handle, Movement, NOT_MODEL, Object, Scene, SceneResult, clean_alias};
+
+/// Written since 2.5 into every property; where it is missing, the object was hidden.
+const NOT_HIDDEN: i64 = 0x4;
+
+/// The alias, or what older files call the object up to the number of its copy.
+pub(super) fn alias(common: &Common) -> String {
+    let name = || common.name.as_ref().map(Text::decode).unwrap_or_default();
+    let alias = common.alias.as_ref().map_or_else(|| name().split('#').next().unwrap_or("").to_owned(), Text::decode);
+    clean_alias(alias.as_bytes())
+}
+
+pub(super) fn fill(scene: &mut Scene, context: &Context<'_>, handle: Handle, object: &FileObject) -> SceneResult<()> {
+    let common = &object.common;
+    if let Some(pose) = common.pose.and_then(|pose| pose.pose()) {
+        scene.set_local_pose(handle, pose)?;
+    }
+    if let Some(name) = &common.name {
+        scene.set_old_name(handle, &name.decode())?;
+    }
+    scene.modify(handle, Field::Other, |new| {
+        visibility(new, common);
+        model(new, common);
+        identity(new, common);
+        new.movement = movement(common);
+        new.size_factor = common.size_factor.filter(|f| f.is_finite() && *f > 0.0).unwrap_or(1.0);
+        new.special_property = common.special_property.map_or(new.special_property, i64::from);
+        new.hierarchy_colour = common.hierarchy_colour.unwrap_or(-1).into();
+        new.self_collision_indicator = common.self_collision_indicator.unwrap_or(0).into();
+        new.priority = common.script_exec_priority.map_or(1, i64::from).clamp(0, 2);
+        new.user_params = user_params(common.user_params.as_ref());
+        custom_data::fill(
+            &mut new.custom_data,
+            common.custom_data.as_ref(),
+            common.old_custom_data.as_ref(),
+            "_oldObjectCustomData_",
+        );
+        colour(new, context, &object.class);
+    })
+}
+
+fn visibility(new: &mut Object, common: &Common) {
+    new.layer = common.layer.map_or(new.layer, i64::from);
+    let Some(property) = common.object_property.map(i64::from) else { return };
+    new.object_property = property & !NOT_HIDDEN;
+    if property & NOT_HIDDEN == 0 && new.layer < 256 {
+        new.layer *= 256;
+    }
+}
+
+fn model(new: &mut Object, common: &Common) {
+    let switches = common.switches.or(common.switches_2).or(common.old_switches).unwrap_or(0);
+    let property = common.model_property.unwrap_or(0).into();
+    new.set_model_property(if switches & 1 == 0 { NOT_MODEL } else { property });
+    if let Some(text) = common.acknowledgment.as_ref().filter(|text| !text.0.is_empty()) {
+        new.kept.set("modelAcknowledgment", Data::Text(text.0.clone()));
+    }
+}
+
+fn identity(new: &mut Object, common: &Common) {
+    if let Some(id) = common.persistent_id.as_ref().filter(|id| !id.0.is_empty()) {
+        new.persistent_uid = id.decode();
+    }
+    if let Some(dna) = common.dna.as_ref().filter(|dna| !dna.0.is_empty()) {
+        new.dna = dna.0.clone();
+    }
+}
+
+fn movement(common: &Common) -> Movement {
+    let mut movement = Movement::default();
+    if let Some((axes, relativity, step)) = common.translation {
+        movement.preferred_axes = axes.into();
+        (movement.relativity[0], movement.step[0]) = (relativity.into(), step);
+    }
+    if let Some((relativity, step)) = common.rotation {
+        (movement.relativity[1], movement.step[1]) = (relativity.into(), step);
+    }
+    movement.options = forbidden(common);
+    movement
+}
+
+/// What a hand may not do to the object. Old files forbid moving and turning together.
+fn forbidden(common: &Common) -> i64 {
+    let bits = |switches: u8, bits: &[(u8, i64)]| {
+        bits.iter().filter(|(bit, _)| switches >> bit & 1 == 1).fold(0, |all, (_, flag)| all | flag)
+    };
+    let stopped = Movement::TRANSLATION_STOPPED;
+    let running = Movement::TRANSLATION_RUNNING;
+    let (turning_stopped, turning_running) = (Movement::ROTATION_STOPPED, Movement::ROTATION_RUNNING);
+    let moving = match (common.switches, common.switches_2.or(common.old_switches)) {
+        (Some(new), _) => bits(new, &[(1, running), (2, stopped), (4, turning_running), (5, turning_stopped)]),
+        (None, Some(old)) => bits(old, &[(1, running | turning_running), (2, stopped | turning_stopped)]),
+        (None, None) => 0,
+    };
+    moving | bits(common.locks.unwrap_or(0), &[(0, Movement::OTHER_TRANSLATIONS), (1, Movement::OTHER_ROTATIONS)])
+}
+
+/// Names and values; units and flags concern a dialog.
+pub(super) fn user_params(params: Option<&UserParams>) -> Vec<(String, String)> {
+    let Some(Counted(params)) = params.and_then(|params| params.params.as_ref()) else { return Vec::new() };
+    params.iter().map(|(name, _, value, _)| (name.decode(), value.decode())).collect()
+}
+
+fn colour(new: &mut Object, context: &Context<'_>, class: &Class) {
+    use super::sensors::colour;
+    let chunk = match class {
+        Class::Joint(joint) => &joint.colour,
+        Class::Dummy(dummy) => &dummy.colour,
+        Class::ForceSensor(sensor) => &sensor.colour,
+        Class::ProximitySensor(sensor) => &sensor.colour,
+        Class::VisionSensor(sensor) => &sensor.colour,
+        Class::Camera(camera) => &camera.colour,
+        Class::Light(light) => &light.colour,
+        Class::Graph(graph) => &graph.colour,
+        Class::OcTree(tree) => &tree.colour,
+        Class::PointCloud(cloud) => &cloud.colour,
+        Class::ScriptObject(script) => &script.colour,
+        _ => &None,
+    };
+    if let Some(chunk) = chunk {
+        let brighter = context.header.serialization < 17 && !matches!(class, Class::Light(_));
+        new.colour = colour(chunk, new.colour, brighter);
+    }
+}

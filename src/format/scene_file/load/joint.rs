@@ -1,0 +1,160 @@
+//! Joints, force sensors and dummies (sections 7.2 and 7.4 of the format).
+
+use std::f64::consts::{PI, TAU};
+
+use super::{Context, material};
+use crate::format::ttt::chunks::{Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk};
+use crate::format::ttt::{Text, unit_quaternion};
+use crate::scene::dummy::{Dummy, LinkType};
+use crate::scene::engine_blocks::EngineValues;
+use crate::scene::force_sensor::{Filter, ForceSensor};
+use crate::scene::joint::{Control, Joint, JointMode, JointType};
+
+/// The step of the physics that gains were multiplied by before 3.1.1.
+const OLD_STEP: f64 = 0.005;
+/// Since this serialization spring constants and gains per engine say it all.
+const MAX_FORCE: f64 = 1000.0;
+
+pub(super) fn joint(context: &Context<'_>, chunk: &Chunk) -> Joint {
+    let joint_type = match chunk.joint_type {
+        Some(11) => JointType::Prismatic,
+        Some(12) => JointType::Spherical,
+        _ => JointType::Revolute,
+    };
+    let mut joint = Joint::new(joint_type, mode(chunk));
+    limits(&mut joint, chunk);
+    position(&mut joint, chunk);
+    control(&mut joint, chunk);
+    gains(&mut joint, chunk);
+    if let Some([length, diameter]) = chunk.sizes.filter(|sizes| sizes.iter().all(|s| s.is_finite())) {
+        joint.size = [length, diameter];
+    }
+    material::load_all(&mut joint, [&chunk.bullet, &chunk.ode, &chunk.vortex, &chunk.newton, &chunk.mujoco]);
+    debug_assert!(context.header.serialization > 0);
+    joint
+}
+
+fn mode(chunk: &Chunk) -> JointMode {
+    let hybrid = chunk.switches.unwrap_or(0) & 0x40 != 0;
+    match chunk.joint_mode {
+        Some(3 | 4) => JointMode::Dependent,
+        Some(5) => JointMode::Dynamic,
+        // Joints of inverse kinematics that physics moved as well.
+        Some(1 | 2) if hybrid => JointMode::Dynamic,
+        _ => JointMode::Kinematic,
+    }
+}
+
+fn limits(joint: &mut Joint, chunk: &Chunk) {
+    joint.cyclic = chunk.switches.unwrap_or(0) & 0x1 != 0;
+    if let Some([min, range]) = chunk.limits.filter(|limits| limits.iter().all(|l| l.is_finite())) {
+        (joint.min, joint.range) = (min, range);
+    }
+    joint.enforce_limits = chunk.switches_2.unwrap_or(0) & 0x4 != 0;
+    let fast = [TAU; 3];
+    [joint.max_vel, joint.max_accel, joint.max_jerk] = chunk.max_vel_accel_jerk.unwrap_or(fast);
+    // Up to 4.3 joints that physics moved had a velocity limit of their own.
+    if let Some(limit) = chunk.upper_velocity_limit.filter(|limit| joint.mode == JointMode::Dynamic && *limit > 0.0) {
+        joint.max_vel = limit.into();
+    }
+}
+
+fn position(joint: &mut Joint, chunk: &Chunk) {
+    joint.position = chunk.position.filter(|p| p.is_finite()).unwrap_or(0.0);
+    if let Some(rotation) = chunk.spherical {
+        joint.spherical = unit_quaternion(rotation);
+    }
+    let lead = chunk.screw_lead.or(chunk.screw_pitch.map(|pitch| pitch * TAU)).unwrap_or(0.0);
+    joint.screw_lead = if joint.is_revolute() && lead.is_finite() { lead } else { 0.0 };
+    joint.target_position = chunk.target_pos.filter(|p| p.is_finite()).unwrap_or(0.0);
+}
+
+fn control(joint: &mut Joint, chunk: &Chunk) {
+    let [velocity, force] = chunk.motor.unwrap_or([0.0, MAX_FORCE]);
+    joint.target_velocity = velocity;
+    // Velocity and force push the same way.
+    joint.target_force = if velocity * force < 0.0 { -force } else { force };
+    joint.control = chunk.dyn_ctrl_mode.map_or_else(|| old_control(chunk), control_of);
+    joint.motor_lock = chunk.switches_2.unwrap_or(0) & 0x2 != 0;
+    let smooth = chunk.switches_3.is_some_and(|switches| switches & 1 != 0);
+    joint.position_profile = smooth || chunk.pos_ctrl_profile.unwrap_or(0) != 0;
+    joint.velocity_profile = smooth || chunk.vel_ctrl_profile.unwrap_or(0) != 0;
+}
+
+fn control_of(mode: i32) -> Control {
+    match mode {
+        1 => Control::Force,
+        4 => Control::Velocity,
+        8 | 9 => Control::Position,
+        12 | 13 => Control::Spring,
+        16 => Control::Callback,
+        _ => Control::Free,
+    }
+}
+
+/// Before 4.3: a motor, a control loop, a spring; what comes later counts.
+fn old_control(chunk: &Chunk) -> Control {
+    let on = |bit: u8| chunk.switches.unwrap_or(0) >> bit & 1 == 1;
+    match (on(4), on(5), on(7)) {
+        (_, _, true) => Control::Spring,
+        (_, true, _) => Control::Position,
+        (true, ..) => Control::Velocity,
+        _ => Control::Free,
+    }
+}
+
+/// Spring constants and gains; before 4.4 one set of gains for all engines, before 3.1.1 in other units.
+fn gains(joint: &mut Joint, chunk: &Chunk) {
+    let old = chunk.old_pid.map(|pid| pid.map(f64::from));
+    let oldest = chunk.oldest_pid.map(|[p, i, d]| [p.into(), f64::from(i) / OLD_STEP, f64::from(d) / OLD_STEP]);
+    let pid = old.or(oldest);
+    if let Some(pid) = pid {
+        joint.gains = [pid; 5];
+    }
+    match chunk.spring {
+        Some(spring) => joint.spring = spring,
+        None if chunk.switches.unwrap_or(0) & 0xb0 == 0xb0 => spring_of_gains(joint, pid.unwrap_or([0.1, 0.0, 0.0])),
+        None => {}
+    }
+}
+
+/// A spring was once a control loop whose gains were shares of the greatest force.
+fn spring_of_gains(joint: &mut Joint, [p, i, d]: [f64; 3]) {
+    joint.spring = [joint.target_force * p, joint.target_force * d];
+    let unit = if joint.is_revolute() { PI * 2.0 } else { 1.0 };
+    let ratio = p.abs().max(d.abs()) * unit;
+    if ratio > 1.0 {
+        joint.gains = [[p / ratio, i / ratio, d / ratio]; 5];
+        joint.target_force *= ratio;
+    }
+}
+
+pub(super) fn force_sensor(chunk: &ForceSensorChunk) -> ForceSensor {
+    let mut sensor = ForceSensor::default();
+    sensor.size = chunk.size.unwrap_or(sensor.size);
+    let old = chunk.old_thresholds.map(|(thresholds, violations)| (thresholds.map(f64::from), violations));
+    if let Some(([force, torque], violations)) = chunk.thresholds.or(old) {
+        (sensor.force_threshold, sensor.torque_threshold) = (force, torque);
+        sensor.consecutive_violations = violations.max(1) as u32;
+    }
+    let switches = chunk.switches.unwrap_or(0);
+    (sensor.force_threshold_enabled, sensor.torque_threshold_enabled) = (switches & 1 != 0, switches & 2 != 0);
+    if let Some([samples, filter]) = chunk.filter {
+        sensor.sample_size = usize::try_from(samples).unwrap_or(1).clamp(1, ForceSensor::MAX_SAMPLES);
+        sensor.filter = if filter == 1 { Filter::Median } else { Filter::Average };
+    }
+    sensor
+}
+
+/// Without its partner, which may come later.
+pub(super) fn dummy(chunk: &DummyChunk) -> Dummy {
+    let mut dummy = Dummy::new(chunk.size.unwrap_or(0.01));
+    dummy.link_type = chunk.link_type.and_then(|code| LinkType::from_code(code.into())).unwrap_or(LinkType::Default);
+    if let Some(tag) = chunk.assembly_tag.as_ref().map(Text::decode) {
+        dummy.assembly_tag = tag;
+    }
+    if let Some(mujoco) = &chunk.mujoco {
+        dummy.load_engine(4, &mujoco.reals, &mujoco.ints);
+    }
+    dummy
+}

@@ -1,0 +1,123 @@
+//! Out of a file into the scene: objects with new handles, then who belongs to whom (section 10 of the format).
+
+mod common;
+mod custom_data;
+mod joint;
+mod material;
+mod mesh;
+mod references;
+mod script;
+mod sensors;
+mod settings;
+mod shape;
+
+use std::collections::BTreeMap;
+
+use super::{LoadError, Loaded, LoadedScript};
+use crate::format::ttt::tree::{Class, Object as FileObject};
+use crate::format::ttt::{File, FileError, Header};
+use crate::scene::dummy::{Dummy, LinkType};
+use crate::scene::{Handle, Kind, Scene, SceneResult};
+use mesh::Meshes;
+
+/// What is needed to understand a chunk beyond the chunk.
+struct Context<'a> {
+    header: &'a Header,
+    file: &'a File,
+    meshes: Meshes<'a>,
+}
+
+/// From handles of the file to those of the scene. What is missing has gone.
+type HandleMap = BTreeMap<i32, Handle>;
+
+/// Adds the objects of a file to the scene. With `settings`, those of the scene become those of the file.
+///
+/// # Errors
+/// When the scene is full, or geometry is damaged: then nothing was added.
+pub(crate) fn load(scene: &mut Scene, file: &File, settings: bool) -> Result<Loaded, LoadError> {
+    let mut context = Context { header: &file.header, file, meshes: Meshes::new(file) };
+    let kinds: Vec<Kind> = file.contents.objects.iter().map(|o| kind_of(&mut context, o)).collect::<Result<_, _>>()?;
+    let objects = file.contents.objects.iter().zip(kinds).map(|(object, kind)| add(scene, &context, object, kind));
+    let objects = objects.collect::<SceneResult<Vec<Handle>>>()?;
+    let map: HandleMap =
+        file.contents.objects.iter().zip(&objects).filter_map(|(o, h)| Some((o.common.handles?[0], *h))).collect();
+    let root = place(scene, file, &objects, &map)?;
+    references::connect(scene, file, &objects, &map)?;
+    if settings {
+        settings::apply(scene, file)?;
+    }
+    let scripts: Vec<LoadedScript> =
+        file.contents.scripts.iter().filter_map(|script| script::attached(script, &context, &map)).collect();
+    Ok(Loaded { objects, root, scripts })
+}
+
+fn add(scene: &mut Scene, context: &Context<'_>, object: &FileObject, kind: Kind) -> SceneResult<Handle> {
+    let handle = scene.add(&common::alias(&object.common), kind)?;
+    common::fill(scene, context, handle, object)?;
+    Ok(handle)
+}
+
+/// The object's type with its data. Types that are gone, or not yet known, become dummies, so that the tree stays whole.
+fn kind_of(context: &mut Context<'_>, object: &FileObject) -> Result<Kind, LoadError> {
+    Ok(match &object.class {
+        Class::Shape(shape) => {
+            let shape = shape::shape(context, shape).map_err(|what| damaged(object, what))?;
+            Kind::Shape(Box::new(shape))
+        }
+        Class::Joint(joint) => Kind::Joint(Box::new(joint::joint(context, joint))),
+        Class::ForceSensor(sensor) => Kind::ForceSensor(Box::new(joint::force_sensor(sensor))),
+        Class::Dummy(dummy) => Kind::Dummy(joint::dummy(dummy)),
+        Class::ProximitySensor(sensor) => Kind::ProximitySensor(Box::new(sensors::proximity_sensor(context, sensor))),
+        Class::VisionSensor(sensor) => Kind::VisionSensor(Box::new(sensors::vision_sensor(sensor))),
+        Class::Camera(camera) => Kind::Camera(Box::new(sensors::camera(camera))),
+        Class::Light(light) => Kind::Light(Box::new(sensors::light(light))),
+        Class::Graph(graph) => Kind::Graph(Box::new(sensors::graph(graph))),
+        Class::OcTree(tree) => Kind::OcTree(Box::new(sensors::octree(tree))),
+        Class::PointCloud(cloud) => Kind::PointCloud(Box::new(sensors::point_cloud(cloud))),
+        Class::ScriptObject(script) => Kind::Script(Box::new(script::object(script, context))),
+        Class::Path(_)
+        | Class::Mirror(_)
+        | Class::Mill(_)
+        | Class::Marker(_)
+        | Class::CustomSceneObject(_)
+        | Class::Unknown(_) => {
+            let mut dummy = Dummy::new(0.01);
+            dummy.link_type = LinkType::Default;
+            Kind::Dummy(dummy)
+        }
+    })
+}
+
+fn damaged(object: &FileObject, what: String) -> LoadError {
+    let name = common::alias(&object.common);
+    let path = format!("{} ({name})", String::from_utf8_lossy(&object.class.tag()));
+    LoadError::File(FileError::Chunk { offset: object.offset, path, what })
+}
+
+/// Gives all their parents and their order; the last object without parent is the model.
+fn place(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) -> SceneResult<Option<Handle>> {
+    let mut order: Vec<usize> = (0..objects.len()).collect();
+    order.sort_by_key(|at| file.contents.objects[*at].common.child_order.unwrap_or(-1));
+    let parent_of =
+        |at: usize| file.contents.objects[at].common.handles.and_then(|[_, parent]| map.get(&parent).copied());
+    for at in order {
+        match parent_of(at) {
+            // A file that makes an object its own ancestor is wrong; the object stays at the top.
+            Some(parent) if !scene.is_ancestor_or_self(objects[at], parent) => {
+                scene.set_parent(objects[at], Some(parent), false)?;
+            }
+            _ => {}
+        }
+    }
+    sort_roots(scene, file, objects)?;
+    Ok((0..objects.len()).rev().find(|at| parent_of(*at).is_none()).map(|at| objects[at]))
+}
+
+/// The new objects at the top, behind the ones that were there, in the order of the file.
+fn sort_roots(scene: &mut Scene, file: &File, objects: &[Handle]) -> SceneResult<()> {
+    let orders: BTreeMap<Handle, i32> =
+        objects.iter().zip(&file.contents.objects).map(|(h, o)| (*h, o.common.child_order.unwrap_or(-1))).collect();
+    let mut new: Vec<Handle> = scene.roots().iter().copied().filter(|root| orders.contains_key(root)).collect();
+    new.sort_by_key(|root| orders[root]);
+    new.into_iter().try_for_each(|root| scene.set_hierarchy_order(root, -1))
+}

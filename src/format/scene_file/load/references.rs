@@ -1,0 +1,154 @@
+//! Who refers to whom, by handles of the file: links, masters, entities, targets, collections.
+
+use std::collections::BTreeMap;
+
+use super::HandleMap;
+use crate::format::ttt::chunks::{Collection as CollectionChunk, CollectionElement, Common, Joint as JointChunk};
+use crate::format::ttt::tree::{Class, Object as FileObject};
+use crate::format::ttt::{Counted, EngineBlock, File};
+use crate::scene::joint::{Dependency, JointMode};
+use crate::scene::{CollectionItem, Field, Handle, ReferenceLists, References, Scene, SceneResult, special};
+
+/// Larger numbers are handles of collections.
+const LAST_OBJECT: i32 = 999_999;
+
+pub(super) fn connect(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) -> SceneResult<()> {
+    let collections = collections(scene, &file.contents.collections, map)?;
+    let entity = |handle: i32| match handle {
+        0..=LAST_OBJECT => map.get(&handle).map_or(-1, |handle| handle.raw()),
+        _ => collections.get(&handle).copied().unwrap_or(-1),
+    };
+    for (object, handle) in file.contents.objects.iter().zip(objects) {
+        connect_one(scene, object, *handle, map)?;
+        watch(scene, object, *handle, entity)?;
+        for (tag, list) in lists(&object.common, map) {
+            scene.set_references(*handle, References::Following, &tag, &list)?;
+        }
+        for (tag, list) in original_lists(&object.common, file, objects) {
+            scene.set_references(*handle, References::Original, &tag, &list)?;
+        }
+    }
+    Ok(())
+}
+
+fn connect_one(scene: &mut Scene, object: &FileObject, handle: Handle, map: &HandleMap) -> SceneResult<()> {
+    match &object.class {
+        Class::Dummy(dummy) => {
+            if let Some(partner) = dummy.linked_dummy.and_then(|partner| map.get(&partner)) {
+                let link_type = scene.object(handle)?.dummy()?.link_type;
+                // What is no dummy cannot be a partner; the file is wrong, the dummy stays alone.
+                if scene.object(*partner)?.dummy().is_ok() {
+                    scene.link_dummies(handle, Some(*partner))?;
+                    scene.set_link_type(handle, link_type)?;
+                }
+            }
+        }
+        Class::Joint(joint) => {
+            let dependency = dependency(joint, map);
+            scene.try_modify(handle, Field::Joint, |object| {
+                let joint = object.joint_mut()?;
+                joint.dependency = dependency.filter(|d| d.master != handle);
+                if joint.dependency.is_some() && joint.mode == JointMode::Kinematic {
+                    joint.mode = JointMode::Dependent;
+                }
+                Ok(())
+            })?;
+        }
+        Class::Camera(camera) => {
+            if let Some(tracked) = camera.tracked_and_size.and_then(|(tracked, _)| map.get(&tracked)) {
+                scene.track(handle, tracked.raw())?;
+            }
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+/// The master of a joint; older files say it in the parameters of MuJoCo, Vortex or Newton.
+fn dependency(joint: &JointChunk, map: &HandleMap) -> Option<Dependency> {
+    if let Some((master, [coefficient, offset])) = joint.dependency
+        && let Some(master) = map.get(&master)
+    {
+        return Some(Dependency { master: *master, offset, coefficient });
+    }
+    let pair = |block: &Option<EngineBlock>, master: usize, coefficient: usize, offset: usize| {
+        let block = block.as_ref()?;
+        let real = |at: usize| block.reals.get(at).copied().unwrap_or(0.0);
+        let master = *map.get(block.ints.get(master)?)?;
+        Some(Dependency { master, offset: real(offset), coefficient: real(coefficient) })
+    };
+    // The polynomial of MuJoCo begins with the offset; Vortex and Newton have factor and offset.
+    pair(&joint.mujoco, 1, 23, 22).or_else(|| pair(&joint.vortex, 5, 49, 50)).or_else(|| pair(&joint.newton, 1, 0, 1))
+}
+
+/// What a sensor looks at.
+fn watch(scene: &mut Scene, object: &FileObject, handle: Handle, entity: impl Fn(i32) -> i64) -> SceneResult<()> {
+    let seen = match &object.class {
+        Class::ProximitySensor(sensor) => sensor.detectable,
+        Class::VisionSensor(sensor) => sensor.renderable,
+        _ => None,
+    };
+    let Some(seen) = seen.filter(|seen| *seen >= 0).map(entity) else { return Ok(()) };
+    scene.modify(handle, Field::Sensor, |object| {
+        if let Ok(sensor) = object.proximity_sensor_mut() {
+            sensor.entity = seen;
+        } else if let Ok(sensor) = object.vision_sensor_mut() {
+            sensor.entity = seen;
+        }
+    })
+}
+
+fn lists(common: &Common, map: &HandleMap) -> ReferenceLists {
+    let new = |handle: &i32| map.get(handle).map_or(-1, |handle| handle.raw());
+    let untagged = common
+        .references
+        .iter()
+        .map(|Counted(all)| (String::new(), all.iter().map(|[_, handle, _]| new(handle)).collect()));
+    let tagged =
+        common.tagged_references.iter().map(|(tag, Counted(all))| (tag.decode(), all.iter().map(new).collect()));
+    untagged.chain(tagged).filter(|(_, list): &(String, Vec<i64>)| !list.is_empty()).collect()
+}
+
+/// Originals are known by their persistent identity: what a model refers to may be in the scene already.
+fn original_lists(common: &Common, file: &File, objects: &[Handle]) -> ReferenceLists {
+    let by_id = |id: &[u8]| {
+        let same = |o: &FileObject| o.common.persistent_id.as_ref().is_some_and(|own| own.0 == id);
+        let at = file.contents.objects.iter().position(same);
+        at.map_or(-1, |at| objects[at].raw())
+    };
+    let untagged = common.original_references.iter().map(|Counted(all)| {
+        (String::new(), all.iter().map(|r| r.persistent_id.as_ref().map_or(-1, |id| by_id(&id.0))).collect())
+    });
+    let tagged = common.tagged_original_references.iter();
+    let tagged = tagged.map(|(tag, Counted(all))| (tag.decode(), all.iter().map(|(_, id)| by_id(&id.0)).collect()));
+    untagged.chain(tagged).filter(|(_, list): &(String, Vec<i64>)| !list.is_empty()).collect()
+}
+
+/// Collections that were kept with the scene, before 4.2; from their handles in the file to those of the scene.
+fn collections(scene: &mut Scene, chunks: &[CollectionChunk], map: &HandleMap) -> SceneResult<BTreeMap<i32, i64>> {
+    let mut made = BTreeMap::new();
+    for chunk in chunks {
+        let handle = scene.add_collection(chunk.flags.unwrap_or(0) & 1 != 0);
+        let items = chunk.elements.iter().filter_map(|element| item(element, map));
+        scene.collection_mut(handle)?.items = items.collect();
+        if let Some(old) = chunk.handle {
+            made.insert(old, handle);
+        }
+    }
+    Ok(made)
+}
+
+/// Objects one by one, from a base down, from a tip up, or everything; a base that is gone takes its element with it.
+fn item(element: &CollectionElement, map: &HandleMap) -> Option<CollectionItem> {
+    let (what, exclude_base) = match element.kind? {
+        0 => (special::SINGLE, false),
+        1 => (special::TREE, false),
+        2 => (special::TREE, true),
+        3 => (special::CHAIN, false),
+        4 => (special::CHAIN, true),
+        _ => (special::ALL, false),
+    };
+    let base = map.get(&element.handles?[0]).copied();
+    let subtract = element.flags.unwrap_or(1) & 1 == 0;
+    (base.is_some() || what == special::ALL).then_some(CollectionItem { what, base, subtract, exclude_base })
+}

@@ -1,0 +1,113 @@
+//! Scripts: their text, language and place (section 7.3 of the format).
+
+use super::{Context, HandleMap};
+use crate::format::scene_file::LoadedScript;
+use crate::format::ttt::chunks::{Script as Chunk, ScriptObject as ObjectChunk};
+use crate::format::ttt::{ScriptText, Text};
+use crate::scene::script_object::{ScriptObject, ScriptType};
+
+const DISABLED: u8 = 0x2;
+/// Where this bit is clear, the main script is the usual one, whatever text is stored.
+const OWN_MAIN_SCRIPT: u8 = 0x8;
+const PARENT_IS_PROXY: u8 = 0x4;
+
+/// A script in the tree.
+pub(super) fn object(chunk: &ObjectChunk, context: &Context<'_>) -> ScriptObject {
+    let none = Chunk::default();
+    let script = chunk.script.as_ref().unwrap_or(&none);
+    let script_type = type_of(script).unwrap_or(ScriptType::Passive);
+    let (code, language) = text(script, context);
+    let disabled = script.switches.unwrap_or(0) & DISABLED != 0;
+    let mut object = ScriptObject::new(script_type, code, &language, disabled);
+    object.size = chunk.size.unwrap_or(object.size);
+    object.reset_after_sim_error = chunk.switches.unwrap_or(0) & 1 != 0;
+    object.parent_is_proxy = script.switches_2.unwrap_or(0) & PARENT_IS_PROXY != 0;
+    object
+}
+
+/// A script outside of the tree. None for the usual main script, and for callback scripts, which later programs do not run either.
+pub(super) fn attached(chunk: &Chunk, context: &Context<'_>, map: &HandleMap) -> Option<LoadedScript> {
+    let script_type = type_of(chunk)?;
+    let switches = chunk.switches.unwrap_or(0);
+    let owner = match script_type {
+        ScriptType::Main if switches & OWN_MAIN_SCRIPT == 0 => return None,
+        ScriptType::Main => None,
+        _ => Some(*map.get(&owner(chunk))?),
+    };
+    let (code, language) = text(chunk, context);
+    Some(LoadedScript {
+        script_type,
+        owner,
+        code,
+        language,
+        disabled: switches & DISABLED != 0,
+        exec_order: chunk.exec_order.unwrap_or(0).into(),
+    })
+}
+
+fn type_of(chunk: &Chunk) -> Option<ScriptType> {
+    ScriptType::from_number(chunk.ids?[2].into())
+}
+
+/// Customization scripts of 3.2 to 3.6 name their object in a chunk of its own.
+fn owner(chunk: &Chunk) -> i32 {
+    let [_, owner, _] = chunk.ids.unwrap_or([-1; 3]);
+    if owner >= 0 { owner } else { chunk.cust_obj_handle.or(chunk.coi).unwrap_or(-1) }
+}
+
+fn text(chunk: &Chunk, _context: &Context<'_>) -> (Vec<u8>, String) {
+    let text = chunk.text.as_ref().map(|ScriptText(text)| text.as_slice()).unwrap_or_default();
+    let (text, marked) = without_language_mark(text);
+    let language = chunk.lang.as_ref().map(Text::decode).filter(|l| !l.is_empty());
+    (text, language.unwrap_or_else(|| marked.unwrap_or("lua").to_owned()))
+}
+
+/// The text without the comment that tells its language, such as `#python` or `--lua`, among the comments at its head.
+fn without_language_mark(text: &[u8]) -> (Vec<u8>, Option<&'static str>) {
+    let mut at = 0;
+    while at < text.len() {
+        let end = text[at..].iter().position(|byte| *byte == b'\n').map_or(text.len(), |length| at + length + 1);
+        let line = text[at..end].trim_ascii();
+        let comment = line.strip_prefix(b"--").or_else(|| line.strip_prefix(b"#"));
+        match comment.map(|comment| first_word(comment)) {
+            Some(word) if word == b"python" || word == b"lua" => {
+                let rest = skip_blank_lines(&text[end..]);
+                let language = if word == b"lua" { "lua" } else { "python" };
+                return ([&text[..at], rest].concat(), Some(language));
+            }
+            None if !line.is_empty() => break,
+            _ => at = end,
+        }
+    }
+    (text.to_vec(), None)
+}
+
+fn first_word(comment: &[u8]) -> &[u8] {
+    let comment = comment.trim_ascii_start();
+    let end = comment.iter().position(|byte| !byte.is_ascii_alphanumeric()).unwrap_or(comment.len());
+    &comment[..end]
+}
+
+fn skip_blank_lines(mut text: &[u8]) -> &[u8] {
+    while let Some(end) = text.iter().position(|byte| *byte == b'\n').filter(|end| text[..*end].trim_ascii().is_empty())
+    {
+        text = &text[end + 1..];
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mark_of_the_language_is_taken_out() {
+        let lua = |text: &str| (text.as_bytes().to_vec(), Some("lua"));
+        assert_eq!(without_language_mark(b"--lua\n\nsim = require 'sim'"), lua("sim = require 'sim'"));
+        assert_eq!(without_language_mark(b"-- a robot\n--lua\nx = 1"), lua("-- a robot\nx = 1"));
+        assert_eq!(without_language_mark(b"#python\nx = 1").1, Some("python"));
+        for unmarked in ["", "x = 1 --lua", "-- luanda\nx", "--[[lua]]", "\n\n"] {
+            assert_eq!(without_language_mark(unmarked.as_bytes()), (unmarked.as_bytes().to_vec(), None), "{unmarked}");
+        }
+    }
+}

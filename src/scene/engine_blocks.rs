@@ -1,0 +1,181 @@
+//! Engine parameters the way files keep them: per engine a row of real numbers and a row of integers, in the order of their numbers.
+//!
+//! What a row holds beyond the numbers known here is ignored; it has no counterpart.
+
+use super::engine_params::{EngineOwner, Numbered, numbered};
+use super::engine_values::{element, value_in, with_element};
+use super::joint::Joint;
+use super::shape::Material;
+use super::{Data, DynamicsSettings, Kept, dummy::Dummy, engine_params::EngineParam};
+
+/// The numbers of a row of parameters: the first one of the real ones and how many a file of 4.10 holds, then of the integers.
+#[derive(Debug, Clone, Copy)]
+struct Rows {
+    reals: (i64, usize),
+    ints: (i64, usize),
+}
+
+const fn rows(first_real: i64, reals: usize, first_int: i64, ints: usize) -> Rows {
+    Rows { reals: (first_real, reals), ints: (first_int, ints) }
+}
+
+/// In the order of [`super::engine_params::ENGINES`].
+const SCENE: [Rows; 5] = [
+    rows(1, 3, 1001, 3),
+    rows(9001, 4, 10_001, 3),
+    rows(18_001, 9, 19_001, 1),
+    rows(27_001, 2, 28_001, 2),
+    rows(37_001, 28, 38_001, 18),
+];
+const MATERIAL: [Rows; 5] = [
+    rows(6001, 7, 7001, 1),
+    rows(15_001, 5, 16_001, 1),
+    rows(24_001, 36, 25_001, 8),
+    rows(33_001, 5, 34_001, 1),
+    rows(43_001, 20, 44_001, 4),
+];
+const JOINT: [Rows; 5] = [
+    rows(3001, 8, 4001, 0),
+    rows(12_001, 8, 13_001, 0),
+    rows(21_001, 54, 22_001, 6),
+    rows(30_001, 5, 31_001, 2),
+    rows(40_001, 30, 41_001, 2),
+];
+/// Dummies have parameters of MuJoCo only.
+const DUMMY: Rows = rows(46_001, 21, 47_001, 2);
+
+/// The first real number of each engine is its step size, which is a setting of the scene.
+const STEP_SIZES: [i64; 5] = [1, 9001, 18_001, 27_001, 37_001];
+
+/// What has engine parameters of its own.
+pub trait EngineValues {
+    fn rows(&self, engine: usize) -> Option<(i64, usize, i64, usize)>;
+    fn value(&self, param: &EngineParam) -> Data;
+    fn set(&mut self, param: &'static EngineParam, value: Data);
+
+    /// Takes the rows of one engine, by its place in [`super::engine_params::ENGINES`].
+    fn load_engine(&mut self, engine: usize, reals: &[f64], ints: &[i32]) {
+        let Some((first_real, _, first_int, _)) = self.rows(engine) else { return };
+        for (number, real) in (first_real..).zip(reals) {
+            if real.is_finite() && !STEP_SIZES.contains(&number) {
+                self.set_number(number, *real);
+            }
+        }
+        for (number, int) in (first_int..).zip(ints) {
+            self.set_number(number, f64::from(*int));
+        }
+    }
+
+    /// The rows of one engine; zero where a number has no counterpart.
+    fn engine_rows(&self, engine: usize) -> (Vec<f64>, Vec<i32>) {
+        let Some((first_real, reals, first_int, ints)) = self.rows(engine) else { return Default::default() };
+        let real = |at: usize| self.number(first_real + at as i64).unwrap_or_default();
+        let int = |at: usize| self.number(first_int + at as i64).unwrap_or_default() as i32;
+        ((0..reals).map(real).collect(), (0..ints).map(int).collect())
+    }
+
+    fn number(&self, number: i64) -> Option<f64> {
+        Some(match numbered(number)? {
+            Numbered::Element(param, at) => element(&self.value(param), *at)?,
+            Numbered::Bits(switches) => {
+                let on = switches.iter().filter(|(param, _)| self.value(param) == Data::Bool(true));
+                on.fold(0, |bits, (_, bit)| bits | bit) as f64
+            }
+        })
+    }
+
+    fn set_number(&mut self, number: i64, value: f64) {
+        match numbered(number) {
+            Some(Numbered::Element(param, at)) => {
+                let old = self.value(param);
+                if element(&old, *at) != Some(value) {
+                    self.set(param, with_element(old, *at, value));
+                }
+            }
+            Some(Numbered::Bits(switches)) => switches.iter().for_each(|(param, bit)| {
+                self.set(param, Data::Bool(value as i64 & bit != 0));
+            }),
+            None => {}
+        }
+    }
+}
+
+fn row(all: &[Rows; 5], engine: usize) -> Option<(i64, usize, i64, usize)> {
+    all.get(engine).map(|r| (r.reals.0, r.reals.1, r.ints.0, r.ints.1))
+}
+
+impl EngineValues for Material {
+    fn rows(&self, engine: usize) -> Option<(i64, usize, i64, usize)> {
+        row(&MATERIAL, engine)
+    }
+    fn value(&self, param: &EngineParam) -> Data {
+        self.engine_value(param)
+    }
+    fn set(&mut self, param: &'static EngineParam, value: Data) {
+        self.set_engine_value(param, value);
+    }
+}
+
+impl EngineValues for Joint {
+    fn rows(&self, engine: usize) -> Option<(i64, usize, i64, usize)> {
+        row(&JOINT, engine)
+    }
+    fn value(&self, param: &EngineParam) -> Data {
+        self.engine_value(param)
+    }
+    fn set(&mut self, param: &'static EngineParam, value: Data) {
+        self.set_engine_value(param, value);
+    }
+}
+
+impl EngineValues for DynamicsSettings {
+    fn rows(&self, engine: usize) -> Option<(i64, usize, i64, usize)> {
+        row(&SCENE, engine)
+    }
+    fn value(&self, param: &EngineParam) -> Data {
+        kept_value(&self.engine_values, param, EngineOwner::Scene)
+    }
+    fn set(&mut self, param: &'static EngineParam, value: Data) {
+        self.engine_values.set(param.name, value);
+    }
+}
+
+impl EngineValues for Dummy {
+    fn rows(&self, engine: usize) -> Option<(i64, usize, i64, usize)> {
+        (engine == 4).then_some((DUMMY.reals.0, DUMMY.reals.1, DUMMY.ints.0, DUMMY.ints.1))
+    }
+    fn value(&self, param: &EngineParam) -> Data {
+        kept_value(&self.engine_values, param, EngineOwner::Dummy)
+    }
+    fn set(&mut self, param: &'static EngineParam, value: Data) {
+        self.engine_values.set(param.name, value);
+    }
+}
+
+fn kept_value(values: &Kept, param: &EngineParam, owner: EngineOwner) -> Data {
+    debug_assert_eq!(param.owner, owner, "numbers of one row belong to one owner");
+    value_in(values, param)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_come_back() {
+        let mut material = Material::default();
+        material.load_engine(0, &[0.25, 0.5, 0.75], &[1]);
+        assert_eq!((material.restitution, material.friction), (0.25, 0.5));
+        let (reals, ints) = material.engine_rows(0);
+        assert_eq!((&reals[..3], &ints[..]), (&[0.25, 0.5, 0.75][..], &[1][..]));
+        let mut other = Material::default();
+        (0..5).for_each(|engine| {
+            let (reals, ints) = material.engine_rows(engine);
+            other.load_engine(engine, &reals, &ints);
+        });
+        assert_eq!(
+            (0..5).map(|e| other.engine_rows(e)).collect::<Vec<_>>(),
+            (0..5).map(|e| material.engine_rows(e)).collect::<Vec<_>>()
+        );
+    }
+}
