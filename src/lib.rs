@@ -11,5 +11,6 @@ pub mod script;
 mod simulator;
 pub(crate) mod wire;
 
+pub use format::scene_file::SceneFile;
 pub use script::{Console, LogLine, Options, Silent, SimulationState};
 pub use simulator::{Error, ScriptKind, ScriptRef, Simulator};

@@ -8,10 +8,11 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use crate::api;
+use crate::format::scene_file::SceneFile;
 use crate::io::ZmqServer;
 use crate::scene::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, Scene};
-use crate::script::{ApiError, Console, Detached, Options, Script, Silent, Sim, SimulationState, SysCall};
+use crate::script::{ApiError, Console, Detached, Options, SceneSource, Script, Silent, Sim, SimulationState, SysCall};
 
 /// The add-on that serves clients by ZeroMQ.
 const ZMQ_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.zmq'";
@@ -186,6 +187,19 @@ impl Simulator {
     /// One pass of the loop: a simulation step when running, an idle pass when stopped or paused.
     pub fn pass(&mut self) {
         self.sim.loop_pass();
+    }
+
+    /// Brings a scene of CoppeliaSim into the empty scene, or adds a model to the present one.
+    ///
+    /// # Errors
+    /// When there is no room for all objects.
+    pub fn load(&mut self, file: SceneFile) -> Result<(), Error> {
+        if file.is_model() {
+            self.sim.load_model_file(file)?;
+        } else {
+            self.sim.fill_scene(SceneSource::File(Box::new(file)))?;
+        }
+        Ok(())
     }
 
     /// Removes every object.

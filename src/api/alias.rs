@@ -73,7 +73,7 @@ impl Lookup {
             let proxy = Handle::from_raw(raw).filter(|&handle| cx.scene().exists(handle));
             return Ok(Some(proxy.ok_or(SceneError::NoSuchProxy)?));
         }
-        let Some(script) = cx.script().object else { return Ok(None) };
+        let Some(script) = cx.script().object else { return Ok(cx.script().owner()) };
         let scene = cx.scene();
         let object = scene.object(script)?;
         Ok(if object.script()?.parent_is_proxy { object.parent() } else { Some(script) })

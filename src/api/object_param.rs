@@ -2,11 +2,14 @@
 //!
 //! A parameter an object does not have is no error: getters return nothing, setters do nothing.
 
+use std::rc::Rc;
+
 use api_macro::api;
 
+use super::script_old;
 use super::{ApiFn, Cx, Result, functions};
-use crate::scene::Handle;
-use crate::script::{Bytes, Number, Text};
+use crate::scene::{Data, Handle, SceneError};
+use crate::script::{Bytes, Number, Script, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_object_int32_param,
@@ -19,14 +22,29 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     set_object_string_param,
 ];
 
+/// Parameters of scripts, `sim.scriptintparam_*` and `sim.scriptstringparam_*`.
+const SCRIPT_PARAMS: std::ops::RangeInclusive<i64> = 10_100..=10_112;
+
+/// The script a number names, where the parameter is one of scripts: the functions here take scripts that are no objects as well.
+fn script(cx: &Cx, raw: i64, parameter: i64) -> Option<Rc<Script>> {
+    SCRIPT_PARAMS.contains(&parameter).then(|| cx.sim().script(raw)).flatten()
+}
+
+fn object(raw: i64) -> Result<Handle> {
+    Ok(Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?)
+}
+
 /// Integer parameter of an object.
 ///
 /// @param objectHandle the object
 /// @param parameterID sim.objintparam_*, sim.shapeintparam_*, ...
 /// @return parameter nothing if the object has no such parameter
 #[api("sim.getObjectInt32Param")]
-fn get_object_int32_param(cx: &Cx, object_handle: Handle, parameter_id: Number) -> Result<Option<i64>> {
-    Ok(cx.scene().int_param(object_handle, parameter_id.0)?)
+fn get_object_int32_param(cx: &Cx, object_handle: Number, parameter_id: Number) -> Result<Option<i64>> {
+    match script(cx, object_handle.0, parameter_id.0) {
+        Some(script) => script_old::int_param(cx, &script, parameter_id.0).map(Some),
+        None => Ok(cx.scene().int_param(object(object_handle.0)?, parameter_id.0)?),
+    }
 }
 
 /// Sets an integer parameter of an object.
@@ -36,7 +54,12 @@ fn get_object_int32_param(cx: &Cx, object_handle: Handle, parameter_id: Number) 
 /// @param parameter the value
 /// @return result 1, or 0 when the object has no such parameter
 #[api("sim.setObjectInt32Param")]
-fn set_object_int32_param(cx: &mut Cx, object_handle: Handle, parameter_id: Number, parameter: Number) -> Result<i64> {
+fn set_object_int32_param(cx: &mut Cx, object_handle: Number, parameter_id: Number, parameter: Number) -> Result<i64> {
+    if let Some(script) = script(cx, object_handle.0, parameter_id.0) {
+        script_old::set_param(cx, &script, parameter_id.0, Data::Int(parameter.0))?;
+        return Ok(1);
+    }
+    let object_handle = object(object_handle.0)?;
     Ok(i64::from(cx.scene_mut().set_int_param(object_handle, parameter_id.0, parameter.0)?))
 }
 
@@ -94,8 +117,11 @@ fn set_object_float_array_param(
 /// @param parameterID sim.objstringparam_*, sim.dummystringparam_*, sim.shapestringparam_*
 /// @return parameter nothing if the object has no such parameter
 #[api("sim.getObjectStringParam")]
-fn get_object_string_param(cx: &Cx, object_handle: Handle, parameter_id: Number) -> Result<Option<Text>> {
-    Ok(cx.scene().string_param(object_handle, parameter_id.0)?.map(Text))
+fn get_object_string_param(cx: &Cx, object_handle: Number, parameter_id: Number) -> Result<Option<Text>> {
+    match script(cx, object_handle.0, parameter_id.0) {
+        Some(script) => script_old::string_param(cx, &script, parameter_id.0),
+        None => Ok(cx.scene().string_param(object(object_handle.0)?, parameter_id.0)?.map(Text)),
+    }
 }
 
 /// Sets a text parameter of an object. One it does not have, or that can only be read, is left alone.
@@ -104,7 +130,11 @@ fn get_object_string_param(cx: &Cx, object_handle: Handle, parameter_id: Number)
 /// @param parameterID sim.dummystringparam_*, sim.shapestringparam_*
 /// @param parameter the text
 #[api("sim.setObjectStringParam")]
-fn set_object_string_param(cx: &mut Cx, object_handle: Handle, parameter_id: Number, parameter: Bytes) -> Result<()> {
+fn set_object_string_param(cx: &mut Cx, object_handle: Number, parameter_id: Number, parameter: Bytes) -> Result<()> {
+    if let Some(script) = script(cx, object_handle.0, parameter_id.0) {
+        return script_old::set_param(cx, &script, parameter_id.0, Data::Text(parameter.0));
+    }
+    let object_handle = object(object_handle.0)?;
     cx.scene_mut().set_string_param(object_handle, parameter_id.0, &parameter.0)?;
     Ok(())
 }

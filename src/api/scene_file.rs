@@ -1,37 +1,87 @@
 //! `sim.*`: scene and model files.
 //!
-//! A scene is a Lua file on top of the default scene, or the default scene alone. Reading and writing CoppeliaSim's own
-//! formats is not built; asking for it says so.
+//! A scene is a file of CoppeliaSim, or a Lua file on top of the default scene, or the default scene alone.
 
+use std::path::Path;
 use std::rc::Rc;
 
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::format::scene_file::SceneFile;
+use crate::scene::{Data, special};
+use crate::script::SceneSource;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, close_scene];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, close_scene, load_model];
+
+/// A text as long as this is a file, not its name.
+const LONGEST_NAME: usize = 1000;
 
 /// Replaces the scene. For add-ons and the sandbox, while the simulation is stopped.
 ///
-/// @param filename a `.lua` file: its text becomes a customization script of the default scene; empty for the default scene alone
+/// @param filenameOrBuffer a `.ttt` file or its bytes; a `.lua` file, whose text becomes a customization script of the default scene;
+/// empty for the default scene alone
 /// @return result 1
 #[api("sim.loadScene")]
-fn load_scene(cx: &mut Cx, filename: String) -> Result<i64> {
-    let code = if filename.is_empty() { None } else { Some(read_lua(&filename)?) };
+fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
+    let (source, path) = match FileOrBytes::new(filename_or_buffer)? {
+        FileOrBytes::Name(name) if name.is_empty() => (SceneSource::Default, None),
+        FileOrBytes::Name(name) => (scene_source(&name, read(&name)?)?, Some(absolute(&name))),
+        FileOrBytes::Bytes(bytes) => (scene_source("the buffer", bytes)?, None),
+    };
     let caller = Rc::clone(cx.script());
-    Rc::clone(cx.sim()).switch_scene(&caller, code.map(|code| (absolute(&filename), code)))?;
+    Rc::clone(cx.sim()).switch_scene(&caller, source, path)?;
     Ok(1)
 }
 
-fn read_lua(filename: &str) -> Result<Vec<u8>> {
-    let path = std::path::Path::new(filename);
-    match path.extension().and_then(|extension| extension.to_str()) {
-        Some("lua") => {
-            std::fs::read(path).map_err(|error| ApiError::Other(format!("'{filename}' could not be read: {error}.")))
+/// Adds a model to the scene, where it was saved.
+///
+/// @param filenameOrBuffer a `.ttm` file or its bytes
+/// @return objectHandle the base of the model
+#[api("sim.loadModel")]
+fn load_model(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
+    let file = match FileOrBytes::new(filename_or_buffer)? {
+        FileOrBytes::Name(name) => scene_file(&name, &read(&name)?)?,
+        FileOrBytes::Bytes(bytes) => scene_file("the buffer", &bytes)?,
+    };
+    let root = Rc::clone(cx.sim()).load_model_file(file)?;
+    Ok(root.map_or(special::WORLD, crate::scene::Handle::raw))
+}
+
+enum FileOrBytes {
+    Name(String),
+    Bytes(Vec<u8>),
+}
+
+impl FileOrBytes {
+    fn new(value: Data) -> Result<Self> {
+        match value {
+            Data::Text(text) if text.len() < LONGEST_NAME => {
+                Ok(Self::Name(String::from_utf8_lossy(&text).into_owned()))
+            }
+            Data::Text(bytes) | Data::Buffer(bytes) => Ok(Self::Bytes(bytes)),
+            _ => Err(ApiError::Other("a file name or a buffer is needed.".into())),
         }
-        Some(format) => Err(ApiError::NotImplemented(format!("reading scenes in the format .{format}"))),
-        None => Err(ApiError::Other(format!("'{filename}' has no extension that tells its format."))),
     }
+}
+
+fn read(name: &str) -> Result<Vec<u8>> {
+    std::fs::read(name).map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => ApiError::Other("file does not exist.".into()),
+        _ => ApiError::Other(format!("'{name}' could not be read: {error}.")),
+    })
+}
+
+/// A scene of CoppeliaSim is known by its bytes, a Lua scene by its name.
+fn scene_source(name: &str, bytes: Vec<u8>) -> Result<SceneSource> {
+    match Path::new(name).extension().and_then(|extension| extension.to_str()) {
+        Some("lua") => Ok(SceneSource::Script(bytes)),
+        _ => Ok(SceneSource::File(Box::new(scene_file(name, &bytes)?))),
+    }
+}
+
+fn scene_file(name: &str, bytes: &[u8]) -> Result<SceneFile> {
+    SceneFile::read(bytes).map_err(|error| ApiError::Other(format!("{name}: {error}")))
 }
 
 /// The path as scripts read it as the scene's.
@@ -45,6 +95,6 @@ fn absolute(filename: &str) -> String {
 #[api("sim.closeScene")]
 fn close_scene(cx: &mut Cx) -> Result<i64> {
     let caller = Rc::clone(cx.script());
-    Rc::clone(cx.sim()).switch_scene(&caller, None)?;
+    Rc::clone(cx.sim()).switch_scene(&caller, SceneSource::Default, None)?;
     Ok(1)
 }

@@ -8,7 +8,7 @@ use super::scripts::script_of;
 use super::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::script_object::ScriptType;
 use crate::scene::{Data, Handle, SceneError, ValueType, special};
-use crate::script::{Bytes, Number, Script, Target};
+use crate::script::{Bytes, Number, Script, Target, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_object_associated_with_script,
@@ -77,7 +77,10 @@ fn target_of(script: &Rc<Script>) -> Target {
 
 fn read(cx: &Cx, script: &Rc<Script>, attribute: Attribute) -> Result<Data> {
     let Some((name, ty)) = attribute.property() else {
-        let handle = if attribute == Attribute::Handle { Some(script.id) } else { script.object.map(Handle::raw) };
+        let handle = match attribute {
+            Attribute::Handle => Some(script.id),
+            _ => script.object.or(script.owner()).map(Handle::raw),
+        };
         return Ok(Data::Int(handle.unwrap_or(special::WORLD)));
     };
     let value = cx.sim().read_property(&target_of(script), name, ty)?;
@@ -104,13 +107,14 @@ fn object(cx: &Cx, raw: i64) -> Result<Handle> {
     Ok(handle.ok_or(SceneError::NoSuchObject)?)
 }
 
-/// The object of a script object: itself.
+/// The object of a script: itself, or the one an old script is attached to.
 ///
 /// @param scriptHandle the script
 /// @return objectHandle -1 for the main script, the sandbox and add-ons
 #[api("sim.getObjectAssociatedWithScript")]
 fn get_object_associated_with_script(cx: &Cx, script_handle: Number) -> Result<i64> {
-    Ok(script_of(cx, script_handle.0)?.object.map_or(special::WORLD, Handle::raw))
+    let script = script_of(cx, script_handle.0)?;
+    Ok(script.object.or(script.owner()).map_or(special::WORLD, Handle::raw))
 }
 
 /// The simulation script of an object.
@@ -120,7 +124,7 @@ fn get_object_associated_with_script(cx: &Cx, script_handle: Number) -> Result<i
 #[api("sim.getScriptAssociatedWithObject")]
 fn get_script_associated_with_object(cx: &Cx, object_handle: Number) -> Result<i64> {
     let object = object(cx, object_handle.0)?;
-    Ok(cx.sim().script_attached_to(object, ScriptType::Simulation).map_or(special::WORLD, Handle::raw))
+    Ok(cx.sim().script_attached_to(object, ScriptType::Simulation).unwrap_or(special::WORLD))
 }
 
 /// The customization script of an object.
@@ -130,7 +134,7 @@ fn get_script_associated_with_object(cx: &Cx, object_handle: Number) -> Result<i
 #[api("sim.getCustomizationScriptAssociatedWithObject")]
 fn get_customization_script_associated_with_object(cx: &Cx, object_handle: Number) -> Result<i64> {
     let object = object(cx, object_handle.0)?;
-    Ok(cx.sim().script_attached_to(object, ScriptType::Customization).map_or(special::WORLD, Handle::raw))
+    Ok(cx.sim().script_attached_to(object, ScriptType::Customization).unwrap_or(special::WORLD))
 }
 
 /// Handle of a script.
@@ -154,7 +158,7 @@ fn get_script_handle(
         return cx.sim().script_by_name(script_type, &script_name);
     }
     let object = object(cx, object_handle.0)?;
-    Ok(cx.sim().script_attached_to(object, script_type).map_or(special::WORLD, Handle::raw))
+    Ok(cx.sim().script_attached_to(object, script_type).unwrap_or(special::WORLD))
 }
 
 /// Name of a script.
@@ -193,10 +197,25 @@ fn set_script_attribute(cx: &mut Cx, script_handle: Number, attribute_id: Number
 /// @return parameter
 #[api("sim.getScriptInt32Param")]
 fn get_script_int32_param(cx: &Cx, script_handle: Number, parameter_id: Number) -> Result<i64> {
-    match read(cx, &script_of(cx, script_handle.0)?, Attribute::from_number(parameter_id.0)?)? {
+    int_param(cx, &script_of(cx, script_handle.0)?, parameter_id.0)
+}
+
+pub(super) fn int_param(cx: &Cx, script: &Rc<Script>, parameter: i64) -> Result<i64> {
+    match read(cx, script, Attribute::from_number(parameter)?)? {
         Data::Int(value) => Ok(value),
         value => Ok(i64::from(value.truthy())),
     }
+}
+
+pub(super) fn string_param(cx: &Cx, script: &Rc<Script>, parameter: i64) -> Result<Option<Text>> {
+    match read(cx, script, Attribute::from_number(parameter)?)? {
+        Data::Text(text) => Ok(Some(Text(text))),
+        _ => Ok(None),
+    }
+}
+
+pub(super) fn set_param(cx: &Cx, script: &Rc<Script>, parameter: i64, value: Data) -> Result<()> {
+    write(cx, script, Attribute::from_number(parameter)?, value)
 }
 
 /// Sets an integer parameter of a script.

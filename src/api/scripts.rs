@@ -84,7 +84,7 @@ fn get_script(cx: &Cx, script_type: i64, #[default(Data::Nil)] script_name: Data
         Data::Int(raw) if raw >= 0 => {
             let object = Handle::from_raw(raw).filter(|&handle| cx.scene().exists(handle));
             let object = object.ok_or(SceneError::NoSuchObject)?;
-            Ok(cx.sim().script_attached_to(object, script_type).map_or(special::WORLD, Handle::raw))
+            Ok(cx.sim().script_attached_to(object, script_type).unwrap_or(special::WORLD))
         }
         Data::Text(name) => cx.sim().script_by_name(script_type, &String::from_utf8_lossy(&name)),
         _ => match names.0.first() {

@@ -78,7 +78,7 @@ pub(super) fn run(args: &Args) -> ExitCode {
     let begun = Instant::now();
     let options = args.remote.guard(args.setup.options(Some(&args.scene), &interrupt));
     let mut sim = Simulator::with_console(options, Box::new(output.clone()));
-    args.setup.fill(&mut sim, &sources, args.kind.into(), Some(&args.scene));
+    args.setup.fill(&mut sim, sources, args.kind.into(), Some(&args.scene));
     let zmq = args.remote.asks_for_zmq();
     if let Err(reason) = args.remote.serve(zmq, &args.setup, &mut sim, &output, &interrupt) {
         return refuse(&reason);

@@ -44,7 +44,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     let output = args.setup.output(&Progress::new(Limits { steps: None, time: None }, true));
     let options = args.remote.guard(args.setup.options(scene, &interrupt));
     let mut sim = Simulator::with_console(options, Box::new(output.clone()));
-    args.setup.fill(&mut sim, &sources, ScriptKind::Customization, scene);
+    args.setup.fill(&mut sim, sources, ScriptKind::Customization, scene);
     if let Err(reason) = args.remote.serve(!args.no_remote_api, &args.setup, &mut sim, &output, &interrupt) {
         return refuse(&reason);
     }

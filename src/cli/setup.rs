@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use super::interrupt::Interrupt;
 use super::output::{Format, Output};
 use super::progress::Progress;
+use crate::format::scene_file::SceneFile;
+use crate::format::ttt;
 use crate::script::verbosity;
 use crate::{Options, ScriptKind, Simulator};
 
@@ -50,9 +52,15 @@ pub(super) struct Setup {
 /// A script file: its name without extension, and its text.
 type Source = (String, Vec<u8>);
 
+/// What the scene is made of.
+enum Scene {
+    Script(Source),
+    File(Box<SceneFile>),
+}
+
 /// The files of the command line, read.
 pub(super) struct Sources {
-    scene: Option<Source>,
+    scene: Option<Scene>,
     add_ons: Vec<Source>,
 }
 
@@ -63,7 +71,7 @@ impl Setup {
     /// When one cannot be read.
     pub(super) fn sources(&self, scene: Option<&Path>) -> Result<Sources, String> {
         let add_ons = self.addon.iter().map(read).collect::<Result<_, _>>()?;
-        Ok(Sources { scene: scene.map(read).transpose()?, add_ons })
+        Ok(Sources { scene: scene.map(read_scene).transpose()?, add_ons })
     }
 
     /// The named parameter of the command line.
@@ -90,11 +98,44 @@ impl Setup {
     }
 
     /// Add-ons come with the application, so they start first; then the scene and its script.
-    pub(super) fn fill(&self, sim: &mut Simulator, sources: &Sources, kind: ScriptKind, scene: Option<&Path>) {
+    pub(super) fn fill(&self, sim: &mut Simulator, sources: Sources, kind: ScriptKind, scene: Option<&Path>) {
         for (name, code) in &sources.add_ons {
             // A script that fails has said so in the log, and is counted.
             let _ = sim.add_script(ScriptKind::AddOn, name, code);
         }
+        match sources.scene {
+            Some(Scene::File(file)) => self.open(sim, *file),
+            Some(Scene::Script((name, code))) => {
+                self.add_default_objects(sim);
+                self.apply_settings(sim, scene);
+                let _ = sim.add_script(kind, &name, &code);
+            }
+            None => self.add_default_objects(sim),
+        }
+        self.apply_settings(sim, scene);
+        if kind == ScriptKind::AddOn && self.empty {
+            // What an add-on made before there was a scene does not belong to it.
+            sim.clear_scene();
+        }
+    }
+
+    /// Opens a scene of CoppeliaSim, or puts a model on the default floor.
+    fn open(&self, sim: &mut Simulator, file: SceneFile) {
+        if file.is_model() {
+            self.add_default_objects(sim);
+        }
+        // An add-on that fills the scene leaves no room for more.
+        let _ = sim.load(file);
+    }
+
+    fn add_default_objects(&self, sim: &mut Simulator) {
+        if !self.empty {
+            // An add-on that fills the scene leaves no room for more: nothing is missing then.
+            let _ = sim.scene_mut().add_default_objects();
+        }
+    }
+
+    fn apply_settings(&self, sim: &mut Simulator, scene: Option<&Path>) {
         sim.scene_mut().modify_settings(|settings| {
             settings.time_step = self.dt.unwrap_or(settings.time_step);
             settings.real_time |= self.realtime;
@@ -102,17 +143,6 @@ impl Setup {
                 settings.path = std::path::absolute(scene).unwrap_or_default().to_string_lossy().into_owned();
             }
         });
-        if !self.empty {
-            // An add-on that fills the scene leaves no room for more: nothing is missing then.
-            let _ = sim.scene_mut().add_default_objects();
-        }
-        if let Some((name, code)) = &sources.scene {
-            let _ = sim.add_script(kind, name, code);
-        }
-        if kind == ScriptKind::AddOn && self.empty {
-            // What an add-on made before there was a scene does not belong to it.
-            sim.clear_scene();
-        }
     }
 }
 
@@ -124,6 +154,15 @@ fn read(path: impl AsRef<Path>) -> Result<Source, String> {
 }
 
 /// The folder a file lies in; scripts find their modules there.
+fn read_scene(path: &Path) -> Result<Scene, String> {
+    let (name, bytes) = read(path)?;
+    if !ttt::is_binary(&bytes) {
+        return Ok(Scene::Script((name, bytes)));
+    }
+    let file = SceneFile::read(&bytes).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+    Ok(Scene::File(Box::new(file)))
+}
+
 fn folder_of(file: &Path) -> PathBuf {
     match file.parent() {
         Some(folder) if folder != Path::new("") => folder.to_owned(),

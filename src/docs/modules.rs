@@ -11,6 +11,7 @@ const INNER: &[&str] = &[
     "deprecate",
     "display",
     "json_scanner",
+    "defaultMainScript",
     "main",
     "matrix/core",
     "matrix/linear",

@@ -4,7 +4,6 @@ use std::rc::Rc;
 
 use super::callback::SysCall;
 use super::instance::Script;
-use super::order::attached_scripts;
 use super::sim::Sim;
 use crate::scene::change::ChangedNames;
 use crate::scene::script_object::ScriptType;
@@ -27,16 +26,12 @@ impl Sim {
 
     /// The script an object is, or those attached to it: simulation scripts first.
     fn scripts_of(&self, object: Handle) -> Vec<Rc<Script>> {
-        let handles = {
-            let scene = self.scene.borrow();
-            match scene.object(object) {
-                Ok(object) if object.script().is_ok() => vec![object.handle()],
-                Ok(_) => attached_scripts(&scene, object),
-                Err(_) => return Vec::new(),
-            }
-        };
-        let mut scripts: Vec<_> = handles.into_iter().filter_map(|handle| self.script(handle.raw())).collect();
-        scripts.sort_by_key(|script| script.script_type != ScriptType::Simulation);
+        if let Some(script) = self.script(object.raw()) {
+            return vec![script];
+        }
+        // A removed object has no scripts.
+        let mut scripts = self.scripts_of_object(object);
+        scripts.sort_by_key(|script| (script.owner().is_none(), script.script_type != ScriptType::Simulation));
         scripts
     }
 }

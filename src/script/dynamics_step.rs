@@ -4,7 +4,6 @@ use std::rc::Rc;
 
 use super::callback::SysCall;
 use super::error::{ApiError, ApiResult};
-use super::order::attached_scripts;
 use super::sim::Sim;
 use crate::dynamics::{Call, Dynamics, JointRequest, Trigger, Verdict};
 use crate::scene::joint::Joint;
@@ -93,8 +92,7 @@ impl Sim {
             ("filteredForce", trigger.filtered.0.into()),
             ("filteredTorque", trigger.filtered.1.into()),
         ]);
-        let attached = attached_scripts(&self.scene.borrow(), trigger.sensor);
-        for script in attached.into_iter().filter_map(|script| self.script(script.raw())) {
+        for script in self.scripts_of_object(trigger.sensor) {
             self.deliver(&script, SysCall::Trigger, std::slice::from_ref(&data));
         }
     }

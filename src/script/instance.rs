@@ -41,6 +41,16 @@ pub(crate) struct Detached {
     pub restart_on_error: bool,
     pub priority: i64,
     pub path: String,
+    pub language: String,
+    /// The object an old script is attached to.
+    pub owner: Option<Handle>,
+}
+
+impl Detached {
+    /// Scripts that are no objects are Lua, unless a scene says otherwise.
+    pub(crate) fn language(&self) -> &str {
+        if self.language.is_empty() { "lua" } else { &self.language }
+    }
 }
 
 impl Script {
@@ -65,6 +75,11 @@ impl Script {
     }
 
     /// `scriptState`: base state, error bit, suspended bit.
+    /// The object an old script is attached to, instead of being one itself.
+    pub(crate) fn owner(&self) -> Option<Handle> {
+        self.detached.borrow().owner
+    }
+
     pub fn state(&self) -> i64 {
         self.state.get()
     }

@@ -82,7 +82,8 @@ impl Sim {
     fn code_of(&self, script: &Script) -> (Vec<u8>, String) {
         let Some(handle) = script.object else {
             let detached = script.detached.borrow();
-            return (detached.code.clone(), detached.chunk_name.clone());
+            let name = if detached.owner.is_some() { self.log_name(script) } else { detached.chunk_name.clone() };
+            return (detached.code.clone(), name);
         };
         let code =
             self.scene.borrow().object(handle).and_then(|o| o.script()).map(|s| s.code.clone()).unwrap_or_default();

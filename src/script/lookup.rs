@@ -4,19 +4,15 @@ use std::rc::Rc;
 
 use super::error::{ApiError, ApiResult};
 use super::instance::Script;
-use super::order::attached_scripts;
 use super::sim::Sim;
 use crate::scene::Handle;
 use crate::scene::script_object::ScriptType;
 
 impl Sim {
     /// The script of that type attached to an object: the first of its children by priority, else the object itself.
-    pub(crate) fn script_attached_to(&self, object: Handle, script_type: ScriptType) -> Option<Handle> {
-        let scene = self.scene.borrow();
-        let is_one = |&handle: &Handle| {
-            scene.object(handle).and_then(|o| o.script()).is_ok_and(|script| script.script_type == script_type)
-        };
-        attached_scripts(&scene, object).into_iter().chain([object]).find(is_one)
+    pub(crate) fn script_attached_to(&self, object: Handle, script_type: ScriptType) -> Option<i64> {
+        let scripts = self.scripts_of_object(object).into_iter().chain(self.script(object.raw()));
+        scripts.into_iter().find(|script| script.script_type == script_type).map(|script| script.id)
     }
 
     /// The script of that type and name: a path for scene scripts, the display name for add-ons, nothing for main and sandbox.
@@ -29,7 +25,7 @@ impl Sim {
             ScriptType::AddOn => self.add_on(name).map(|script| script.id),
             ScriptType::Simulation | ScriptType::Customization | ScriptType::Passive => {
                 let object = self.object_by_name(name).ok_or(ApiError::NoSuchScript)?;
-                self.script_attached_to(object, script_type).map(Handle::raw)
+                self.script_attached_to(object, script_type)
             }
         };
         found.ok_or(ApiError::NoSuchScript)

@@ -4,6 +4,7 @@
 
 mod app_storage;
 mod args;
+mod attached;
 mod auxiliary_consoles;
 mod binding;
 mod by_handle;
@@ -73,6 +74,7 @@ pub(crate) use instance::Detached;
 pub(crate) use lua::{Object, Stack};
 pub(crate) use order::Group;
 pub(crate) use property::{Target, table as property_table};
+pub(crate) use scene_switch::SceneSource;
 pub(crate) use sim::Sim;
 pub(crate) use threads::{auto_level, changed_level, set_auto_level};
 

@@ -1,12 +1,13 @@
 //! Who is called when (SPEC-1 1.6).
 
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use super::clock::SimulationState;
 use super::instance::Script;
 use super::sim::Sim;
 use crate::scene::script_object::ScriptType;
-use crate::scene::{Handle, Scene};
+use crate::scene::{Handle, Object, Scene};
 
 /// A model flag: no script below runs.
 const SCRIPTS_INACTIVE: i64 = 0x200;
@@ -71,19 +72,38 @@ impl Sim {
         if self.order.borrow().revision == Some(revision) {
             return;
         }
-        let order = by_depth(&self.scene.borrow());
-        let scripts: Vec<Rc<Script>> = order.into_iter().filter_map(|handle| self.script(handle.raw())).collect();
-        let of_type = |t: ScriptType| scripts.iter().filter(|s| s.script_type == t).cloned().collect::<ScriptList>();
-        let (simulation, customization) = (of_type(ScriptType::Simulation), of_type(ScriptType::Customization));
+        let (old, scripts) = (self.attached_by_depth(), self.objects_by_depth());
+        let of_type = |scripts: &[Rc<Script>], t: ScriptType| -> ScriptList {
+            scripts.iter().filter(|s| s.script_type == t).cloned().collect()
+        };
+        let [old_simulation, simulation] = [&old, &scripts].map(|list| of_type(list, ScriptType::Simulation));
+        let [old_customization, customization] = [&old, &scripts].map(|list| of_type(list, ScriptType::Customization));
         let mut cache = self.order.borrow_mut();
         cache.revision = Some(revision);
-        (cache.simulation, cache.customization) = (simulation, customization);
+        cache.simulation = joined(&[&old_simulation, &simulation]);
+        cache.customization = joined(&[&old_customization, &customization]);
         cache.add_ons = self.detached_of(ScriptType::AddOn);
         cache.sandbox = self.detached_of(ScriptType::Sandbox);
         cache.main = self.detached_of(ScriptType::Main);
         cache.everyone_stopped = joined(&[&cache.customization, &cache.add_ons, &cache.sandbox]);
-        cache.everyone =
-            joined(&[&cache.simulation, &cache.customization, &cache.main, &cache.add_ons, &cache.sandbox]);
+        let embedded = joined(&[&old_simulation, &old_customization, &simulation, &customization]);
+        cache.everyone = joined(&[&embedded, &cache.main, &cache.add_ons, &cache.sandbox]);
+    }
+
+    /// Scripts that are objects, the deepest first.
+    fn objects_by_depth(&self) -> Vec<Rc<Script>> {
+        let order = by_depth(&self.scene.borrow(), |object| object.script().is_ok());
+        order.into_iter().filter_map(|handle| self.script(handle.raw())).collect()
+    }
+
+    /// Scripts attached to objects, those of the deepest objects first.
+    fn attached_by_depth(&self) -> Vec<Rc<Script>> {
+        if !self.has_attached.get() {
+            return Vec::new();
+        }
+        let owners: BTreeSet<Handle> = self.scripts.borrow().values().filter_map(|script| script.owner()).collect();
+        let order = by_depth(&self.scene.borrow(), |object| owners.contains(&object.handle()));
+        order.into_iter().flat_map(|owner| self.attached_to(owner)).collect()
     }
 
     fn detached_of(&self, script_type: ScriptType) -> ScriptList {
@@ -97,13 +117,8 @@ impl Sim {
     /// Scripts asked about a joint: those attached to it, to its parent, and so on to the root; simulation scripts of the whole chain
     /// first, then customization scripts.
     pub(crate) fn joint_chain(&self, joint: Handle) -> Vec<Rc<Script>> {
-        let scene = self.scene.borrow();
-        let mut chain = Vec::new();
-        for object in std::iter::once(joint).chain(scene.ancestors(joint)) {
-            chain.extend(attached_scripts(&scene, object));
-        }
-        drop(scene);
-        let scripts: Vec<_> = chain.into_iter().filter_map(|handle| self.script(handle.raw())).collect();
+        let chain: Vec<Handle> = std::iter::once(joint).chain(self.scene.borrow().ancestors(joint)).collect();
+        let scripts: Vec<_> = chain.into_iter().flat_map(|object| self.scripts_of_object(object)).collect();
         let of_type = |t: ScriptType| scripts.iter().filter(move |s| s.script_type == t).cloned();
         of_type(ScriptType::Simulation).chain(of_type(ScriptType::Customization)).collect()
     }
@@ -113,18 +128,9 @@ fn joined(lists: &[&ScriptList]) -> ScriptList {
     lists.iter().flat_map(|list| list.iter().cloned()).collect()
 }
 
-/// Script objects that are children of `object`, by priority.
-pub(crate) fn attached_scripts(scene: &Scene, object: Handle) -> Vec<Handle> {
-    let children = scene.object(object).map(|o| o.children().to_vec()).unwrap_or_default();
-    let mut scripts: Vec<_> =
-        children.into_iter().filter_map(|h| scene.object(h).ok()).filter(|o| o.script().is_ok()).collect();
-    scripts.sort_by_key(|object| object.priority);
-    scripts.into_iter().map(crate::scene::Object::handle).collect()
-}
-
-/// All script objects: trees walked in pre-order with children stably sorted by priority, then the deepest level of the whole scene
+/// The wanted objects: trees walked in pre-order with children stably sorted by priority, then the deepest level of the whole scene
 /// first.
-fn by_depth(scene: &Scene) -> Vec<Handle> {
+fn by_depth(scene: &Scene, wanted: impl Fn(&Object) -> bool) -> Vec<Handle> {
     let mut found: Vec<(usize, Handle)> = Vec::new();
     let mut pending: Vec<(usize, Handle)> = sorted(scene, scene.roots()).into_iter().rev().map(|h| (0, h)).collect();
     while let Some((depth, handle)) = pending.pop() {
@@ -132,7 +138,7 @@ fn by_depth(scene: &Scene) -> Vec<Handle> {
         if object.is_model() && object.model_property & SCRIPTS_INACTIVE != 0 {
             continue;
         }
-        if object.script().is_ok() {
+        if wanted(object) {
             found.push((depth, handle));
         }
         pending.extend(sorted(scene, object.children()).into_iter().rev().map(|h| (depth + 1, h)));

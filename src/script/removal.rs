@@ -45,6 +45,7 @@ impl Sim {
         let copies = self.scene.borrow_mut().copy_objects(&originals, options)?;
         self.broadcast(SysCall::AfterCopy, &[data]);
         let created: Vec<Handle> = originals.iter().filter_map(|original| copies.get(original).copied()).collect();
+        copies.iter().for_each(|(original, copy)| self.copy_attached(*original, *copy));
         self.announce_created(&created);
         Ok(copies)
     }
@@ -55,7 +56,7 @@ impl Sim {
     /// When a handle is unknown or given twice; nothing happens then.
     pub(crate) fn remove_objects(self: &Rc<Self>, handles: &[Handle]) -> ApiResult<()> {
         self.check_removable(handles)?;
-        let doomed: Vec<Handle> = handles.iter().copied().filter(|&handle| self.end_script_of(handle)).collect();
+        let doomed: Vec<Handle> = handles.iter().copied().filter(|&handle| self.end_scripts_of(handle)).collect();
         if doomed.len() < handles.len() {
             let text =
                 "object removal can't be triggered from within the object itself: some objects were not removed.";
@@ -70,7 +71,7 @@ impl Sim {
         let doomed: Vec<Handle> = doomed.into_iter().filter(|&h| self.scene.borrow().exists(h)).collect();
         self.scene.borrow_mut().remove(&doomed)?;
         for handle in &doomed {
-            self.scripts.borrow_mut().remove(&handle.raw());
+            self.scripts.borrow_mut().retain(|id, script| *id != handle.raw() && script.owner() != Some(*handle));
             self.signal_owners.borrow_mut().forget(Holder::Object(*handle));
         }
         self.broadcast(SysCall::AfterDelete, &[data]);
@@ -87,14 +88,17 @@ impl Sim {
     }
 
     /// Cleans up the script an object is, if it is one; false when that script is executing.
-    fn end_script_of(self: &Rc<Self>, handle: Handle) -> bool {
-        let Some(script) = self.scripts.borrow().get(&handle.raw()).cloned() else { return true };
-        if script.depth() > 0 {
+    fn end_scripts_of(self: &Rc<Self>, handle: Handle) -> bool {
+        let mut scripts = self.attached_to(handle);
+        scripts.extend(self.scripts.borrow().get(&handle.raw()).cloned());
+        if scripts.iter().any(|script| script.depth() > 0) {
             return false;
         }
-        self.end(&script);
-        script.set_state(state::ENDED);
-        script.removed.set(true);
+        for script in scripts {
+            self.end(&script);
+            script.set_state(state::ENDED);
+            script.removed.set(true);
+        }
         true
     }
 

@@ -1,4 +1,4 @@
-//! Putting another scene in the place of the present one.
+//! Putting another scene in the place of the present one, and models into it.
 
 use std::rc::Rc;
 
@@ -6,38 +6,103 @@ use super::callback::SysCall;
 use super::error::{ApiError, ApiResult};
 use super::instance::Script;
 use super::sim::Sim;
+use crate::format::scene_file::{Loaded, LoadedScript, SceneFile};
 use crate::scene::script_object::{ScriptObject, ScriptType};
-use crate::scene::{Edit, Kept, Kind, Namespace, Settings};
+use crate::scene::{Edit, Handle, Kept, Kind, Namespace, Settings};
+
+/// What a scene is made of.
+pub(crate) enum SceneSource {
+    /// The default scene.
+    Default,
+    /// The text of a customization script of the default scene.
+    Script(Vec<u8>),
+    /// A scene of CoppeliaSim.
+    File(Box<SceneFile>),
+}
 
 impl Sim {
-    /// Puts the default scene in place of the present one on behalf of `caller`, and adds the script in `file`, path and code, if there is
-    /// one.
+    /// Replaces the scene. With a file, its path becomes that of the scene.
     ///
     /// # Errors
-    /// When the simulation is not stopped, or the caller is a script of the scene: it would remove itself while running.
-    pub(crate) fn switch_scene(self: &Rc<Self>, caller: &Script, file: Option<(String, Vec<u8>)>) -> ApiResult<()> {
+    /// While a simulation runs; from a script that is part of the scene, which would be removed while it runs; when the file is damaged.
+    pub(crate) fn switch_scene(
+        self: &Rc<Self>,
+        caller: &Script,
+        source: SceneSource,
+        path: Option<String>,
+    ) -> ApiResult<()> {
         if !self.is_stopped() {
             return Err(ApiError::Other("simulation is not stopped.".into()));
         }
-        if caller.object.is_some() {
+        if caller.object.is_some() || caller.owner().is_some() || caller.script_type == ScriptType::Main {
             return Err(ApiError::Other("a script of the scene cannot replace the scene: use an add-on.".into()));
         }
         self.broadcast(SysCall::BeforeInstanceSwitch, &[]);
         self.clear_scene()?;
-        self.scene.borrow_mut().add_default_objects()?;
-        if let Some((path, code)) = file {
+        self.fill_scene(source)?;
+        if let Some(path) = path {
             self.scene.borrow_mut().modify_settings(|settings| settings.path = path);
-            self.add_scene_script(code)?;
         }
         self.note_new_scene();
         self.broadcast(SysCall::AfterInstanceSwitch, &[]);
         Ok(())
     }
 
+    /// Fills the empty scene.
+    pub(crate) fn fill_scene(self: &Rc<Self>, source: SceneSource) -> ApiResult<()> {
+        match source {
+            SceneSource::Default => self.scene.borrow_mut().add_default_objects()?,
+            SceneSource::Script(code) => {
+                self.scene.borrow_mut().add_default_objects()?;
+                self.add_scene_script(code)?;
+            }
+            SceneSource::File(file) => {
+                self.load_file(*file, true)?;
+                self.broadcast(SysCall::AfterLoad, &[]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a model to the scene; its base, or nothing where the file is empty.
+    ///
+    /// # Errors
+    /// When the scene is full.
+    pub(crate) fn load_model_file(self: &Rc<Self>, file: SceneFile) -> ApiResult<Option<Handle>> {
+        let loaded = self.load_file(file, false)?;
+        self.announce_created(&loaded.objects);
+        Ok(loaded.root)
+    }
+
+    fn load_file(&self, file: SceneFile, is_scene: bool) -> ApiResult<Loaded> {
+        let loaded = file.add_to(&mut self.scene.borrow_mut(), is_scene)?;
+        loaded.scripts.iter().for_each(|script| self.take_script(script));
+        Ok(loaded)
+    }
+
+    fn take_script(&self, script: &LoadedScript) {
+        match (script.script_type, script.owner) {
+            (ScriptType::Main, _) => {
+                if let Some(main) = self.detached(ScriptType::Main) {
+                    main.detached.borrow_mut().code.clone_from(&script.code);
+                }
+            }
+            (script_type, Some(owner)) => {
+                let object = ScriptObject::new(script_type, script.code.clone(), &script.language, script.disabled);
+                self.attach_script(owner, &object, script.exec_order);
+            }
+            (_, None) => {}
+        }
+    }
+
+    /// Removes all objects, and forgets what belongs to a scene: settings, custom data, signals, a main script of its own.
     fn clear_scene(self: &Rc<Self>) -> ApiResult<()> {
         let everything: Vec<_> = self.scene.borrow().objects().map(crate::scene::Object::handle).collect();
         if !everything.is_empty() {
             self.remove_objects(&everything)?;
+        }
+        if let Some(main) = self.detached(ScriptType::Main) {
+            main.detached.borrow_mut().code = self.registry.modules["main"].source.as_bytes().to_vec();
         }
         self.app.borrow_mut().closed_scenes += 1;
         let mut scene = self.scene.borrow_mut();
@@ -49,7 +114,6 @@ impl Sim {
         Ok(())
     }
 
-    /// A Lua file as a scene is a customization script, as on the command line.
     fn add_scene_script(self: &Rc<Self>, code: Vec<u8>) -> ApiResult<()> {
         let script = ScriptObject::new(ScriptType::Customization, code, "lua", false);
         let handle = self.scene.borrow_mut().add("Script", Kind::Script(Box::new(script)))?;

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
+use super::attached::log_suffix;
 use super::binding::Registry;
 use super::by_handle::ByHandle;
 use super::clock::Clock;
@@ -81,6 +82,8 @@ pub(crate) struct Sim {
     pub scene: RefCell<Scene>,
     pub clock: Clock,
     pub scripts: RefCell<BTreeMap<i64, Rc<Script>>>,
+    /// There are, or were, scripts attached to objects; most scenes have none.
+    pub has_attached: Cell<bool>,
     pub order: RefCell<OrderCache>,
     /// Taken out while it steps.
     pub dynamics: RefCell<Option<Dynamics>>,
@@ -128,6 +131,7 @@ impl Sim {
             scene: RefCell::new(Scene::new()),
             clock: Clock::new(),
             scripts: RefCell::default(),
+            has_attached: Cell::new(false),
             order: RefCell::default(),
             dynamics: RefCell::new(Some(Dynamics::default())),
             console: RefCell::new(console),
@@ -213,7 +217,13 @@ impl Sim {
     pub(crate) fn log_name(&self, script: &Script) -> String {
         match script.object {
             Some(handle) => self.scene.borrow().print_path(handle).unwrap_or_default(),
-            None => script.detached.borrow().name.clone(),
+            None => match script.owner() {
+                Some(owner) => {
+                    let path = self.scene.borrow().print_path(owner).unwrap_or_default();
+                    path + log_suffix(script.script_type)
+                }
+                None => script.detached.borrow().name.clone(),
+            },
         }
     }
 

@@ -1,12 +1,13 @@
 //! Scenes and models between files and the scene: what `sim.loadScene`, `sim.loadModel` and their savers do.
 //!
-//! `load` puts what a file holds into a scene. The scripts of a file are handed on: running them is not known here.
+//! [`SceneFile`] puts what a file holds into a scene. The scripts of a file are handed on: running them is not known here.
 
-pub(crate) mod load;
+mod load;
 
-use crate::format::ttt::FileError;
+pub use load::SceneFile;
+
+use crate::scene::Handle;
 use crate::scene::script_object::ScriptType;
-use crate::scene::{Handle, SceneError};
 
 /// What a file has brought into a scene.
 #[derive(Debug, Default)]
@@ -30,13 +31,4 @@ pub struct LoadedScript {
     pub disabled: bool,
     /// -1 before, 0 with, 1 after the others.
     pub exec_order: i64,
-}
-
-/// Why a file could not be brought into a scene.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum LoadError {
-    #[error(transparent)]
-    File(#[from] FileError),
-    #[error(transparent)]
-    Scene(#[from] SceneError),
 }

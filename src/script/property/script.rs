@@ -80,7 +80,7 @@ pub(super) const SCRIPT: &[Accessor] = subject_properties! {
     "scriptType": i64, |s| s.script()?.script_type as i64;
     "executionDepth": i64, |s| s.script()?.depth() as i64;
     "scriptState": i64, |s| s.script()?.state();
-    "language": String, |s| s.read_script(|o| o.language.clone(), |_| "lua".to_owned())?;
+    "language": String, |s| s.read_script(|o| o.language.clone(), |d| d.language().to_owned())?;
     "code": super::Text, |s| super::Text(s.read_script(|o| o.code.clone(), |d| d.code.clone())?),
         |s, code| { let (text, copy) = (code.0.clone(), code.0); s.write_script(|o| o.code = text, |d| d.code = copy)? };
     "scriptName": String, |s| s.script_name()?;

@@ -13,9 +13,9 @@ mod shape;
 
 use std::collections::BTreeMap;
 
-use super::{LoadError, Loaded, LoadedScript};
+use super::{Loaded, LoadedScript};
 use crate::format::ttt::tree::{Class, Object as FileObject};
-use crate::format::ttt::{File, FileError, Header};
+use crate::format::ttt::{File, FileError, FileKind, FileResult, Header};
 use crate::scene::dummy::{Dummy, LinkType};
 use crate::scene::{Handle, Kind, Scene, SceneResult};
 use mesh::Meshes;
@@ -30,25 +30,58 @@ struct Context<'a> {
 /// From handles of the file to those of the scene. What is missing has gone.
 type HandleMap = BTreeMap<i32, Handle>;
 
-/// Adds the objects of a file to the scene. With `settings`, those of the scene become those of the file.
-///
-/// # Errors
-/// When the scene is full, or geometry is damaged: then nothing was added.
-pub(crate) fn load(scene: &mut Scene, file: &File, settings: bool) -> Result<Loaded, LoadError> {
-    let mut context = Context { header: &file.header, file, meshes: Meshes::new(file) };
-    let kinds: Vec<Kind> = file.contents.objects.iter().map(|o| kind_of(&mut context, o)).collect::<Result<_, _>>()?;
-    let objects = file.contents.objects.iter().zip(kinds).map(|(object, kind)| add(scene, &context, object, kind));
-    let objects = objects.collect::<SceneResult<Vec<Handle>>>()?;
-    let map: HandleMap =
-        file.contents.objects.iter().zip(&objects).filter_map(|(o, h)| Some((o.common.handles?[0], *h))).collect();
-    let root = place(scene, file, &objects, &map)?;
-    references::connect(scene, file, &objects, &map)?;
-    if settings {
-        settings::apply(scene, file)?;
+/// A file that has been understood, and is not in a scene yet.
+pub struct SceneFile {
+    file: File,
+    kinds: Vec<Kind>,
+}
+
+impl SceneFile {
+    /// # Errors
+    /// What is wrong with the bytes, and where.
+    pub fn read(bytes: &[u8]) -> FileResult<Self> {
+        Self::new(File::read(bytes)?)
     }
-    let scripts: Vec<LoadedScript> =
-        file.contents.scripts.iter().filter_map(|script| script::attached(script, &context, &map)).collect();
-    Ok(Loaded { objects, root, scripts })
+
+    /// # Errors
+    /// When geometry is damaged.
+    pub fn new(file: File) -> FileResult<Self> {
+        let mut context = Context { header: &file.header, file: &file, meshes: Meshes::new(&file) };
+        let kinds =
+            file.contents.objects.iter().map(|object| kind_of(&mut context, object)).collect::<Result<_, _>>()?;
+        Ok(Self { file, kinds })
+    }
+
+    /// A model, to be added to a scene; not a scene.
+    pub fn is_model(&self) -> bool {
+        self.file.contents.model_info.is_some() || self.file.header.kind == FileKind::Model as u8
+    }
+
+    /// The file as it was read.
+    pub fn file(&self) -> &File {
+        &self.file
+    }
+
+    /// Adds the objects to the scene. With `settings`, those of the scene become those of the file.
+    ///
+    /// # Errors
+    /// When the scene is full.
+    pub fn add_to(self, scene: &mut Scene, settings: bool) -> SceneResult<Loaded> {
+        let Self { file, kinds } = self;
+        let context = Context { header: &file.header, file: &file, meshes: Meshes::new(&file) };
+        let objects = file.contents.objects.iter().zip(kinds).map(|(object, kind)| add(scene, &context, object, kind));
+        let objects = objects.collect::<SceneResult<Vec<Handle>>>()?;
+        let known = file.contents.objects.iter().zip(&objects);
+        let map: HandleMap = known.filter_map(|(object, handle)| Some((object.common.handles?[0], *handle))).collect();
+        let root = place(scene, &file, &objects, &map)?;
+        references::connect(scene, &file, &objects, &map)?;
+        if settings {
+            settings::apply(scene, &file)?;
+        }
+        let scripts = file.contents.scripts.iter().filter_map(|script| script::attached(script, &context, &map));
+        let scripts: Vec<LoadedScript> = scripts.collect();
+        Ok(Loaded { objects, root, scripts })
+    }
 }
 
 fn add(scene: &mut Scene, context: &Context<'_>, object: &FileObject, kind: Kind) -> SceneResult<Handle> {
@@ -58,7 +91,7 @@ fn add(scene: &mut Scene, context: &Context<'_>, object: &FileObject, kind: Kind
 }
 
 /// The object's type with its data. Types that are gone, or not yet known, become dummies, so that the tree stays whole.
-fn kind_of(context: &mut Context<'_>, object: &FileObject) -> Result<Kind, LoadError> {
+fn kind_of(context: &mut Context<'_>, object: &FileObject) -> FileResult<Kind> {
     Ok(match &object.class {
         Class::Shape(shape) => {
             let shape = shape::shape(context, shape).map_err(|what| damaged(object, what))?;
@@ -88,10 +121,10 @@ fn kind_of(context: &mut Context<'_>, object: &FileObject) -> Result<Kind, LoadE
     })
 }
 
-fn damaged(object: &FileObject, what: String) -> LoadError {
+fn damaged(object: &FileObject, what: String) -> FileError {
     let name = common::alias(&object.common);
     let path = format!("{} ({name})", String::from_utf8_lossy(&object.class.tag()));
-    LoadError::File(FileError::Chunk { offset: object.offset, path, what })
+    FileError::Chunk { offset: object.offset, path, what }
 }
 
 /// Gives all their parents and their order; the last object without parent is the model.

@@ -1,0 +1,70 @@
+//! Scripts that belong to objects: since 4.7 as objects among their children, before as scripts attached to them.
+
+use std::rc::Rc;
+
+use super::instance::{Detached, Script};
+use super::sim::Sim;
+use crate::scene::script_object::{ScriptObject, ScriptType};
+use crate::scene::{Handle, Scene};
+
+/// Where old files say that a script comes before, with or after the others; later ones count from 0.
+const NORMAL_PRIORITY: i64 = 1;
+
+impl Sim {
+    /// Attaches a script to an object, as scenes before 4.7 have it.
+    pub(crate) fn attach_script(&self, owner: Handle, script: &ScriptObject, exec_order: i64) -> Rc<Script> {
+        self.has_attached.set(true);
+        self.add_detached(
+            script.script_type,
+            Detached {
+                code: script.code.clone(),
+                language: script.language.clone(),
+                disabled: script.disabled,
+                priority: (NORMAL_PRIORITY + exec_order).clamp(0, 2),
+                owner: Some(owner),
+                ..Detached::default()
+            },
+        )
+    }
+
+    /// The scripts of an object: those attached to it, simulation scripts first, then those among its children by priority.
+    pub(crate) fn scripts_of_object(&self, object: Handle) -> Vec<Rc<Script>> {
+        let children = script_children(&self.scene.borrow(), object);
+        let mut scripts = self.attached_to(object);
+        scripts.extend(children.into_iter().filter_map(|handle| self.script(handle.raw())));
+        scripts
+    }
+
+    /// The old scripts attached to an object, simulation scripts first.
+    pub(crate) fn attached_to(&self, object: Handle) -> Vec<Rc<Script>> {
+        if !self.has_attached.get() {
+            return Vec::new();
+        }
+        let scripts = self.scripts.borrow();
+        let mut attached: Vec<_> = scripts.values().filter(|script| script.owner() == Some(object)).cloned().collect();
+        attached.sort_by_key(|script| script.script_type != ScriptType::Simulation);
+        attached
+    }
+
+    /// Attaches to a copy what is attached to its original.
+    pub(crate) fn copy_attached(&self, original: Handle, copy: Handle) {
+        for script in self.attached_to(original) {
+            let detached = Detached { owner: Some(copy), ..script.detached.borrow().clone() };
+            self.add_detached(script.script_type, detached);
+        }
+    }
+}
+
+/// The scripts among the children of an object, by priority.
+fn script_children(scene: &Scene, object: Handle) -> Vec<Handle> {
+    let children = scene.object(object).map(|o| o.children().to_vec()).unwrap_or_default();
+    let mut scripts: Vec<_> =
+        children.into_iter().filter_map(|h| scene.object(h).ok()).filter(|o| o.script().is_ok()).collect();
+    scripts.sort_by_key(|object| object.priority);
+    scripts.into_iter().map(crate::scene::Object::handle).collect()
+}
+
+/// What follows the path of the object in the name of an attached script.
+pub(crate) fn log_suffix(script_type: ScriptType) -> &'static str {
+    if script_type == ScriptType::Customization { "@customizationScript" } else { "@simulationScript" }
+}
