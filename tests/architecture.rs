@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 /// The layers from the inside out; a module may import from its own row's modules it belongs to, and from rows above it.
 const LAYERS: &[&[&str]] = &[
     &["scene"],
-    &["dynamics", "format", "io", "wire"],
+    &["wire"],
+    &["dynamics", "format", "io"],
     &["script"],
     &["api", "modules"],
     &["simulator"],

@@ -865,7 +865,7 @@ function sim.getObjectAlias(objectHandle, options) end
 ---@return string path for sim.getObject with option proxy = baseHandle
 function sim.getObjectAliasRelative(handle, baseHandle, aliasOptions, options) end
 
---- The object of a script object: itself.
+--- The object of a script: itself, or the one an old script is attached to.
 ---@deprecated sim.getObject
 ---@param scriptHandle integer the script
 ---@return integer objectHandle -1 for the main script, the sandbox and add-ons
@@ -1639,15 +1639,22 @@ function sim.launchExecutable(filename, parameters, ShowStatus) end
 ---@return integer[] resolution the top row first
 function sim.loadImage(options, filename) end
 
+--- Adds a model to the scene, where it was saved.
+---@param filenameOrBuffer any a `.ttm` file or its bytes
+---@return integer objectHandle the base of the model
+function sim.loadModel(filenameOrBuffer) end
+
 --- Loads a plugin of this simulator.
 ---@param name string for instance simIK
 ---@return integer handle 0
 function sim.loadPlugin(name) end
 
 --- Replaces the scene. For add-ons and the sandbox, while the simulation is stopped.
----@param filename string a `.lua` file: its text becomes a customization script of the default scene; empty for the default scene alone
+---
+--- empty for the default scene alone
+---@param filenameOrBuffer any a `.ttt` file or its bytes; a `.lua` file, whose text becomes a customization script of the default scene;
 ---@return integer result 1
-function sim.loadScene(filename) end
+function sim.loadScene(filenameOrBuffer) end
 
 --- Pose of a matrix.
 ---@param matrix number[] upper 3 by 4 block, row by row

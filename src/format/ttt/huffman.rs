@@ -103,7 +103,7 @@ impl Tree {
         // Room for what the last byte writes beyond the end.
         let mut out = vec![0; size + 8];
         let (mut node, mut done) = (0, 0);
-        while bits.at % 8 != 0 && done < size {
+        while !bits.at.is_multiple_of(8) && done < size {
             node = self.step(node, bits.next()?, |symbol| {
                 out[done] = symbol;
                 done += 1;

@@ -69,7 +69,7 @@ fn without_language_mark(text: &[u8]) -> (Vec<u8>, Option<&'static str>) {
         let end = text[at..].iter().position(|byte| *byte == b'\n').map_or(text.len(), |length| at + length + 1);
         let line = text[at..end].trim_ascii();
         let comment = line.strip_prefix(b"--").or_else(|| line.strip_prefix(b"#"));
-        match comment.map(|comment| first_word(comment)) {
+        match comment.map(first_word) {
             Some(word) if word == b"python" || word == b"lua" => {
                 let rest = skip_blank_lines(&text[end..]);
                 let language = if word == b"lua" { "lua" } else { "python" };
