@@ -85,14 +85,13 @@ mod tests {
     #[test]
     fn real_files_come_back_as_they_were() {
         for path in real_files() {
-            let mut file =
-                File::read(&std::fs::read(&path).unwrap()).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+            let read = |bytes: &[u8]| File::read(bytes).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+            let file = read(&std::fs::read(&path).unwrap());
             assert_eq!(file.skipped, [], "{}", path.display());
-            let mut back = File::read(&file.write()).unwrap();
-            for object in file.contents.objects.iter_mut().chain(&mut back.contents.objects) {
-                object.offset = 0;
-            }
-            assert!(file.contents == back.contents, "{}", path.display());
+            let written = file.write();
+            // Bytes, since numbers that are none differ from themselves.
+            assert!(read(&written).write() == written, "{}", path.display());
+            assert_eq!(read(&written).contents.objects.len(), file.contents.objects.len());
         }
     }
 }
