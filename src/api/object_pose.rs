@@ -5,6 +5,7 @@
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::euler;
 use crate::scene::pose::{self, Pose};
 use crate::scene::{Frame, Handle, Placement, SceneError, flag, special};
 use crate::script::{Args, FromScript, ObjectRef};
@@ -109,7 +110,7 @@ fn get_object_orientation(
     object_handle: ObjectRef,
     #[default(special::WORLD)] relative_to_object_handle: StrictFrame,
 ) -> Result<[f64; 3]> {
-    Ok(pose::rotation_to_euler(&pose_in(cx, object_handle, relative_to_object_handle)?.rotation))
+    Ok(euler::rotation_to_euler(&pose_in(cx, object_handle, relative_to_object_handle)?.rotation))
 }
 
 /// Turns an object; its position stays.
@@ -125,7 +126,7 @@ fn set_object_orientation(
     #[default(special::WORLD)] relative_to_object_handle: Operand<3, StrictFrame>,
 ) -> Result<()> {
     let (euler, frame) = arrange(euler_angles, relative_to_object_handle)?;
-    place(cx, object_handle, Placement::Rotation(pose::rotation_from_euler(&euler)), frame)
+    place(cx, object_handle, Placement::Rotation(euler::rotation_from_euler(&euler)), frame)
 }
 
 /// Pose of an object.

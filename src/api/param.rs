@@ -9,7 +9,7 @@ use api_macro::api;
 
 use super::param_property::{self, FLOATS, INTEGERS, LEVELS, LIGHT, SWITCHES, TEXTS};
 use super::{ApiFn, Cx, Result, functions};
-use crate::scene::{SceneError, pose};
+use crate::scene::{SceneError, euler};
 use crate::script::{Bytes, Color, Number, PropertyValue, Target, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -197,7 +197,7 @@ fn get_array_param(cx: &Cx, parameter: Number) -> Result<[f64; 3]> {
         array::AMBIENT_LIGHT => {
             param_property::read(cx, LIGHT, array::AMBIENT_LIGHT)?.map_or([0.0; 3], |light: Color| light.0)
         }
-        array::RANDOM_EULER => pose::rotation_to_euler(&cx.env().random.borrow_mut().rotation()),
+        array::RANDOM_EULER => euler::rotation_to_euler(&cx.env().random.borrow_mut().rotation()),
         other => {
             let number = known(other, array::LAST)?;
             cx.sim().app.borrow().idle_params.arrays.get(&number).copied().unwrap_or_default()

@@ -4,6 +4,7 @@ use api_macro::api;
 
 use super::object_pose::checked;
 use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::euler;
 use crate::scene::pose::{self, Pose, PoseError};
 use crate::script::{Args, FromScript};
 
@@ -53,7 +54,7 @@ fn build_identity_matrix(_cx: &Cx) -> Result<[f64; 12]> {
 /// @return matrix upper 3 by 4 block, row by row
 #[api("sim.buildMatrix")]
 fn build_matrix(_cx: &Cx, position: [f64; 3], euler_angles: [f64; 3]) -> Result<[f64; 12]> {
-    Ok(pose::build_matrix(&checked(position)?, &checked(euler_angles)?))
+    Ok(euler::build_matrix(&checked(position)?, &checked(euler_angles)?))
 }
 
 /// Matrix of a position and a quaternion.
@@ -167,7 +168,7 @@ fn pose_to_matrix(_cx: &Cx, pose: [f64; 7]) -> Result<[f64; 12]> {
 /// @return eulerAngles alpha, beta, gamma, radians
 #[api("sim.getEulerAnglesFromMatrix")]
 fn get_euler_angles_from_matrix(_cx: &Cx, matrix: [f64; 12]) -> Result<[f64; 3]> {
-    Ok(pose::matrix_to_euler(&checked(matrix)?))
+    Ok(euler::matrix_to_euler(&checked(matrix)?))
 }
 
 /// Rotation of a matrix.

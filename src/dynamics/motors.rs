@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use crate::scene::joint::{Control, Joint};
-use crate::scene::ruckig;
+use crate::scene::{ruckig, ruckig_plan};
 
 /// The time in which position control closes the fraction P of its error, whatever the sub-step.
 const CONTROL_PERIOD: f64 = 0.005;
@@ -75,7 +75,7 @@ impl Motor {
         }
         let (velocity, acceleration) = self.profile;
         let (target, max_accel, max_jerk) = (joint.target_velocity, joint.max_accel, joint.max_jerk);
-        self.follow(ruckig::velocity_step(now.position, velocity, acceleration, target, max_accel, max_jerk, step))
+        self.follow(ruckig_plan::velocity_step(now.position, velocity, acceleration, target, max_accel, max_jerk, step))
     }
 
     fn approach(&mut self, joint: &Joint, [p, i, d]: [f64; 3], now: Motion, step: f64) -> f64 {
@@ -84,8 +84,16 @@ impl Motor {
             let (velocity, acceleration) = self.profile;
             let limits = (joint.max_vel, joint.max_accel, joint.max_jerk);
             let target = now.position + error;
-            let next =
-                ruckig::position_step(now.position, velocity, acceleration, target, limits.0, limits.1, limits.2, step);
+            let next = ruckig_plan::position_step(
+                now.position,
+                velocity,
+                acceleration,
+                target,
+                limits.0,
+                limits.1,
+                limits.2,
+                step,
+            );
             return self.follow(next);
         }
         self.integral = if i == 0.0 { 0.0 } else { self.integral + error * step };

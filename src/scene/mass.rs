@@ -266,7 +266,7 @@ mod tests {
 
     #[test]
     fn grouping_of_rotated_members() {
-        let at = |p: [f64; 3], e: [f64; 3]| pose_from_matrix(&crate::scene::pose::build_matrix(&p, &e));
+        let at = |p: [f64; 3], e: [f64; 3]| pose_from_matrix(&crate::scene::euler::build_matrix(&p, &e));
         let (a, b) = (at([0.1, 0.2, 0.3], [0.4, 0.5, 0.6]), at([-0.5, 0.1, 0.2], [1., 0.2, 0.1]));
         let box_ = primitive(PrimitiveKind::Cuboid, [0.1, 0.2, 0.3]);
         let rod = primitive(PrimitiveKind::Cylinder, [0.2, 0.2, 0.5]);

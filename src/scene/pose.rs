@@ -1,4 +1,4 @@
-//! Poses, matrices, angles and measured velocities: pure maths, no scene.
+//! Poses and matrices: pure maths, no scene. Angles are next door, in `euler`.
 //!
 //! Positions are in metres, angles in radians. At the scripting edge a pose is
 //! `[x, y, z, qx, qy, qz, qw]`, a matrix the upper 3x4 block in row-major order, an
@@ -7,6 +7,8 @@
 
 use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3};
 use thiserror::Error;
+
+use super::euler::rotation_from_euler;
 
 /// A rigid transform; the translation is in metres.
 pub type Pose = Isometry3<f64>;
@@ -103,44 +105,6 @@ pub fn inverse_pose(p: &[f64; 7]) -> [f64; 7] {
     [t.x, t.y, t.z, q[0], q[1], q[2], q[3]]
 }
 
-/// Rotation from Euler angles: `Rx(alpha) Ry(beta) Rz(gamma)`.
-pub fn rotation_from_euler(e: &[f64; 3]) -> UnitQuaternion<f64> {
-    let q = axis_quaternion(0, e[0]) * axis_quaternion(1, e[1]) * axis_quaternion(2, e[2]);
-    quaternion_from_array(&[q.i, q.j, q.k, q.w])
-}
-
-/// Euler angles of a rotation, beta in [-pi/2, pi/2]; in gimbal lock alpha is 0.
-pub fn rotation_to_euler(q: &UnitQuaternion<f64>) -> [f64; 3] {
-    euler_of(&rotation_matrix(q))
-}
-
-/// Matrix from a position and Euler angles, `sim.buildMatrix`.
-pub fn build_matrix(position: &[f64; 3], euler: &[f64; 3]) -> [f64; 12] {
-    to_matrix(&rotation_matrix(&rotation_from_euler(euler)), &Vector3::from(*position))
-}
-
-/// Euler angles of a matrix, which is orthonormalised first: `sim.getEulerAnglesFromMatrix`.
-pub fn matrix_to_euler(m: &[f64; 12]) -> [f64; 3] {
-    euler_of(&orthonormal_block(m))
-}
-
-/// Alpha, beta, gamma of `Rz(yaw) Ry(pitch) Rx(roll)`.
-pub fn euler_from_yaw_pitch_roll(yaw: f64, pitch: f64, roll: f64) -> [f64; 3] {
-    let q = axis_quaternion(2, yaw) * axis_quaternion(1, pitch) * axis_quaternion(0, roll);
-    rotation_to_euler(&quaternion_from_array(&[q.i, q.j, q.k, q.w]))
-}
-
-/// Yaw, pitch, roll of `Rx(alpha) Ry(beta) Rz(gamma)`; in gimbal lock yaw is 0.
-pub fn yaw_pitch_roll_from_euler(alpha: f64, beta: f64, gamma: f64) -> [f64; 3] {
-    let r = rotation_matrix(&rotation_from_euler(&[alpha, beta, gamma]));
-    let pitch = (-r[(2, 0)]).clamp(-1.0, 1.0).asin();
-    if r[(2, 0)].abs() < 0.999999 {
-        [r[(1, 0)].atan2(r[(0, 0)]), pitch, r[(2, 1)].atan2(r[(2, 2)])]
-    } else {
-        [0.0, pitch, (-r[(1, 2)]).atan2(r[(1, 1)])]
-    }
-}
-
 /// Pose at fraction `t` from `a` to `b`: position on the line, rotation on the shortest arc.
 /// `t` outside 0..1 extrapolates.
 pub fn interpolate(a: &Pose, b: &Pose, t: f64) -> Pose {
@@ -210,29 +174,7 @@ pub fn multiply_vector(transform: &[f64], v: &[f64]) -> Result<Vec<f64>, PoseErr
     Ok(points.flat_map(|p| <[f64; 3]>::from(apply(p))).collect())
 }
 
-/// Mean linear velocity (m/s) between two poses `dt` seconds apart; zero unless `dt` is positive.
-pub fn linear_velocity(previous: &Pose, now: &Pose, dt: f64) -> [f64; 3] {
-    per_second((now.translation.vector - previous.translation.vector).into(), dt)
-}
-
-/// Measured angular velocity without `handleflag_axis`: the Euler angles of the turn, seen from the
-/// previous frame, per second. Not a vector in world axes. Zero unless `dt` is positive.
-pub fn angular_velocity_euler(previous: &Pose, now: &Pose, dt: f64) -> [f64; 3] {
-    per_second(rotation_to_euler(&(previous.rotation.inverse() * now.rotation)), dt)
-}
-
-/// Measured angular velocity with `handleflag_axis`: mean angular velocity (rad/s) in world axes.
-/// Zero unless `dt` is positive.
-pub fn angular_velocity_axis(previous: &Pose, now: &Pose, dt: f64) -> [f64; 3] {
-    let turn = shortest(now.rotation * previous.rotation.inverse());
-    per_second(turn.scaled_axis().into(), dt)
-}
-
-fn per_second(v: [f64; 3], dt: f64) -> [f64; 3] {
-    if dt > 0.0 { v.map(|c| c / dt) } else { [0.0; 3] }
-}
-
-fn shortest(q: UnitQuaternion<f64>) -> UnitQuaternion<f64> {
+pub(super) fn shortest(q: UnitQuaternion<f64>) -> UnitQuaternion<f64> {
     if q.w < 0.0 { UnitQuaternion::new_unchecked(-q.into_inner()) } else { q }
 }
 
@@ -242,13 +184,7 @@ fn sandwich(q: &[f64; 4], v: &Vector3<f64>) -> Vector3<f64> {
     (q * Quaternion::from_imag(*v) * q.conjugate()).imag()
 }
 
-fn axis_quaternion(axis: usize, angle: f64) -> Quaternion<f64> {
-    let mut imaginary = Vector3::zeros();
-    imaginary[axis] = (0.5 * angle).sin();
-    Quaternion::from_parts((0.5 * angle).cos(), imaginary)
-}
-
-fn rotation_matrix(q: &UnitQuaternion<f64>) -> Matrix3<f64> {
+pub(super) fn rotation_matrix(q: &UnitQuaternion<f64>) -> Matrix3<f64> {
     q.to_rotation_matrix().into_inner()
 }
 
@@ -256,7 +192,7 @@ fn rotation_block(m: &[f64; 12]) -> Matrix3<f64> {
     Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10])
 }
 
-fn to_matrix(r: &Matrix3<f64>, t: &Vector3<f64>) -> [f64; 12] {
+pub(super) fn to_matrix(r: &Matrix3<f64>, t: &Vector3<f64>) -> [f64; 12] {
     let row = |i: usize| [r[(i, 0)], r[(i, 1)], r[(i, 2)], t[i]];
     let mut m = [0.0; 12];
     (0..3).for_each(|i| m[4 * i..4 * i + 4].copy_from_slice(&row(i)));
@@ -268,7 +204,7 @@ fn unit(v: Vector3<f64>) -> Option<Vector3<f64>> {
     (v.iter().all(|c| c.is_finite()) && largest > 0.0).then(|| (v / largest).normalize())
 }
 
-fn orthonormal_block(m: &[f64; 12]) -> Matrix3<f64> {
+pub(super) fn orthonormal_block(m: &[f64; 12]) -> Matrix3<f64> {
     let r = rotation_block(m);
     let axes = || {
         let z = unit(r.column(2).into())?;
@@ -281,15 +217,6 @@ fn orthonormal_block(m: &[f64; 12]) -> Matrix3<f64> {
 fn rotation_from_columns(r: &Matrix3<f64>) -> UnitQuaternion<f64> {
     let q = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*r));
     quaternion_from_array(&quaternion_to_array(&q))
-}
-
-fn euler_of(r: &Matrix3<f64>) -> [f64; 3] {
-    let beta = r[(0, 2)].clamp(-1.0, 1.0).asin();
-    if r[(0, 2)].abs() < 0.999995 {
-        [(-r[(1, 2)]).atan2(r[(2, 2)]), beta, (-r[(0, 1)]).atan2(r[(0, 0)])]
-    } else {
-        [0.0, beta, r[(1, 0)].atan2(r[(1, 1)])]
-    }
 }
 
 /// Rotation whose axis `i` is `v`. `second` approximates the next axis, or the one after when `after`;
@@ -307,12 +234,13 @@ fn axes_rotation(v: &[f64; 3], second: Option<&[f64; 3]>, i: usize, after: bool)
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
+    use super::super::euler::build_matrix;
     use super::*;
     use std::f64::consts::{FRAC_1_SQRT_2 as S, FRAC_PI_2, PI};
 
     #[track_caller]
-    fn close(a: &[f64], b: &[f64]) {
+    pub fn close(a: &[f64], b: &[f64]) {
         assert_eq!(a.len(), b.len());
         assert!(a.iter().zip(b).all(|(x, y)| (x - y).abs() < 2e-9), "{a:?} is not {b:?}");
     }
@@ -323,21 +251,6 @@ mod tests {
         let dot: f64 = a[3..].iter().zip(&b[3..]).map(|(x, y)| x * y).sum();
         a[3..].iter_mut().for_each(|c| *c *= dot.signum());
         close(&a, b);
-    }
-
-    #[test]
-    fn euler_angles_p1_to_p3() {
-        let m = build_matrix(&[0.; 3], &[0.1, 0.2, 0.3]);
-        close(&m[..3], &[0.936293364, -0.289629478, 0.198669331]);
-        close(&m[4..7], &[0.312991826, 0.944702486, -0.097843395]);
-        close(&matrix_to_euler(&m), &[0.1, 0.2, 0.3]);
-        for (sign, gamma) in [(1.0, 0.7), (-1.0, -0.1)] {
-            let m = build_matrix(&[0.; 3], &[0.4, sign * FRAC_PI_2, 0.3]);
-            let e = matrix_to_euler(&m);
-            assert!(e[0] == 0.0 && (e[1] - sign * FRAC_PI_2).abs() < 1e-6 && (e[2] - gamma).abs() < 1e-6);
-        }
-        let folded = matrix_to_euler(&build_matrix(&[0.; 3], &[0.1, 2.0, 0.3]));
-        close(&folded, &[-3.041592654, 1.141592654, -2.841592654]);
     }
 
     #[test]
@@ -383,12 +296,6 @@ mod tests {
     }
 
     #[test]
-    fn yaw_pitch_roll_p8() {
-        close(&euler_from_yaw_pitch_roll(0.3, 0.2, 0.1), &[0.037879881, 0.220124031, 0.285771701]);
-        close(&yaw_pitch_roll_from_euler(0.1, 0.2, 0.3), &[0.322609691, 0.160027220, 0.156419513]);
-    }
-
-    #[test]
     fn vectors_p11_are_not_normalised() {
         let pose = [1., 2., 3., 0., 0., 0., 1.];
         close(&multiply_vector(&pose, &[1., 1., 1., 0., 0., 0., 9.]).expect("pose"), &[2., 3., 4., 1., 2., 3.]);
@@ -396,16 +303,6 @@ mod tests {
         let scaled = [2., 0., 0., 1., 0., 2., 0., 2., 0., 0., 2., 3.];
         close(&multiply_vector(&scaled, &[1., 1., 1.]).expect("matrix"), &[3., 4., 5.]);
         assert_eq!(multiply_vector(&[1., 2.], &[]), Err(PoseError::TransformSize(2)));
-    }
-
-    #[test]
-    fn measured_velocities_of_both_kinds() {
-        let a = pose_from_matrix(&build_matrix(&[0.; 3], &[1., 0., 0.]));
-        let b = pose_from_matrix(&build_matrix(&[0.02, 0., 0.], &[1., 0., 0.1]));
-        close(&linear_velocity(&a, &b, 0.05), &[0.4, 0., 0.]);
-        close(&angular_velocity_euler(&a, &b, 0.05), &[0., 0., 2.]);
-        close(&angular_velocity_axis(&a, &b, 0.05), &[0., -2.0 * 1_f64.sin(), 2.0 * 1_f64.cos()]);
-        assert_eq!(linear_velocity(&a, &b, 0.0), [0.0; 3]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::joint::JointType;
-use super::{Change, Field, Handle, Kind, Measured, Pose, Scene, SceneError, SceneResult, pose, special};
+use super::{Change, Field, Handle, Kind, Measured, Pose, Scene, SceneError, SceneResult, measured_velocity, special};
 
 /// The frame a pose is expressed in, as scripts name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -191,9 +191,9 @@ fn measured(previous: Option<Pose>, now: Pose, dt: Option<f64>) -> Measured {
     match (previous, dt) {
         (Some(before), Some(dt)) if before != now => Measured {
             previous: Some(now),
-            linear: pose::linear_velocity(&before, &now, dt),
-            euler_rate: pose::angular_velocity_euler(&before, &now, dt),
-            angular: pose::angular_velocity_axis(&before, &now, dt),
+            linear: measured_velocity::linear_velocity(&before, &now, dt),
+            euler_rate: measured_velocity::angular_velocity_euler(&before, &now, dt),
+            angular: measured_velocity::angular_velocity_axis(&before, &now, dt),
         },
         _ => Measured { previous: Some(now), ..Measured::default() },
     }
