@@ -476,6 +476,20 @@ function sim.executeScriptString(stringToExecute, scriptHandle) end
 ---@param enable boolean ignored
 function sim.fastIdleLoop(enable) end
 
+--- The fastest motion along a path within limits of velocity and acceleration, from rest to rest.
+---@param path number[] flat table of points
+---@param pathLengths number[] from sim.getPathLengths
+---@param minMaxVel number[] minimum and maximum velocity of each axis
+---@param minMaxAccel number[] minimum and maximum acceleration of each axis
+---@param trajPtSamples? integer number of points wanted
+---@param boundaryCondition? string ends of the spline through the points: 'not-a-knot', 'clamped', 'natural' or 'periodic'
+---@param timeout? number not used: the calculation takes milliseconds
+---@param calculationScriptHandle? integer not used: there is no script that calculates
+---@return number[] outPath flat table of trajPtSamples points at equal times
+---@return number[] times of the points, seconds
+---@return integer scriptHandle calculationScriptHandle as given
+function sim.generateTimeOptimalTrajectory(path, pathLengths, minMaxVel, minMaxAccel, trajPtSamples, boundaryCondition, timeout, calculationScriptHandle) end
+
 --- Configurations that put the same robot in the same place: full turns added where the joints allow them.
 ---@param joints integer[] handles
 ---@param config number[] their positions

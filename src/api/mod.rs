@@ -48,6 +48,7 @@ mod socket;
 mod subprocess;
 mod thread;
 mod time;
+mod trajectory;
 mod tube;
 mod user_param;
 mod zmq;
@@ -94,6 +95,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Sensors", sensors::FUNCTIONS),
     ("Sensor objects", sensor_objects::FUNCTIONS),
     ("Ruckig", ruckig::FUNCTIONS),
+    ("Time-optimal trajectories", trajectory::FUNCTIONS),
     ("Dynamics", dynamics::FUNCTIONS),
     ("Engine parameters", engine_param::FUNCTIONS),
     ("Events", events::FUNCTIONS),
