@@ -1,3 +1,6 @@
+-- topic: motion
+-- as: simulation
+-- passes: 2
 -- sim.generateTimeOptimalTrajectory: closed forms, limits, refusals.
 sim = require 'sim'
 
