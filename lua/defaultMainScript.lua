@@ -55,7 +55,8 @@ local function cycleOf(dt) return dt / math.max(1, math.floor(dt / BASE_CYCLE + 
 
 local function ruckigStep(create, ...)
     local dt = getTimeStep()
-    local motion = create(1, cycleOf(dt), -1, ...)
+    local isPossible, motion = pcall(create, 1, cycleOf(dt), -1, ...)
+    if not isPossible then return -1 end -- limits nobody can keep, such as an infinite jerk
     local result, state, remaining = sim.ruckigStep(motion, dt)
     sim.ruckigRemove(motion)
     return result, state, remaining

@@ -9,7 +9,7 @@ use rapier3d_f64::prelude::{
 
 use super::colliders;
 use super::convert::{from_pose, to_matrix, to_pose, to_vector};
-use super::plan::{BodyBuild, BodyPlan, Surface};
+use super::plan::{BodyBuild, BodyPlan, Surface, is_far};
 use super::world::World;
 use crate::scene::pose::interpolate;
 use crate::scene::{Field, Handle, Pose, Scene};
@@ -67,7 +67,9 @@ impl Bodies {
     /// Whether a script moved a shape, or asks for it to be built anew.
     pub(super) fn were_touched(&self, scene: &Scene) -> bool {
         self.by_shape.iter().any(|(&shape, body)| match scene.object(shape) {
-            Ok(object) => object.dynamics_reset || (body.build.dynamic && object.pose() != body.local),
+            Ok(object) => {
+                object.dynamics_reset || (body.build.dynamic && object.pose() != body.local) || is_far(scene, shape)
+            }
             Err(_) => true,
         })
     }

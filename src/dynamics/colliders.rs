@@ -4,6 +4,7 @@
 //! decomposed into convex pieces, because triangles have no inside.
 
 use rapier3d_f64::math::{Pose as EnginePose, Rotation, Vector};
+use rapier3d_f64::parry::transformation::vhacd::{VHACD, VHACDParameters};
 use rapier3d_f64::prelude::SharedShape;
 
 use super::convert::{to_pose, to_vector};
@@ -14,6 +15,8 @@ use crate::scene::shape::Primitive;
 
 /// The smallest thickness of anything, metres.
 const THIN: f64 = 0.0001;
+/// Meshes smaller or larger than these collide with nothing, metres.
+const SIZES: std::ops::Range<f64> = 1e-6..1e6;
 
 /// Forms of one part, placed in the shape frame. Empty when the part has no volume and no surface.
 pub(super) fn forms(part: &PartForm, dynamic: bool) -> Vec<(EnginePose, SharedShape)> {
@@ -43,20 +46,35 @@ fn analytic(primitive: &Primitive) -> Option<(EnginePose, SharedShape)> {
 
 fn mesh_form(part: &PartForm, dynamic: bool) -> Option<SharedShape> {
     let points: Vec<Vector> = part.mesh.vertices.iter().map(|&vertex| to_vector(vertex)).collect();
-    if points.len() < 3 {
+    if points.len() < 3 || !has_size(&part.mesh) {
         return None;
     }
     if part.convex {
         return SharedShape::convex_hull(&points).or_else(|| surface(points, &part.mesh));
     }
     if dynamic && part.primitive.is_none() && has_volume(&part.mesh) {
-        return Some(SharedShape::convex_decomposition(&points, &part.mesh.triangles));
+        return pieces(&points, &part.mesh).or_else(|| surface(points, &part.mesh));
     }
     surface(points, &part.mesh)
 }
 
+/// The convex pieces of a mesh, if it has an inside.
+fn pieces(points: &[Vector], mesh: &Mesh) -> Option<SharedShape> {
+    let hulls = VHACD::decompose(&VHACDParameters::default(), points, &mesh.triangles, true)
+        .compute_exact_convex_hulls(points, &mesh.triangles);
+    let convex = |(points, triangles): (Vec<Vector>, Vec<[u32; 3]>)| SharedShape::convex_mesh(points, &triangles);
+    let parts: Vec<_> = hulls.into_iter().filter_map(convex).map(|piece| (EnginePose::IDENTITY, piece)).collect();
+    (!parts.is_empty()).then(|| SharedShape::compound(parts))
+}
+
 fn surface(points: Vec<Vector>, mesh: &Mesh) -> Option<SharedShape> {
     SharedShape::trimesh(points, mesh.triangles.clone()).ok()
+}
+
+/// Whether the geometry of a mesh can be computed with.
+fn has_size(mesh: &Mesh) -> bool {
+    let extent = |(low, high): ([f64; 3], [f64; 3])| (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
+    mesh.aabb().is_some_and(|aabb| SIZES.contains(&extent(aabb)))
 }
 
 /// Flat meshes cannot be decomposed.

@@ -188,7 +188,7 @@ fn collect_pair(world: &World, pair: &ContactPair, shapes: [Handle; 2], pass: u3
         let normal = -manifold.data.normal;
         for contact in &manifold.data.solver_contacts {
             let Some(data) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
-            if data.data.impulse == 0.0 {
+            if data.data.impulse == 0.0 || !data.data.impulse.is_finite() {
                 continue;
             }
             let (a, b) = manifold.data.solver_contact_world_points(contact, &world.bodies);

@@ -12,7 +12,7 @@ use rapier3d_f64::prelude::{
 };
 
 use super::bodies::Bodies;
-use super::convert::{from_pose, to_pose};
+use super::convert::{from_pose, is_finite, to_pose};
 use super::load::{Load, Rows};
 use super::motors::{Drive, Motion, Motor, wrap};
 use super::plan::{LinkKind, LinkPlan};
@@ -197,7 +197,7 @@ impl Link {
 
     /// Reads position, velocity, effort and load after a sub-step of `step` seconds; returns the pose of the moving side.
     pub(super) fn after_step(&mut self, world: &World, step: f64) -> Option<Pose> {
-        let relative = self.deviation(world)?;
+        let relative = self.deviation(world).filter(is_finite)?;
         let before = self.motion.position;
         let position = self.position_near(&relative);
         self.motion = Motion { position, velocity: (position - before) / step };
@@ -206,14 +206,20 @@ impl Link {
         let (rows, force) = std::mem::take(&mut self.exact);
         let axis = self.axis().filter(|_| self.shared && self.drive.is_some());
         let impulse = axis.map_or(0.0, |axis| joint.data.motors[axis as usize].impulse);
-        self.efforts.push(impulse / step - force);
+        self.efforts.push(finite(impulse / step - force));
         if let Some(residual) = self.rows.take() {
             let impulses = if self.shared { joint.impulses } else { Default::default() };
             let (force, torque) = residual.load(&impulses, step);
-            self.loads.push(([0, 1, 2].map(|i| force[i] - rows[i]), [0, 1, 2].map(|i| torque[i] - rows[i + 3])));
+            let load = |of: [f64; 3], at: usize| [0, 1, 2].map(|i| finite(of[i] - rows[at + i]));
+            self.loads.push((load(force, 0), load(torque, 3)));
         }
         Some(relative)
     }
+}
+
+/// What overflowed is not read at all.
+fn finite(reading: f64) -> f64 {
+    if reading.is_finite() { reading } else { 0.0 }
 }
 
 /// rapier knows no screw: what ties its turns to its way, only the articulation holds.

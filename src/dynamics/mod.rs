@@ -8,7 +8,7 @@
 //!
 //! - `plan`: who takes part, decided over the scene alone; compared with what exists, so that only changes touch the engine.
 //! - `bodies`, `colliders`, `links`: plans made real; `articulation`: all links solved at once.
-//! - `motors`: the control law; `load`, `contacts`: what is read back.
+//! - `motors`: the control law; `load`, `contacts`: what is read back; `frozen`: bodies that could not go on.
 //!
 //! Bodies never sleep and no state outlives the run: the same scene gives the same bytes.
 
@@ -17,6 +17,7 @@ mod bodies;
 mod colliders;
 mod contacts;
 mod convert;
+mod frozen;
 mod links;
 mod load;
 mod motors;
@@ -34,6 +35,7 @@ use articulation::Articulation;
 use bodies::Bodies;
 use contacts::Contact;
 pub(crate) use contacts::{Judge, Verdict};
+use frozen::Frozen;
 use links::Links;
 
 use motors::Motion;
@@ -53,6 +55,9 @@ pub(crate) struct Dynamics {
     links: Links,
     articulation: Articulation,
     contacts: Vec<Contact>,
+    frozen: Frozen,
+    /// Roots too far away to be simulated.
+    far: Vec<Handle>,
     /// The state of the scene the plan was made for.
     revision: Option<u64>,
     call: Option<Call>,
@@ -134,14 +139,18 @@ impl Dynamics {
     /// Makes a new plan when something it depends on has changed.
     fn follow(&mut self, scene: &mut Scene) {
         let revision = scene.changes().dynamics_revision();
+        let released = self.frozen.release(scene);
         if self.revision == Some(revision)
+            && !released
             && !self.bodies.were_touched(scene)
             && !links::were_touched(&self.links, scene)
+            && !self.far.iter().any(|&root| !plan::is_far(scene, root))
         {
             return;
         }
         let world = self.world.get_or_insert_with(World::new);
-        let plan = Plan::new(scene);
+        let plan = Plan::new(scene, &self.frozen);
+        self.far = plan.far;
         self.bodies.follow(plan.bodies, world, scene);
         links::follow(&mut self.links, plan.links, &self.bodies, world, scene);
         contacts::ask_about_all(world, self.asks);
@@ -204,6 +213,11 @@ impl Dynamics {
     pub(crate) fn simulates(&self, object: Handle) -> bool {
         self.bodies.get(object).is_some()
             || self.links.get(&object).is_some_and(|link| link.plan.kind != plan::LinkKind::Weld)
+    }
+
+    /// Shapes that had to be stopped since this was last asked: their motion was no longer one of numbers.
+    pub(crate) fn take_frozen(&mut self) -> Vec<Handle> {
+        self.frozen.take_unreported()
     }
 
     /// The contacts of the last call, in the order of its passes.

@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use super::frozen::Frozen;
 use crate::scene::dummy::LinkType;
 use crate::scene::joint::{Joint, JointMode, JointType};
 use crate::scene::mass::MassProperties;
@@ -16,7 +17,7 @@ use crate::scene::{Handle, Kind, Object, Pose, Scene, Uid};
 /// `sim.modelproperty_not_dynamic` and `_not_respondable`.
 const NOT_DYNAMIC: i64 = 0x20;
 const NOT_RESPONDABLE: i64 = 0x40;
-/// Roots further from the origin than this are out of service, metres.
+/// Root shapes further from the origin than this are out of service with their trees, metres.
 const ACTIVITY_RANGE: f64 = 1000.0;
 
 /// What the engine should hold.
@@ -26,6 +27,8 @@ pub(super) struct Plan {
     pub bodies: Vec<(Handle, BodyPlan)>,
     /// By the joint, force sensor or (smaller) dummy that stands for the link.
     pub links: BTreeMap<Handle, LinkPlan>,
+    /// Roots out of the range of the physics.
+    pub far: Vec<Handle>,
 }
 
 /// A rigid body.
@@ -101,10 +104,12 @@ pub(super) enum LinkKind {
 }
 
 impl Plan {
-    pub(super) fn new(scene: &Scene) -> Self {
+    pub(super) fn new(scene: &Scene, frozen: &Frozen) -> Self {
         let order = scene.all_breadth_first();
-        let bodies: Vec<_> = order.iter().filter_map(|&handle| Some((handle, body(scene, handle)?))).collect();
-        let mut plan = Self { bodies, links: BTreeMap::new() };
+        let far: Vec<_> = order.iter().copied().filter(|&handle| is_far(scene, handle)).collect();
+        let here = order.iter().filter(|&&handle| far.is_empty() || !far.contains(&scene.root_of(handle)));
+        let bodies = here.filter_map(|&handle| Some((handle, body(scene, handle, frozen)?))).collect();
+        let mut plan = Self { bodies, links: BTreeMap::new(), far };
         let roles: BTreeMap<Handle, bool> = plan.bodies.iter().map(|(h, body)| (*h, body.build.dynamic)).collect();
         for handle in order {
             if let Some(link) = link(scene, handle, &roles) {
@@ -115,7 +120,7 @@ impl Plan {
     }
 }
 
-fn body(scene: &Scene, handle: Handle) -> Option<BodyPlan> {
+fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
     let object = scene.object(handle).ok()?;
     let shape = object.shape().ok()?;
     let dynamics = &shape.dynamics;
@@ -124,12 +129,13 @@ fn body(scene: &Scene, handle: Handle) -> Option<BodyPlan> {
     }
     let flags = scene.calculated_model_property(handle);
     let (dynamic_tree, respondable_tree) = (flags & NOT_DYNAMIC == 0, flags & NOT_RESPONDABLE == 0);
-    if !(dynamic_tree || respondable_tree) || is_out_of_range(scene, handle) {
+    let is_somewhere = || scene.world_pose(handle).is_ok_and(|pose| super::convert::is_finite(&pose));
+    if !(dynamic_tree || respondable_tree) || !is_somewhere() {
         return None;
     }
     let build = BodyBuild {
         uid: object.uid(),
-        dynamic: dynamic_tree && !dynamics.is_static,
+        dynamic: dynamic_tree && !dynamics.is_static && !frozen.contains(handle),
         respondable: respondable_tree && dynamics.respondable,
         mass: shape.mass,
         parts: shape.parts.iter().map(PartForm::of).collect(),
@@ -155,11 +161,13 @@ fn surface(scene: &Scene, handle: Handle, shape: &Shape) -> Surface {
     }
 }
 
-/// Far trees, and those at no place at all, are not simulated.
-fn is_out_of_range(scene: &Scene, handle: Handle) -> bool {
-    let root = scene.root_of(handle);
-    let here = |h| scene.world_pose(h).is_ok_and(|pose| pose.translation.vector.norm() <= ACTIVITY_RANGE);
-    !here(root) || !scene.world_pose(handle).is_ok_and(|pose| super::convert::is_finite(&pose))
+/// Whether this is a shape without parent out of the range of the physics; what hangs on it is out of service as well.
+pub(super) fn is_far(scene: &Scene, handle: Handle) -> bool {
+    scene.object(handle).is_ok_and(|object| {
+        object.parent().is_none()
+            && matches!(object.kind, Kind::Shape(_))
+            && object.pose().translation.vector.norm() > ACTIVITY_RANGE
+    })
 }
 
 /// Whether a static shape that collides with nothing is needed as the base of a joint, force sensor or weld.

@@ -12,6 +12,7 @@ use super::world::World;
 use super::{Dynamics, Pass, contacts};
 use crate::scene::dynamics_report::JointReport;
 use crate::scene::force_sensor::{Filter, ForceSensor};
+use crate::scene::poses::is_place;
 use crate::scene::shape::Velocity;
 use crate::scene::{Field, Handle, Kind, Pose, Scene};
 
@@ -45,9 +46,14 @@ impl Dynamics {
                 report_link(scene, handle, link, moving_side);
             }
         }
+        let mut stopped = Vec::new();
         let shapes: Vec<Handle> = self.bodies.iter().filter(|(_, b)| b.build.dynamic).map(|(shape, _)| shape).collect();
         for shape in shapes {
-            let Some((pose, velocity)) = self.bodies.get(shape).and_then(|body| state(body, &world)) else { continue };
+            let Some(state) = self.bodies.get(shape).map(|body| state(body, &world)) else { continue };
+            let Some((pose, velocity)) = state else {
+                stopped.push(shape);
+                continue;
+            };
             let pose = (!is_held(&self.links, scene, shape)).then_some(pose);
             // A shape that was removed meanwhile has nothing to be told.
             if let Ok(local) = scene.report_body(shape, pose, velocity) {
@@ -56,6 +62,20 @@ impl Dynamics {
         }
         contacts::collect(&world, number - 1, step, &mut self.contacts);
         self.world = Some(world);
+        self.stop_bodies(&stopped, scene);
+    }
+
+    /// Makes bodies static for which the engine found no next state, at once: nothing shall be solved with them any more.
+    fn stop_bodies(&mut self, shapes: &[Handle], scene: &mut Scene) {
+        for &shape in shapes {
+            // A shape that was removed meanwhile needs no stop.
+            let _ = scene.report_body(shape, None, Velocity::default());
+            self.frozen.hold(shape, scene);
+        }
+        if !shapes.is_empty() {
+            self.revision = None;
+            self.follow(scene);
+        }
     }
 
     /// Ends the call: forces are used up, readings are averaged, flags tell who took part. Returns the force sensors that trigger.
@@ -108,10 +128,12 @@ fn is_held(links: &Links, scene: &Scene, shape: Handle) -> bool {
         .is_some_and(|link| link.plan.second_is_child && link.plan.second == shape)
 }
 
+/// Where a body is and how it moves; None when that cannot be said in numbers. rapier disables such a body.
 fn state(body: &Body, world: &World) -> Option<(Pose, Velocity)> {
-    let rigid = world.bodies.get(body.rigid)?;
+    let rigid = world.bodies.get(body.rigid).filter(|rigid| rigid.is_enabled())?;
     let velocity = Velocity { linear: from_vector(rigid.linvel()), angular: from_vector(rigid.angvel()) };
-    Some((from_pose(rigid.position()), velocity))
+    let pose = from_pose(rigid.position());
+    (is_place(&pose) && rigid.vels().is_finite()).then_some((pose, velocity))
 }
 
 fn report_link(scene: &mut Scene, handle: Handle, link: &Link, moving_side: Pose) {

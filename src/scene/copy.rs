@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::poses::normalized;
 use super::script_object::ScriptObject;
 use super::shape::Velocity;
 use super::{CustomData, Handle, Kind, Measured, NOT_MODEL, Object, Scene, SceneResult};
@@ -97,7 +98,7 @@ impl Scene {
         let copy = self.insert(object)?;
         self.set_parent(copy, parent, false)?;
         let pose = if direct { local } else { self.parent_frame(copy)?.inverse() * world };
-        self.object_mut(copy)?.pose = pose;
+        self.object_mut(copy)?.pose = normalized(pose);
         self.store_state_of_new(copy)?;
         Ok(copy)
     }

@@ -2,6 +2,7 @@
 
 use nalgebra::UnitQuaternion;
 
+use super::poses::normalized;
 use super::shape::Velocity;
 use super::{Change, Field, Handle, Pose, Scene, SceneResult};
 
@@ -23,7 +24,7 @@ impl Scene {
     /// Puts a simulated shape where the engine has it, in the world; returns its pose in the parent's frame.
     pub fn report_body(&mut self, shape: Handle, world: Option<Pose>, velocity: Velocity) -> SceneResult<Pose> {
         let local = match world {
-            Some(world) => self.parent_frame(shape)?.inverse() * world,
+            Some(world) => normalized(self.parent_frame(shape)?.inverse() * world),
             None => self.object(shape)?.pose(),
         };
         self.try_modify(shape, Field::Pose, |object| {
@@ -45,7 +46,7 @@ impl Scene {
             joint.spherical = report.rotation;
             joint.velocity = report.velocity;
             joint.raw_force = Some(report.effort);
-            joint.error = Some(joint.ideal_pose().inverse() * report.moving_side);
+            joint.error = Some(normalized(joint.ideal_pose().inverse() * report.moving_side));
             Ok(())
         })?;
         self.move_followers(joint, report.position)

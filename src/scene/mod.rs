@@ -39,7 +39,7 @@ mod object;
 mod object_params;
 mod path;
 pub mod pose;
-mod poses;
+pub mod poses;
 pub mod primitive;
 mod references;
 mod restore;

@@ -100,8 +100,14 @@ impl Scene {
     }
 
     /// Puts `handle` at `pose` in its parent's frame.
+    ///
+    /// # Errors
+    /// When that is no place: see [`is_place`].
     pub fn set_local_pose(&mut self, handle: Handle, pose: Pose) -> SceneResult<()> {
-        self.modify(handle, Field::Pose, |object| object.pose = pose)
+        if !is_place(&pose) {
+            return Err(SceneError::InvalidData);
+        }
+        self.modify(handle, Field::Pose, |object| object.pose = normalized(pose))
     }
 
     /// Puts `handle` at `pose` in the world.
@@ -184,6 +190,26 @@ impl Scene {
             }
         }
     }
+}
+
+/// Further away, metres, is nowhere: there poses of objects below others could no longer be composed of numbers.
+const FARTHEST: f64 = 1e100;
+
+/// Whether a pose consists of numbers, and such that computing with them gives numbers.
+pub fn is_place(pose: &Pose) -> bool {
+    pose.translation.vector.iter().all(|x| x.abs() <= FARTHEST) && pose.rotation.coords.iter().all(|x| x.is_finite())
+}
+
+/// The pose with a rotation of length one. Composing poses lets the length drift, and each further composition doubles what is
+/// missing.
+pub fn normalized(pose: Pose) -> Pose {
+    const ROUNDING: f64 = 1e-13;
+    let mut rotation = pose.rotation;
+    let length = rotation.norm_squared();
+    if length > 0.0 && (length - 1.0).abs() > ROUNDING {
+        rotation.renormalize();
+    }
+    Pose::from_parts(pose.translation, rotation)
 }
 
 /// Velocity over one step (SPEC-poses 4).

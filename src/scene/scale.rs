@@ -6,11 +6,12 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::joint::{Control, Joint, JointType};
 use super::mesh::Mesh;
+use super::poses::is_place;
 use super::primitive::PrimitiveKind;
 use super::sensor_volume::Volume;
 use super::sensors::View;
 use super::shape::{Part, Shape};
-use super::{Field, Handle, Kind, Object, Scene, SceneError, SceneResult};
+use super::{Field, Handle, Kind, Object, Pose, Scene, SceneError, SceneResult};
 
 /// Smaller factors are refused.
 const SMALLEST_FACTOR: f64 = 0.0001;
@@ -29,7 +30,10 @@ impl Scene {
             self.modify(handle, Field::Geometry, |object| {
                 object.scale(factor);
                 if positions {
-                    object.pose.translation.vector *= factor;
+                    let scaled = Pose { translation: (object.pose.translation.vector * factor).into(), ..object.pose };
+                    if is_place(&scaled) {
+                        object.pose = scaled;
+                    }
                 }
             })?;
         }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeSet, HashMap, VecDeque};
 
+use super::poses::normalized;
 use super::{Change, Field, Handle, Scene, SceneError, SceneResult};
 
 impl Scene {
@@ -104,7 +105,7 @@ impl Scene {
         }
         if keep_in_place {
             let local = self.parent_frame(handle)?.inverse() * world;
-            self.object_mut(handle)?.pose = local;
+            self.object_mut(handle)?.pose = normalized(local);
         }
         self.changes_mut().note(Change::Modified(handle, Field::Parent));
         Ok(())

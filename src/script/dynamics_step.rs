@@ -5,6 +5,7 @@ use std::rc::Rc;
 use super::callback::SysCall;
 use super::error::{ApiError, ApiResult};
 use super::sim::Sim;
+use super::verbosity;
 use crate::dynamics::{Call, Dynamics, JointRequest, Trigger, Verdict};
 use crate::scene::joint::Joint;
 use crate::scene::{Data, Handle, Scene};
@@ -73,7 +74,19 @@ impl Sim {
         let Some(mut pass) = started.flatten() else { return };
         let judge = |first: Handle, second: Handle| self.judge_contact(first, second);
         pass.run(asks.then_some(&judge));
-        self.with_dynamics(|dynamics, scene| dynamics.finish_pass(pass, number, scene));
+        let stopped = self.with_dynamics(|dynamics, scene| {
+            dynamics.finish_pass(pass, number, scene);
+            dynamics.take_frozen()
+        });
+        stopped.into_iter().flatten().for_each(|shape| self.warn_of_stop(shape));
+    }
+
+    fn warn_of_stop(&self, shape: Handle) {
+        let path = self.scene.borrow().full_path(shape).unwrap_or_default();
+        self.log(
+            verbosity::WARNINGS,
+            &format!("{path}: its motion has no finite values any more; the physics holds it where it was. Check masses and forces."),
+        );
     }
 
     fn judge_contact(self: &Rc<Self>, first: Handle, second: Handle) -> Verdict {
