@@ -5,14 +5,15 @@
 //! loops, no moving bases, and no reading of what a link or a motor bears.
 
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
-use nalgebra::Vector6;
+use nalgebra::{Vector3, Vector6};
 use rapier3d_f64::prelude::{
     GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, RigidBodyHandle, SpringCoefficients,
 };
 
 use super::bodies::Bodies;
-use super::convert::{from_pose, is_finite, to_pose};
+use super::convert::{from_pose, from_vector, is_finite, to_pose};
 use super::load::{Load, Rows};
 use super::motors::{Drive, Motion, Motor, wrap};
 use super::plan::{LinkKind, LinkPlan};
@@ -38,6 +39,8 @@ pub(super) struct Link {
     pub motor: Motor,
     /// Position, turns counted, and its change over the last sub-step.
     pub motion: Motion,
+    /// How far the joint turned in the last sub-step by the spins of its bodies, radians.
+    turned: f64,
     /// No sub-step has run yet since the link was made.
     pub fresh: bool,
     pub drive: Option<Drive>,
@@ -96,6 +99,7 @@ impl Link {
             bodies,
             motor: Motor::default(),
             motion: Motion { position: 0.0, velocity: 0.0 },
+            turned: 0.0,
             fresh: true,
             drive: None,
             stops: None,
@@ -185,7 +189,19 @@ impl Link {
     pub(super) fn position_near(&self, relative: &Pose) -> f64 {
         let now = self.coordinate(relative);
         let before = self.motion.position;
-        if self.plan.kind == LinkKind::Revolute { before + wrap(now - before) } else { now }
+        if self.plan.kind != LinkKind::Revolute {
+            return now;
+        }
+        let near = before + wrap(now - before);
+        near + TAU * ((before + self.turned - near) / TAU).round()
+    }
+
+    /// Notes how far the sub-step just made turned the joint: a fast wheel makes more than half a turn in it.
+    pub(super) fn note_turn(&mut self, world: &World, step: f64) {
+        let [Some(first), Some(second)] = self.bodies.map(|body| world.bodies.get(body)) else { return };
+        let axis = from_pose(first.position()) * self.plan.base * Vector3::z();
+        let spin = Vector3::from(from_vector(second.angvel() - first.angvel()));
+        self.turned = Some(spin.dot(&axis) * step).filter(|turned| turned.is_finite()).unwrap_or(0.0);
     }
 
     /// Prepares what is needed to read the load after the sub-step.

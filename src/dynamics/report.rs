@@ -40,6 +40,7 @@ impl Dynamics {
         if self.call.is_none() {
             return;
         }
+        self.links.values_mut().for_each(|link| link.note_turn(&world, step));
         self.articulation.settle(&self.links, &mut world, step);
         for (&handle, link) in &mut self.links {
             if let Some(moving_side) = link.after_step(&world, step) {

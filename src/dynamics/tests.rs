@@ -353,3 +353,31 @@ fn a_loop_with_more_ties_than_freedom_turns() {
     near(bench.joint(rocker).position, bench.joint(crank).position, 1e-9);
     near(bench.height(coupler) - 1.0, 0.2 * 2.0f64.cos(), 1e-3);
 }
+
+#[test]
+fn a_propeller_makes_several_turns_in_a_sub_step() {
+    let mut bench = Bench::new();
+    for speed in [1000.0, 5000.0] {
+        let (joint, _) = bench.arm(0.01, 0.0, |joint| {
+            (joint.control, joint.target_velocity, joint.target_force) = (Control::Velocity, speed, 1e6);
+        });
+        bench.run(10);
+        near(bench.joint(joint).velocity, speed, 1e-3);
+    }
+}
+
+#[test]
+fn a_chain_of_twenty_links_carries_a_load_a_hundred_times_as_heavy() {
+    let mut bench = Bench::new();
+    let mut parent = bench.ghost([0.0, 0.0, 3.0], false);
+    for i in 0..20 {
+        let z = 3.0 - 0.1 * f64::from(i);
+        let joint = Kind::Joint(Box::new(Joint::new(JointType::Revolute, JointMode::Dynamic)));
+        let joint = bench.object(joint, along_y([0.0, 0.0, z]), parent);
+        let mass = if i == 19 { 100.0 } else { 1.0 };
+        parent = bench.shape([0.02, 0.02, 0.1], [0.01, 0.0, z - 0.05], mass, true, false);
+        bench.hang(parent, joint);
+    }
+    bench.run(100);
+    near(bench.height(parent), 1.05, 0.01);
+}
