@@ -1,0 +1,195 @@
+"""One scene in one engine: `run(scene, watched)` gives (rows, seconds taken); a row is the time and 13 numbers per watched body:
+position, quaternion (x, y, z, w), velocity, angular velocity. Without watched bodies only the time counts."""
+
+import json
+import os
+import subprocess
+import tempfile
+import time
+
+import mujoco
+import numpy as np
+import pybullet as p
+
+STEP, SUBSTEPS = 0.005, 10
+HERE = os.path.dirname(os.path.abspath(__file__))
+# Position servos: newton metres per radian, and per radian per second.
+STIFFNESS, DAMPING, FORCE = 500.0, 50.0, 200.0
+
+
+def lua(value):
+    """A value as Lua source."""
+    if isinstance(value, dict):
+        return "{" + ",".join(f"[{json.dumps(k)}]={lua(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        return "{" + ",".join(lua(v) for v in value) + "}"
+    return "nil" if value is None else json.dumps(value)
+
+
+def samples(scene, advance, row, watched):
+    rows, began = [], time.perf_counter()
+    for i in range(round(scene["seconds"] / (STEP * SUBSTEPS))):
+        advance()
+        if watched:
+            rows.append([(i + 1) * STEP * SUBSTEPS, *row()])
+    return np.array(rows), time.perf_counter() - began
+
+
+def swanilda(scene, watched):
+    binary = os.environ.get("SWANILDA", os.path.join(HERE, "../../target/release/swanilda"))
+    with open(os.path.join(HERE, "swanilda.lua")) as file:
+        code = f"SCENE = {lua(scene)}\nWATCHED = {lua(watched)}\n" + file.read()
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "scene.lua")
+        with open(path, "w") as file:
+            file.write(code)
+        command = [binary, "run", path, "--empty", "--time", str(scene["seconds"] + 1)]
+        result = subprocess.run(command, capture_output=True, text=True, timeout=600, check=True)
+    rows, took = [], None
+    for words in map(str.split, result.stdout.splitlines()):
+        if "ROW" in words:
+            rows.append([float(x) for x in words[words.index("ROW") + 1:]])
+        elif "TOOK" in words:
+            took = float(words[-1])
+    if took is None:
+        raise RuntimeError(result.stdout + result.stderr)
+    return np.array(rows), took
+
+
+def mjcf(scene):
+    numbers = lambda values: " ".join(map(repr, map(float, values)))
+    friction = f'friction="{scene["friction"]} 0 0"'
+    world, placed, servos, ties = [], {}, [], []
+
+    def element(it, origin):
+        at = np.subtract(it["at"], origin)
+        solid = "" if scene["floor"] else ' contype="0" conaffinity="0"'
+        text = f'<body name="{it["name"]}" pos="{numbers(at)}">'
+        if "joint" in it:
+            joint = it["joint"]
+            text += (f'<joint name="j_{it["name"]}" type="hinge" pos="{numbers(np.subtract(joint["at"], it["at"]))}" '
+                     f'axis="{numbers(joint["axis"])}"/>')
+        else:
+            text += f'<freejoint name="j_{it["name"]}"/>'
+        half = numbers(np.multiply(it["size"], 0.5))
+        text += f'<geom type="box" size="{half}" mass="{it["mass"]}" {friction}{solid}/>'
+        text += "".join(element(child, it["at"]) for child in scene["bodies"] if child.get("parent") == it["name"])
+        if "target" in it:
+            servos.append(f'<position joint="j_{it["name"]}" kp="{STIFFNESS}" kv="{DAMPING}" forcerange="-{FORCE} {FORCE}"/>')
+        placed[it["name"]] = it
+        return text + "</body>"
+
+    if scene["floor"]:
+        world.append(f'<geom type="plane" size="50 50 1" {friction}/>')
+    world += [element(it, (0, 0, 0)) for it in scene["bodies"] if not it.get("parent")]
+    for first, second, at in scene["ties"]:
+        anchor = numbers(np.subtract(at, placed[first]["at"]))
+        ties.append(f'<connect body1="{first}" body2="{second}" anchor="{anchor}"/>')
+    # A damper this stiff wants the implicit integrator at such a step.
+    integrator = "implicitfast" if servos else "Euler"
+    return (f'<mujoco><option timestep="{STEP}" integrator="{integrator}" gravity="{numbers(scene["gravity"])}"/><size memory="200M"/>'
+            f'<worldbody>{"".join(world)}</worldbody><equality>{"".join(ties)}</equality>'
+            f'<actuator>{"".join(servos)}</actuator></mujoco>')
+
+
+def in_mujoco(scene, watched):
+    model = mujoco.MjModel.from_xml_string(mjcf(scene))
+    data = mujoco.MjData(model)
+    for it in scene["bodies"]:
+        start = model.joint("j_" + it["name"]).dofadr[0]
+        if "joint" in it:
+            data.qvel[start] = np.dot(it.get("spin", (0, 0, 0)), it["joint"]["axis"])
+        else:
+            data.qvel[start:start + 6] = [*it.get("velocity", (0, 0, 0)), *it.get("spin", (0, 0, 0))]
+    data.ctrl[:] = [it["target"] for it in scene["bodies"] if "target" in it]
+    bodies = [model.body(name).id for name in watched]
+    speed = np.zeros(6)
+
+    def row():
+        mujoco.mj_forward(model, data)
+        values = []
+        for body in bodies:
+            mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, body, speed, 0)
+            w, x, y, z = data.xquat[body]
+            values += [*data.xpos[body], x, y, z, w, *speed[3:], *speed[:3]]
+        return values
+
+    return samples(scene, lambda: mujoco.mj_step(model, data, SUBSTEPS), row, watched)
+
+
+def bullet_chain(scene, chain):
+    """A fixed base with the links of `chain`; gives the places of the bodies."""
+    box = lambda it: p.createCollisionShape(p.GEOM_BOX, halfExtents=np.multiply(it["size"], 0.5)) if scene["floor"] else -1
+    index = {None: 0, **{it["name"]: i + 1 for i, it in enumerate(chain)}}
+    where = {None: (0, 0, 0), **{it["name"]: it["at"] for it in chain}}
+    zero, none, n = [0, 0, 0], [0, 0, 0, 1], len(chain)
+    body = p.createMultiBody(
+        baseMass=0, linkMasses=[it["mass"] for it in chain], linkCollisionShapeIndices=[box(it) for it in chain],
+        linkVisualShapeIndices=[-1] * n, linkOrientations=[none] * n, linkInertialFrameOrientations=[none] * n,
+        linkPositions=[np.subtract(it["joint"]["at"], where[it["parent"]]).tolist() for it in chain],
+        linkInertialFramePositions=[np.subtract(it["at"], it["joint"]["at"]).tolist() for it in chain],
+        linkParentIndices=[index[it["parent"]] for it in chain], linkJointTypes=[p.JOINT_REVOLUTE] * n,
+        linkJointAxis=[it["joint"]["axis"] for it in chain], basePosition=zero)
+    for i, it in enumerate(chain):
+        a, b, c = np.square(it["size"]) * it["mass"] / 12
+        p.changeDynamics(body, i, localInertiaDiagonal=[b + c, a + c, a + b])
+        p.resetJointState(body, i, 0, np.dot(it.get("spin", zero), it["joint"]["axis"]))
+        if "target" in it:
+            p.setJointMotorControl2(body, i, p.POSITION_CONTROL, targetPosition=it["target"], force=FORCE)
+        else:
+            p.setJointMotorControl2(body, i, p.VELOCITY_CONTROL, force=0)
+    return {it["name"]: (body, i) for i, it in enumerate(chain)}
+
+
+def bullet_world(scene):
+    p.resetSimulation()
+    p.setTimeStep(STEP)
+    p.setGravity(*scene["gravity"])
+    places = {}
+    if scene["floor"]:
+        places["floor"] = (p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE)), -1)
+    for it in (it for it in scene["bodies"] if "joint" not in it):
+        form = p.createCollisionShape(p.GEOM_BOX, halfExtents=np.multiply(it["size"], 0.5))
+        body = p.createMultiBody(it["mass"], form, basePosition=it["at"])
+        p.resetBaseVelocity(body, it.get("velocity", [0, 0, 0]), it.get("spin", [0, 0, 0]))
+        places[it["name"]] = (body, -1)
+    chain = [it for it in scene["bodies"] if "joint" in it]
+    if chain:
+        places |= bullet_chain(scene, chain)
+    where = {it["name"]: it["at"] for it in scene["bodies"]}
+    for first, second, at in scene["ties"]:
+        (a, i), (b, j) = places[first], places[second]
+        p.createConstraint(a, i, b, j, p.JOINT_POINT2POINT, [0, 0, 0], np.subtract(at, where[first]),
+                           np.subtract(at, where[second]))
+    for body, i in places.values():
+        p.changeDynamics(body, i, lateralFriction=scene["friction"] ** 0.5, restitution=0, linearDamping=0, angularDamping=0,
+                         jointDamping=0, maxJointVelocity=1000)
+    return places
+
+
+def in_pybullet(scene, watched):
+    p.connect(p.DIRECT)
+    places = bullet_world(scene)
+
+    def row():
+        values = []
+        for body, i in (places[name] for name in watched):
+            if i < 0:
+                pose, speed = p.getBasePositionAndOrientation(body), p.getBaseVelocity(body)
+            else:
+                state = p.getLinkState(body, i, computeLinkVelocity=1, computeForwardKinematics=1)
+                pose, speed = state[:2], state[6:8]
+            values += [*pose[0], *pose[1], *speed[0], *speed[1]]
+        return values
+
+    def advance():
+        for _ in range(SUBSTEPS):
+            p.stepSimulation()
+
+    try:
+        return samples(scene, advance, row, watched)
+    finally:
+        p.disconnect()
+
+
+ENGINES = {"Swanilda": swanilda, "MuJoCo": in_mujoco, "PyBullet": in_pybullet}
