@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
-    ActiveHooks, ColliderSet, ContactManifold, ContactModificationContext, ContactPair, PairFilterContext,
+    ActiveHooks, ColliderSet, ContactData, ContactManifold, ContactModificationContext, ContactPair, PairFilterContext,
     PhysicsHooks, SolverFlags,
 };
 
@@ -173,6 +173,10 @@ fn expect(world: &World, manifold: &ContactManifold, shapes: [Handle; 2], pushes
     pushes.push(Push { shapes, point: from_vector(middle), impulse: from_vector(friction) });
 }
 
+fn is_finite(contact: &ContactData) -> bool {
+    contact.impulse.is_finite() && contact.warmstart_tangent_world.is_finite()
+}
+
 /// Adds the contacts of a sub-step of `step` seconds to the list.
 pub(super) fn collect(world: &World, pass: u32, step: f64, list: &mut Vec<Contact>) {
     for pair in world.narrow_phase.contact_pairs() {
@@ -186,17 +190,20 @@ fn collect_pair(world: &World, pair: &ContactPair, shapes: [Handle; 2], pass: u3
     for manifold in pair.solver_manifolds() {
         // rapier's normal points from the first shape to the second.
         let normal = -manifold.data.normal;
+        // rapier solves the friction of a manifold as one: its points have equal shares.
+        let share = 1.0 / manifold.data.solver_contacts.len() as f64;
         for contact in &manifold.data.solver_contacts {
             let Some(data) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
-            if data.data.impulse == 0.0 || !data.data.impulse.is_finite() {
+            if data.data.impulse == 0.0 || !is_finite(&data.data) {
                 continue;
             }
             let (a, b) = manifold.data.solver_contact_world_points(contact, &world.bodies);
+            let impulse = normal * data.data.impulse + data.data.warmstart_tangent_world * share;
             list.push(Contact {
                 pass,
                 shapes,
                 point: from_vector((a + b) * 0.5),
-                force: from_vector(normal * (data.data.impulse / step)),
+                force: from_vector(impulse / step),
                 normal: from_vector(normal),
             });
         }
