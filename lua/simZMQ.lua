@@ -29,7 +29,7 @@ send, recv, msg_send, msg_recv and poll wait when they are told to. In a thread 
 too, until a message comes; ctrl-c makes an error of that. __send, __recv, __msg_send and __msg_recv obey the options SNDTIMEO and RCVTIMEO.
 ctx_term gives up after two seconds outside of threads, and at once while there are open sockets: -1 with EINTR; call it again.
 
-A monitor needs a listener at once: libzmq holds up the connections of a socket whose monitor nobody listens to, and whoever uses it.
+Events of a monitor wait for a reader, some thousand of them; what comes beyond is lost, and told once.
 
 Of drafts of libzmq nothing is built: ctx_set_ext, ctx_get_ext, join, leave, connect_peer, msg_set_routing_id, msg_routing_id,
 msg_set_group and msg_group do nothing.

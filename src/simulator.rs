@@ -118,6 +118,11 @@ impl Simulator {
         self.sim.wait_for_arrival(patience)
     }
 
+    /// Whether scripts have ZeroMQ sockets, whose messages `wait_for_request` does not notice.
+    pub fn has_zmq_sockets(&self) -> bool {
+        self.sim.has_zmq_users()
+    }
+
     /// Adds a script. Customization scripts, add-ons and the sandbox start at once; a simulation script starts with the simulation.
     ///
     /// `name` is shown for add-ons and for the sandbox chunk; script objects are called `Script`.

@@ -14,7 +14,7 @@ use crate::{ScriptKind, Simulator};
 
 /// How long to wait for a request before looking after everything else.
 const NAP: Duration = Duration::from_millis(50);
-/// The same while a step is soon due in real-time mode.
+/// The same while a step is soon due in real-time mode, or scripts look for messages at their own sockets.
 const SHORT_NAP: Duration = Duration::from_millis(1);
 /// Exit code after a second ctrl-c.
 const INTERRUPTED: u8 = 130;
@@ -52,7 +52,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
         let steps = sim.steps();
         sim.pass();
         if !sim.state().is_advancing() {
-            nap(&sim, NAP);
+            nap(&sim, if sim.has_zmq_sockets() { SHORT_NAP } else { NAP });
         } else if sim.steps() == steps {
             nap(&sim, SHORT_NAP);
         }

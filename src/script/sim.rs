@@ -116,6 +116,8 @@ pub(crate) struct Sim {
     pub remote_listener: RefCell<Option<TcpListener>>,
     /// The ZeroMQ context all scripts share; made at first need.
     pub zmq_context: OnceCell<Rc<zmq::Context>>,
+    /// A share of it is held for each script that has ZeroMQ sockets.
+    pub zmq_users: Rc<()>,
     next_detached: Cell<i64>,
     once: RefCell<HashSet<(String, i64, String)>>,
     started: std::time::Instant,
@@ -152,6 +154,7 @@ impl Sim {
             web_sockets: RefCell::default(),
             remote_listener: RefCell::default(),
             zmq_context: OnceCell::new(),
+            zmq_users: Rc::default(),
             next_detached: Cell::new(FIRST_DETACHED),
             once: RefCell::default(),
             started: super::wall_clock::now(),
@@ -202,6 +205,11 @@ impl Sim {
             event_loop.wait(patience);
             true
         })
+    }
+
+    /// Whether some script has ZeroMQ sockets. Nothing wakes the simulator for those: scripts look whether a message has come.
+    pub(crate) fn has_zmq_users(&self) -> bool {
+        Rc::strong_count(&self.zmq_users) > 1
     }
 
     pub(crate) fn zmq_server(&self) -> Option<Rc<ZmqServer>> {

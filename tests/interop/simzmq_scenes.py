@@ -72,6 +72,27 @@ def blocking_outside_of_threads(tmp):
         same("ctrl-c ends the wait", simulator.process.wait(LIMIT) in (1, 130), True)
 
 
+def a_monitor_nobody_reads(tmp):
+    """Thousands of events, a second monitor, a close: nothing waits for a reader."""
+    with open(tmp, "w") as scene:
+        scene.write(
+            "sim = require 'sim' z = require 'simZMQ'\n"
+            "local s = z.socket(z.ctx_new(), z.REP)\n"
+            "z.socket_monitor(s, 'inproc://watch', z.EVENT_ALL) z.bind(s, 'tcp://127.0.0.1:*')\n"
+            "local _, e = z.getsockopt(s, z.LAST_ENDPOINT, 256) print(('bound %s'):format(e))\n"
+            "local passes = 0\n"
+            "function sysCall_nonSimulation() z.recv(s, z.DONTWAIT)\n"
+            "passes = passes + 1 if passes % 100 == 0 then print 'alive' end end\n"
+        )
+    with Simulator("--no-remote-api", "--empty", tmp) as simulator:
+        address, port = simulator.printed("bound tcp://").rstrip("\0").split(":")
+        for _ in range(5000):
+            socket.create_connection((address, int(port)), LIMIT).close()
+        simulator.logged("events of a ZeroMQ monitor were lost")
+        simulator.printed("alive")
+        same("ctrl-c", simulator.end(), 0)
+
+
 def main():
     context = zmq.Context()
     responder_and_python(context)
@@ -80,6 +101,7 @@ def main():
     nobody_answers()
     with tempfile.TemporaryDirectory() as folder:
         blocking_outside_of_threads(folder + "/waits.lua")
+        a_monitor_nobody_reads(folder + "/monitored.lua")
     context.destroy(0)
 
 

@@ -181,7 +181,7 @@ fn put(cx: &Cx, dest: &str, src: &str, content: impl Fn(&mut Message) -> ZmqResu
 #[api("simZMQ.msg_send")]
 fn msg_send(cx: &Cx, msg: String, socket: String, flags: Number) -> Result<i64> {
     let objects = objects(cx);
-    let socket = objects.socket(&socket)?;
+    let socket = objects.socket(cx, &socket)?;
     Ok(objects.told(objects.with_message(&msg, |message| message.send(&socket, int(flags)))?))
 }
 
@@ -194,6 +194,6 @@ fn msg_send(cx: &Cx, msg: String, socket: String, flags: Number) -> Result<i64> 
 #[api("simZMQ.msg_recv")]
 fn msg_recv(cx: &Cx, msg: String, socket: String, flags: Number) -> Result<i64> {
     let objects = objects(cx);
-    let socket = objects.socket(&socket)?;
+    let socket = objects.socket(cx, &socket)?;
     Ok(objects.told(objects.with_message(&msg, |message| message.receive(&socket, int(flags)))?))
 }

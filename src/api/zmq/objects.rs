@@ -27,6 +27,8 @@ pub(super) struct Objects {
     messages: RefCell<BTreeMap<u64, Message>>,
     sockets: RefCell<BTreeMap<u64, Rc<Socket>>>,
     contexts: RefCell<BTreeMap<u64, Life>>,
+    /// Tells the simulator that there are sockets.
+    presence: RefCell<Option<Rc<()>>>,
     last: Cell<u64>,
     /// Why the last call that failed did.
     errno: Cell<i32>,
@@ -59,6 +61,12 @@ fn handle(number: u64, kind: &str) -> String {
 /// What stands for a socket that could not be made.
 pub(super) fn no_socket() -> String {
     handle(0, SOCKET)
+}
+
+fn warn_of_lost_events(cx: &Cx, socket: &Socket) {
+    if socket.has_lost_events() {
+        cx.env().warn_once("simZMQ.socket_monitor", "events of a ZeroMQ monitor were lost: nobody reads them.");
+    }
 }
 
 /// The context all scripts share, made when it is first asked for.
@@ -160,15 +168,24 @@ impl Objects {
     pub(super) fn add_socket(&self, cx: &Cx, socket: Socket) -> String {
         let number = self.next(cx);
         self.sockets.borrow_mut().insert(number, Rc::new(socket));
+        self.presence.replace(Some(cx.sim().zmq_users.clone()));
         handle(number, SOCKET)
     }
 
-    pub(super) fn socket(&self, socket: &str) -> Result<Rc<Socket>> {
-        self.sockets.borrow().get(&number(socket, SOCKET)?).cloned().ok_or_else(invalid)
+    pub(super) fn socket(&self, cx: &Cx, socket: &str) -> Result<Rc<Socket>> {
+        let socket = self.sockets.borrow().get(&number(socket, SOCKET)?).cloned().ok_or_else(invalid)?;
+        warn_of_lost_events(cx, &socket);
+        Ok(socket)
     }
 
-    pub(super) fn take_socket(&self, socket: &str) -> Result<Rc<Socket>> {
-        self.sockets.borrow_mut().remove(&number(socket, SOCKET)?).ok_or_else(invalid)
+    pub(super) fn take_socket(&self, cx: &Cx, socket: &str) -> Result<Rc<Socket>> {
+        let mut sockets = self.sockets.borrow_mut();
+        let socket = sockets.remove(&number(socket, SOCKET)?).ok_or_else(invalid)?;
+        warn_of_lost_events(cx, &socket);
+        if sockets.is_empty() {
+            self.presence.take();
+        }
+        Ok(socket)
     }
 
     pub(super) fn add_message(&self, cx: &Cx) -> String {

@@ -25,7 +25,7 @@ const FOREVER: i64 = -1;
 /// @return result 0 or -1
 #[api("simZMQ.close")]
 fn close(cx: &Cx, socket: String) -> Result<i64> {
-    objects(cx).take_socket(&socket)?.close();
+    objects(cx).take_socket(cx, &socket)?.close();
     Ok(0)
 }
 
@@ -37,7 +37,7 @@ fn close(cx: &Cx, socket: String) -> Result<i64> {
 #[api("simZMQ.bind")]
 fn bind(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
     let objects = objects(cx);
-    Ok(objects.done(objects.socket(&socket)?.bind(&endpoint)))
+    Ok(objects.done(objects.socket(cx, &socket)?.bind(&endpoint)))
 }
 
 /// Accepts no more connections at an address.
@@ -48,7 +48,7 @@ fn bind(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
 #[api("simZMQ.unbind")]
 fn unbind(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
     let objects = objects(cx);
-    Ok(objects.done(objects.socket(&socket)?.unbind(&endpoint)))
+    Ok(objects.done(objects.socket(cx, &socket)?.unbind(&endpoint)))
 }
 
 /// Connects to an address, now or as soon as somebody is there.
@@ -59,7 +59,7 @@ fn unbind(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
 #[api("simZMQ.connect")]
 fn connect(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
     let objects = objects(cx);
-    Ok(objects.done(objects.socket(&socket)?.connect(&endpoint)))
+    Ok(objects.done(objects.socket(cx, &socket)?.connect(&endpoint)))
 }
 
 /// Ends a connection.
@@ -70,7 +70,7 @@ fn connect(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
 #[api("simZMQ.disconnect")]
 fn disconnect(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
     let objects = objects(cx);
-    Ok(objects.done(objects.socket(&socket)?.disconnect(&endpoint)))
+    Ok(objects.done(objects.socket(cx, &socket)?.disconnect(&endpoint)))
 }
 
 /// Sets an option of a socket.
@@ -82,7 +82,7 @@ fn disconnect(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
 #[api("simZMQ.setsockopt")]
 fn setsockopt(cx: &Cx, socket: String, option_name: Number, option_value: Bytes) -> Result<i64> {
     let objects = objects(cx);
-    Ok(objects.done(objects.socket(&socket)?.set(int(option_name), &option_value.0)))
+    Ok(objects.done(objects.socket(cx, &socket)?.set(int(option_name), &option_value.0)))
 }
 
 /// An option of a socket.
@@ -96,7 +96,7 @@ fn setsockopt(cx: &Cx, socket: String, option_name: Number, option_value: Bytes)
 fn getsockopt(cx: &Cx, socket: String, option_name: Number, option_len: Number) -> Result<(i64, Bytes)> {
     let objects = objects(cx);
     let room = usize::try_from(option_len.0).unwrap_or(0);
-    Ok(match objects.socket(&socket)?.get(int(option_name), room) {
+    Ok(match objects.socket(cx, &socket)?.get(int(option_name), room) {
         Ok(value) => (0, Bytes(value)),
         Err(errno) => (objects.failed(errno), Bytes(Vec::new())),
     })
@@ -111,7 +111,7 @@ fn getsockopt(cx: &Cx, socket: String, option_name: Number, option_len: Number) 
 #[api("simZMQ.socket_monitor")]
 fn socket_monitor(cx: &Cx, socket: String, endpoint: String, events: Number) -> Result<i64> {
     let objects = objects(cx);
-    Ok(objects.done(objects.socket(&socket)?.monitor(&endpoint, int(events))))
+    Ok(objects.done(objects.socket(cx, &socket)?.monitor(&endpoint, int(events))))
 }
 
 /// Sends a part of a message, or all of it, without waiting.
@@ -123,7 +123,7 @@ fn socket_monitor(cx: &Cx, socket: String, endpoint: String, events: Number) -> 
 #[api("simZMQ.send")]
 fn send(cx: &Cx, socket: String, data: Bytes, flags: Number) -> Result<i64> {
     let objects = objects(cx);
-    Ok(objects.told(objects.socket(&socket)?.send(&data.0, int(flags))))
+    Ok(objects.told(objects.socket(cx, &socket)?.send(&data.0, int(flags))))
 }
 
 /// Receives a part of a message without waiting.
@@ -136,7 +136,7 @@ fn send(cx: &Cx, socket: String, data: Bytes, flags: Number) -> Result<i64> {
 #[api("simZMQ.recv")]
 fn recv(cx: &Cx, socket: String, flags: Number, max_buf_size: Option<Number>) -> Result<(i64, Data)> {
     let objects = objects(cx);
-    let socket = objects.socket(&socket)?;
+    let socket = objects.socket(cx, &socket)?;
     let mut message = Message::closed();
     message.open();
     Ok(match message.receive(&socket, int(flags)) {
@@ -158,7 +158,8 @@ fn recv(cx: &Cx, socket: String, flags: Number, max_buf_size: Option<Number>) ->
 #[api("simZMQ.poll")]
 fn poll(cx: &Cx, sockets: Table, events: Vec<i64>, timeout: Number) -> Result<(i64, Vec<i64>)> {
     let objects = objects(cx);
-    let sockets = texts(&sockets.0)?.into_iter().map(|handle| objects.socket(handle)).collect::<Result<Vec<_>>>()?;
+    let sockets =
+        texts(&sockets.0)?.into_iter().map(|handle| objects.socket(cx, handle)).collect::<Result<Vec<_>>>()?;
     let items: Vec<_> = sockets.into_iter().zip(events.iter().map(|&events| events as i16)).collect();
     Ok(match wait(cx, &items, timeout.0)? {
         Ok(ready) => {

@@ -6,6 +6,7 @@
 
 mod context;
 mod message;
+mod monitor;
 mod socket;
 
 use std::ffi::{CStr, CString, c_int};
@@ -26,6 +27,7 @@ impl Errno {
     pub(crate) const INTERRUPTED: Self = Self(ffi::errno::EINTR);
     const INVALID: Self = Self(ffi::errno::EINVAL);
     const NO_MEMORY: Self = Self(ffi::errno::ENOMEM);
+    const NO_PROTOCOL: Self = Self(ffi::errno::EPROTONOSUPPORT);
     const NO_MESSAGE: Self = Self(ffi::errno::EFAULT);
 
     /// What went wrong in the call of libzmq this thread made last.

@@ -8,16 +8,12 @@ use std::rc::Rc;
 use zmq_sys as ffi;
 
 use super::context::Context;
+use super::monitor::{self, Monitor};
 use super::{Errno, ZmqResult, c_text, check};
 
 /// The last of the stable types of sockets. Those beyond are drafts, of which only parts are built.
 const LAST_TYPE: c_int = ffi::ZMQ_STREAM as c_int;
 const LINGER: c_int = ffi::ZMQ_LINGER as c_int;
-const POLLIN: c_short = ffi::ZMQ_POLLIN as c_short;
-const POLLOUT: c_short = ffi::ZMQ_POLLOUT as c_short;
-/// How often and how long, in milliseconds, the good-bye of a monitor is waited for.
-const GOOD_BYE_SLICES: usize = 20;
-const GOOD_BYE_SLICE: c_long = 5;
 const USE_FD: c_int = ffi::ZMQ_USE_FD as c_int;
 const CONNECT_ROUTING_ID: c_int = ffi::ZMQ_CONNECT_ROUTING_ID as c_int;
 /// No option is longer.
@@ -33,7 +29,7 @@ pub(crate) struct Socket {
     /// Names given to connections to be made; libzmq ends the program at the second of the same name.
     connection_names: RefCell<BTreeSet<Vec<u8>>>,
     /// Where it tells of its connections.
-    monitor: RefCell<Option<String>>,
+    monitor: RefCell<Option<Monitor>>,
     /// Goes after the socket: a context must not end before its sockets.
     context: Rc<Context>,
 }
@@ -85,18 +81,6 @@ impl Socket {
         let _ = self.set(LINGER, &milliseconds.to_ne_bytes());
     }
 
-    /// Waits until its peer has said something or does not want it, for a short time at most.
-    fn hear_out(self) {
-        let this = Rc::new(self);
-        for _ in 0..GOOD_BYE_SLICES {
-            let heard = poll(&[(this.clone(), POLLIN)], GOOD_BYE_SLICE);
-            let wanted = poll(&[(this.clone(), POLLOUT)], 0);
-            if heard != Ok(vec![0]) || wanted != Ok(vec![POLLOUT]) {
-                return;
-            }
-        }
-    }
-
     pub(crate) fn bind(&self, endpoint: &str) -> ZmqResult<()> {
         let endpoint = c_text(endpoint)?;
         // SAFETY (this and the next three): the socket lives, the text ends with NUL and is copied.
@@ -118,23 +102,19 @@ impl Socket {
         check(unsafe { ffi::zmq_disconnect(self.raw, endpoint.as_ptr()) }).map(drop)
     }
 
-    /// Tells what happens to its connections to a PAIR socket at `endpoint`.
+    /// Tells what happens to its connections to a PAIR socket at `endpoint`, and no longer to the one before.
     pub(crate) fn monitor(&self, endpoint: &str, events: c_int) -> ZmqResult<()> {
-        let text = c_text(endpoint)?;
-        // The monitor there was says good-bye first.
-        let _listener = self.listener();
-        // SAFETY: the socket lives, the text ends with NUL and is copied.
-        check(unsafe { ffi::zmq_socket_monitor(self.raw, text.as_ptr(), events) })?;
-        self.monitor.replace(Some(endpoint.to_owned()));
+        monitor::check_endpoint(endpoint)?;
+        if let Some(before) = self.monitor.take() {
+            before.stop(self.raw);
+        }
+        self.monitor.replace(Some(Monitor::start(&self.context, self.raw, endpoint, events)?));
         Ok(())
     }
 
-    /// Somebody who hears the good-bye of the monitor: libzmq waits for ever for one. The socket of a script goes before.
-    fn listener(&self) -> Option<Self> {
-        let monitor = self.monitor.borrow();
-        let endpoint = monitor.as_deref()?;
-        let listener = Self::new(&self.context, ffi::ZMQ_PAIR as c_int).ok()?;
-        listener.connect(endpoint).ok().map(|()| listener)
+    /// Whether events of its monitor were lost since this was last asked, since nobody read them.
+    pub(crate) fn has_lost_events(&self) -> bool {
+        self.monitor.borrow().as_ref().is_some_and(Monitor::has_lost)
     }
 
     /// Sets an option to a value of whatever type, given as bytes.
@@ -179,12 +159,8 @@ impl Drop for Socket {
         if !self.is_closed.get() {
             self.set_linger(0);
         }
-        let listener = self.listener();
         // SAFETY: the socket lives, and is not used afterwards. It fails only for what is no socket.
         unsafe { ffi::zmq_close(self.raw) };
-        if let Some(listener) = listener {
-            listener.hear_out();
-        }
     }
 }
 
@@ -207,22 +183,4 @@ fn place(items: &mut Vec<ffi::zmq_pollitem_t>, socket: &Socket, events: c_short)
     }
     items[place].events |= events;
     place
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::time::Duration;
-
-    #[test]
-    fn a_monitor_nobody_listens_to_holds_up_nobody() {
-        let context = Rc::new(Context::new().expect("a context"));
-        let socket = Socket::new(&context, ffi::ZMQ_REP as c_int).expect("a socket");
-        for endpoint in ["inproc://first", "inproc://second"] {
-            assert_eq!(socket.monitor(endpoint, ffi::ZMQ_EVENT_MONITOR_STOPPED as c_int), Ok(()));
-        }
-        drop(socket);
-        let context = Rc::try_unwrap(context).ok().expect("the socket is gone");
-        assert!(context.terminate().wait(Duration::from_secs(30)));
-    }
 }
