@@ -83,6 +83,8 @@ def pages(control):
     same("a page", get("/a.js?x=1", "return 200, '1'"), (200, b"1", script))
     same("what was asked for", control("return asked[3] .. ' ' .. asked[4]"), "/a.js?x=1 table")
     same("a body", get("/", "return 200, asked[4]", b"x" * 100_000), (200, b"table" + b"x" * 100_000, "text/html; charset=UTF-8"))
+    chunks = (part for part in (b"in ", b"x" * 100_000, b" chunks"))
+    same("a body in chunks", get("/", "return 200, asked[4]", chunks)[1], b"tablein " + b"x" * 100_000 + b" chunks")
     same("bytes", get("/a.png", "return 200, tobuffer('\\0\\xff')"), (200, b"\x00\xff", "image/png"))
     same("not found", get("/a", "return 404, ''"), (404, b"", "application/octet-stream"))
     same("without data", get("/a", "return 404")[:2], (500, b""))

@@ -101,14 +101,25 @@ impl Head {
         Ok(request)
     }
 
-    /// Length of the body.
+    /// Whether the body comes in chunks.
+    ///
+    /// # Errors
+    /// The status to answer with: other encodings are not known, and a length besides says something else.
+    pub(super) fn is_chunked(&self) -> Result<bool, StatusCode> {
+        let mut encodings = self.headers.get_all(TRANSFER_ENCODING).iter();
+        match (encodings.next(), encodings.next()) {
+            (None, _) => Ok(false),
+            (Some(_), _) if self.headers.contains_key(CONTENT_LENGTH) => Err(StatusCode::BAD_REQUEST),
+            (Some(encoding), None) if encoding.as_bytes().eq_ignore_ascii_case(b"chunked") => Ok(true),
+            _ => Err(StatusCode::NOT_IMPLEMENTED),
+        }
+    }
+
+    /// Length of a body that does not come in chunks.
     ///
     /// # Errors
     /// The status to answer with.
     pub(super) fn body_length(&self) -> Result<usize, StatusCode> {
-        if self.headers.contains_key(TRANSFER_ENCODING) {
-            return Err(StatusCode::NOT_IMPLEMENTED);
-        }
         let Some(value) = self.headers.get(CONTENT_LENGTH) else { return Ok(0) };
         let digits =
             value.to_str().ok().filter(|text| text.bytes().all(|byte| byte.is_ascii_digit()) && !text.is_empty());
@@ -206,8 +217,19 @@ mod tests {
             let request = format!("POST / HTTP/1.1\r\nContent-Length: {value}\r\n\r\n");
             assert_eq!(head(&request).body_length().map_err(|status| status.as_u16()), Err(status), "{value:?}");
         }
-        let chunked = head("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n");
-        assert_eq!(chunked.body_length(), Err(StatusCode::NOT_IMPLEMENTED));
+    }
+
+    #[test]
+    fn encodings_of_the_body() {
+        for (headers, expected) in [
+            ("", Ok(false)),
+            ("Transfer-Encoding: Chunked\r\n", Ok(true)),
+            ("Transfer-Encoding: gzip, chunked\r\n", Err(StatusCode::NOT_IMPLEMENTED)),
+            ("Transfer-Encoding: chunked\r\nTransfer-Encoding: chunked\r\n", Err(StatusCode::NOT_IMPLEMENTED)),
+            ("Transfer-Encoding: chunked\r\nContent-Length: 1\r\n", Err(StatusCode::BAD_REQUEST)),
+        ] {
+            assert_eq!(head(&format!("POST / HTTP/1.1\r\n{headers}\r\n")).is_chunked(), expected, "{headers}");
+        }
     }
 
     #[test]

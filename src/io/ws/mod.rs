@@ -3,6 +3,7 @@
 //! Everything happens while the event loop moves; what scripts are told waits in the endpoint's inbox. Both directions are bounded: a full
 //! inbox stops the reading, so that senders have to wait, and a connection with too much to send refuses more.
 
+mod chunks;
 mod client;
 mod connection;
 mod http;

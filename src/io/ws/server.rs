@@ -14,6 +14,7 @@ use tokio_tungstenite::tungstenite::http::StatusCode;
 use tokio_tungstenite::tungstenite::http::header::{EXPECT, HeaderValue, ORIGIN, SEC_WEBSOCKET_PROTOCOL};
 use tokio_tungstenite::tungstenite::protocol::Role;
 
+use super::chunks::Chunks;
 use super::http::{Asker, Head, Reply, response};
 use super::pages::Pages;
 use super::{Connection, HANDSHAKE, READ_BUFFER, Reports, WsEvent, config, connection};
@@ -137,16 +138,33 @@ async fn answer(mut stream: TcpStream, connection: Connection, head: &Head, rece
 /// # Errors
 /// The status to answer with; none when the peer is gone.
 async fn read_body(stream: &mut TcpStream, head: &Head, mut body: Vec<u8>) -> Result<Vec<u8>, Option<StatusCode>> {
+    let is_chunked = head.is_chunked()?;
     let length = head.body_length()?;
-    if body.len() < length && head.header(EXPECT).is_some() {
+    if (is_chunked || body.len() < length) && head.header(EXPECT).is_some() {
         stream.write_all(b"HTTP/1.1 100 Continue\r\n\r\n").await.map_err(|_| None)?;
     }
+    if is_chunked {
+        return read_chunks(stream, body).await;
+    }
     while body.len() < length {
-        let more = timeout(HANDSHAKE, read_some(stream, &mut body)).await;
-        more.map_err(|_| StatusCode::REQUEST_TIMEOUT)?.ok_or(None)?;
+        read_more(stream, &mut body).await?;
     }
     body.truncate(length);
     Ok(body)
+}
+
+async fn read_chunks(stream: &mut TcpStream, mut received: Vec<u8>) -> Result<Vec<u8>, Option<StatusCode>> {
+    let mut chunks = Chunks::default();
+    while !chunks.take(&mut received)? {
+        read_more(stream, &mut received).await?;
+    }
+    Ok(chunks.into_body())
+}
+
+/// Appends what comes next of a body.
+async fn read_more(stream: &mut TcpStream, received: &mut Vec<u8>) -> Result<(), Option<StatusCode>> {
+    let more = timeout(HANDSHAKE, read_some(stream, received)).await;
+    more.map_err(|_| StatusCode::REQUEST_TIMEOUT)?.ok_or(None)
 }
 
 async fn respond(stream: &mut TcpStream, reply: &Reply, target: &str, with_body: bool) {
