@@ -5,11 +5,16 @@
 use api_macro::api;
 
 use super::{ApiFn, Cx, Result, functions};
-use crate::scene::Kind;
+use crate::scene::{Handle, Kind};
 use crate::script::verbosity;
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![handle_proximity_sensor, handle_vision_sensor, reset_proximity_sensor, reset_vision_sensor];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    handle_proximity_sensor,
+    handle_vision_sensor,
+    reset_proximity_sensor,
+    reset_vision_sensor,
+    get_vision_sensor_res
+];
 
 /// Handles proximity sensors. They detect nothing yet.
 ///
@@ -56,4 +61,13 @@ fn reset_proximity_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<()> {
 fn reset_vision_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<()> {
     let _ = (cx, sensor_handle);
     Ok(())
+}
+
+/// Resolution of a vision sensor.
+///
+/// @param sensorHandle the sensor
+/// @return resolution pixels along x and y
+#[api("sim.getVisionSensorRes")]
+fn get_vision_sensor_res(cx: &Cx, sensor_handle: Handle) -> Result<Vec<i64>> {
+    Ok(cx.scene().object(sensor_handle)?.vision_sensor()?.view.resolution.map(i64::from).to_vec())
 }

@@ -171,11 +171,12 @@ impl Dynamics {
             let drive = match joint.mode {
                 JointMode::Dependent => master_of(joint, &motions)
                     .and_then(|master| motors::follow_master(joint, link.motion, master, call.step)),
-                _ if joint.control == Control::Callback => {
-                    requests.push(request(handle, joint, link));
-                    None
+                _ => {
+                    if joint.control.asks() {
+                        requests.push(request(handle, joint, link));
+                    }
+                    link.motor.drive(joint, engine, link.motion, call.step)
                 }
-                _ => link.motor.drive(joint, engine, link.motion, call.step),
             };
             link.set_drive(drive, world);
         }

@@ -54,10 +54,10 @@ impl Motor {
             Control::Force => Some(push(joint.target_force)),
             Control::Velocity if joint.motor_lock && joint.target_velocity == 0.0 => Some(self.hold(now, step)),
             Control::Velocity => Some(Drive { velocity: self.velocity(joint, now, step), force: limit }),
-            Control::Position => {
+            Control::Position | Control::PositionOrCallback => {
                 Some(Drive { velocity: self.approach(joint, joint.gains_with(engine), now, step), force: limit })
             }
-            Control::Spring => {
+            Control::Spring | Control::SpringOrCallback => {
                 let effort = joint.spring[0] * position_error(joint, now.position) - joint.spring[1] * now.velocity;
                 Some(Drive { velocity: joint.target_velocity.abs().copysign(effort), force: effort.abs() })
             }

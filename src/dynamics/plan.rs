@@ -190,7 +190,7 @@ fn is_dynamic_mode(scene: &Scene, joint: &Joint) -> bool {
     match joint.mode {
         JointMode::Dynamic => true,
         JointMode::Dependent => joint.dependency.is_some_and(|d| mode_of(d.master) == Ok(JointMode::Dynamic)),
-        JointMode::Kinematic => false,
+        JointMode::Kinematic | JointMode::Motion | JointMode::InverseKinematics => false,
     }
 }
 

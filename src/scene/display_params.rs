@@ -1,6 +1,7 @@
 //! The numbered parameters of cameras, sensors, lights and voxels (`sim.visionintparam_*`, `sim.camerafloatparam_*`, ...).
 
 use super::force_sensor::ForceSensor;
+use super::sensor_volume::PYRAMID;
 use super::sensors::{Camera, Light, ProximitySensor, View, VisionSensor};
 use super::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
 
@@ -117,7 +118,7 @@ impl VisionSensor {
 impl ProximitySensor {
     fn int_param(&self, id: i64) -> Option<i64> {
         match id {
-            prox::VOLUME_TYPE => Some(self.volume_type),
+            prox::VOLUME_TYPE => Some(self.volume_type - PYRAMID),
             prox::ENTITY_TO_DETECT => Some(self.entity),
             _ => None,
         }

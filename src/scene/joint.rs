@@ -16,6 +16,10 @@ pub enum JointType {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointMode {
     Kinematic = 0,
+    /// As kinematic; only scenes of old releases have it.
+    Motion = 1,
+    /// As kinematic; joints of inverse kinematics in scenes before 4.2.
+    InverseKinematics = 2,
     Dependent = 4,
     Dynamic = 5,
 }
@@ -27,7 +31,11 @@ pub enum Control {
     Force = 1,
     Velocity = 4,
     Position = 8,
+    /// Position control, unless a script answers; only old scenes have it.
+    PositionOrCallback = 9,
     Spring = 12,
+    /// Spring control, unless a script answers; only old scenes have it.
+    SpringOrCallback = 13,
     Callback = 16,
 }
 

@@ -57,6 +57,11 @@ impl Control {
         use Control::*;
         [Free, Force, Velocity, Position, Spring, Callback].into_iter().find(|c| *c as i64 == code)
     }
+
+    /// Whether scripts are asked what the joint is to do.
+    pub fn asks(self) -> bool {
+        matches!(self, Self::Callback | Self::PositionOrCallback | Self::SpringOrCallback)
+    }
 }
 
 impl Joint {
@@ -115,7 +120,7 @@ impl Joint {
         self.target_position = self.position;
         match mode {
             JointMode::Dependent => self.control = Control::Free,
-            JointMode::Kinematic => self.dependency = None,
+            JointMode::Kinematic | JointMode::Motion | JointMode::InverseKinematics => self.dependency = None,
             JointMode::Dynamic => {
                 self.dependency = None;
                 self.free_force_of_velocity();
@@ -133,7 +138,7 @@ impl Joint {
     }
 
     fn free_force_of_velocity(&mut self) {
-        if matches!(self.control, Control::Force | Control::Spring) {
+        if matches!(self.control, Control::Force | Control::Spring | Control::SpringOrCallback) {
             self.target_velocity = UNREACHABLE_VELOCITY;
         }
     }

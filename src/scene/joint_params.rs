@@ -19,7 +19,7 @@ fn motor_control(motor: bool, controller: bool) -> Control {
 impl Joint {
     /// The value of an integer parameter; None when joints have no such parameter.
     pub fn int_param(&self, id: i64) -> Option<i64> {
-        let controlled = matches!(self.control, Control::Position | Control::Spring | Control::Callback);
+        let controlled = !matches!(self.control, Control::Free | Control::Force | Control::Velocity);
         Some(match id {
             2000 => i64::from(self.control != Control::Free),
             2001 => i64::from(controlled),

@@ -145,8 +145,8 @@ impl Joint {
         }
         self.spring = self.spring.map(|k| k * s.powi(2));
         match self.control {
-            Control::Spring => self.target_force *= s.powi(2),
-            Control::Position => self.target_force *= s.powi(3),
+            Control::Spring | Control::SpringOrCallback => self.target_force *= s.powi(2),
+            Control::Position | Control::PositionOrCallback => self.target_force *= s.powi(3),
             _ => {}
         }
     }

@@ -57,7 +57,9 @@ impl Sim {
             let answer = self.ask(&self.joint_chain(request.joint), SysCall::Joint, &[data]);
             let number = |names: [&str; 2]| names.into_iter().find_map(|name| answer.as_ref()?.field(name)?.as_f64());
             let (velocity, force) = (number(["velocity", "vel"]), number(["force", "ctrl"]));
-            self.with_dynamics(|dynamics, _| dynamics.drive(request.joint, velocity, force));
+            if velocity.is_some() || force.is_some() {
+                self.with_dynamics(|dynamics, _| dynamics.drive(request.joint, velocity, force));
+            }
         }
     }
 

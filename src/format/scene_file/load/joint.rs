@@ -35,12 +35,11 @@ pub(super) fn joint(context: &Context<'_>, chunk: &Chunk) -> Joint {
 }
 
 fn mode(chunk: &Chunk) -> JointMode {
-    let hybrid = chunk.switches.unwrap_or(0) & 0x40 != 0;
     match chunk.joint_mode {
         Some(3 | 4) => JointMode::Dependent,
         Some(5) => JointMode::Dynamic,
-        // Joints of inverse kinematics that physics moved as well.
-        Some(1 | 2) if hybrid => JointMode::Dynamic,
+        Some(1) => JointMode::Motion,
+        Some(2) => JointMode::InverseKinematics,
         _ => JointMode::Kinematic,
     }
 }
@@ -85,21 +84,23 @@ fn control_of(mode: i32) -> Control {
     match mode {
         1 => Control::Force,
         4 => Control::Velocity,
-        8 | 9 => Control::Position,
-        12 | 13 => Control::Spring,
+        8 => Control::Position,
+        9 => Control::PositionOrCallback,
+        12 => Control::Spring,
+        13 => Control::SpringOrCallback,
         16 => Control::Callback,
         _ => Control::Free,
     }
 }
 
-/// Before 4.3: a motor, a control loop, a spring; what comes later counts.
+/// Before 4.3: a motor, a control loop for it, which may be a spring.
 fn old_control(chunk: &Chunk) -> Control {
     let on = |bit: u8| chunk.switches.unwrap_or(0) >> bit & 1 == 1;
     match (on(4), on(5), on(7)) {
-        (_, _, true) => Control::Spring,
-        (_, true, _) => Control::Position,
-        (true, ..) => Control::Velocity,
-        _ => Control::Free,
+        (false, ..) => Control::Free,
+        (true, _, true) => Control::SpringOrCallback,
+        (true, true, false) => Control::PositionOrCallback,
+        (true, false, false) => Control::Velocity,
     }
 }
 

@@ -79,7 +79,8 @@ impl SceneFile {
             settings::apply(scene, &file)?;
         }
         let scripts = file.contents.scripts.iter().filter_map(|script| script::attached(script, &context, &map));
-        let scripts: Vec<LoadedScript> = scripts.collect();
+        let filters = file.contents.objects.iter().zip(&objects).filter_map(|(o, handle)| script::filters(o, *handle));
+        let scripts: Vec<LoadedScript> = scripts.chain(filters).collect();
         Ok(Loaded { objects, root, scripts })
     }
 }

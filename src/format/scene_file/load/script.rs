@@ -3,13 +3,35 @@
 use super::{Context, HandleMap};
 use crate::format::scene_file::LoadedScript;
 use crate::format::ttt::chunks::{Script as Chunk, ScriptObject as ObjectChunk};
+use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{ScriptText, Text};
+use crate::scene::Handle;
 use crate::scene::script_object::{ScriptObject, ScriptType};
 
 const DISABLED: u8 = 0x2;
 /// Where this bit is clear, the main script is the usual one, whatever text is stored.
 const OWN_MAIN_SCRIPT: u8 = 0x8;
 const PARENT_IS_PROXY: u8 = 0x4;
+
+/// What stands for the image filters of 3.x: programs since 4.1 write a script for them.
+const FILTERS: &str = "function sysCall_vision(inData)
+    error('the image filters of V-REP 3 are not implemented in Swanilda')
+end
+";
+
+/// The script that takes the place of the image filters of a vision sensor.
+pub(super) fn filters(object: &FileObject, handle: Handle) -> Option<LoadedScript> {
+    let Class::VisionSensor(sensor) = &object.class else { return None };
+    sensor.filter.as_ref().filter(|chain| !chain.filters.is_empty())?;
+    Some(LoadedScript {
+        script_type: ScriptType::Customization,
+        owner: Some(handle),
+        code: FILTERS.as_bytes().to_vec(),
+        language: "lua".to_owned(),
+        disabled: false,
+        exec_order: 0,
+    })
+}
 
 /// A script in the tree.
 pub(super) fn object(chunk: &ObjectChunk, context: &Context<'_>) -> ScriptObject {

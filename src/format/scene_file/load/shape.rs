@@ -183,17 +183,16 @@ fn convexity(node: &MeshNode, data: &MeshData, mesh: Rc<Mesh>) -> (Rc<Mesh>, boo
     }
 }
 
+/// The box along the axes of the frame: of the mesh where there is one, of the shape where there are several.
 fn box_around(parts: &[Part]) -> Option<BoundingBox> {
+    let upright = nalgebra::UnitQuaternion::identity();
+    if let [part] = parts {
+        let own = part.mesh.bounding_box(&upright)?;
+        return Some(BoundingBox { size: own.size, pose: part.pose * own.pose });
+    }
     let mut all = Mesh::default();
     parts.iter().for_each(|part| all.append(&part.mesh, &part.pose));
-    match parts {
-        // The mesh of one part tells how its box lies.
-        [part] => {
-            let own = part.mesh.bounding_box(&nalgebra::UnitQuaternion::identity())?;
-            Some(BoundingBox { size: own.size, pose: part.pose * own.pose })
-        }
-        _ => all.oriented_box(),
-    }
+    all.bounding_box(&upright)
 }
 
 fn appearance(data: &MeshData) -> Appearance {
