@@ -1498,6 +1498,17 @@ function sim.getVector3Property(target, propertyName, options) end
 ---@return number[] angularVelocity world axes, rad/s
 function sim.getVelocity(shapeHandle) end
 
+--- Resolution of a vision sensor.
+---@param sensorHandle integer the sensor
+---@return integer[] resolution pixels along x and y
+function sim.getVisionSensorRes(sensorHandle) end
+
+--- Resolution of a vision sensor.
+---@deprecated sim.getVisionSensorImg
+---@param sensorHandle integer the sensor
+---@return integer[] resolution pixels along x and y
+function sim.getVisionSensorResolution(sensorHandle) end
+
 --- Whether this script may yield now.
 ---@return boolean allowed
 function sim.getYieldAllowed() end
