@@ -34,7 +34,7 @@ fn generate_time_optimal_trajectory(
     min_max_vel: Vec<f64>,
     min_max_accel: Vec<f64>,
     #[default(1000)] traj_pt_samples: Number,
-    #[default(String::from("not-a-knot"))] boundary_condition: String,
+    #[default("not-a-knot")] boundary_condition: String,
     #[default(5.0)] timeout: f64,
     #[default(None)] calculation_script_handle: Option<Number>,
 ) -> Result<(Vec<f64>, Vec<f64>, Option<i64>)> {

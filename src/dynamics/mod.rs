@@ -43,7 +43,7 @@ use plan::Plan;
 pub(crate) use report::Trigger;
 use world::World;
 
-use crate::scene::joint::{Control, Joint, JointMode};
+use crate::scene::joint::{Joint, JointMode};
 use crate::scene::{Handle, Scene};
 
 /// The physics world that belongs to a scene.

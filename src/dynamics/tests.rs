@@ -3,6 +3,7 @@
 use super::*;
 use crate::scene::dummy::{Dummy, LinkType};
 use crate::scene::force_sensor::ForceSensor;
+use crate::scene::joint::Control;
 use crate::scene::joint::JointType;
 use crate::scene::mass::MassProperties;
 use crate::scene::primitive::PrimitiveKind;
