@@ -312,6 +312,14 @@ function sim.computeMassAndInertia(shapeHandle, density) end
 ---@return any value in the second type; error if there is no sensible one
 function sim.convertPropertyValue(value, fromType, toType) end
 
+--- Divides a shape into convex pieces, which are one compound.
+---@deprecated the simConvex functionality
+---@param shapeHandle integer the shape
+---@param options integer 1: the shape itself changes, else a new one is made
+---@param ...? any
+---@return integer shapeHandle the compound, or a simple shape when it is of one piece
+function sim.convexDecompose(shapeHandle, options, ...) end
+
 --- Copy of a matrix.
 ---@deprecated table.copy
 ---@param matrixIn number[] 12 numbers
@@ -475,6 +483,14 @@ function sim.executeScriptString(stringToExecute, scriptHandle) end
 --- Lets the idle loop run without pauses; it always does here, so this does nothing.
 ---@param enable boolean ignored
 function sim.fastIdleLoop(enable) end
+
+--- A new shape: a section moved along a path. Its frame is the world's, its ends are open.
+---@param path number[] poses of 7 numbers, two at least
+---@param section number[] points x and y, two at least; closed when the last is the first
+---@param options? integer 4: the last pose is followed by the first
+---@param upVector? number[] y of the section is turned towards it, z along the path; zeros: the poses say how the section lies
+---@return integer shapeHandle the shape
+function sim.generateShapeFromPath(path, section, options, upVector) end
 
 --- The fastest motion along a path within limits of velocity and acceleration, from rest to rest.
 ---@param path number[] flat table of points
@@ -1166,6 +1182,13 @@ function sim.getPropertySetter(type, onlyName) end
 ---@param type integer sim.propertytype_*
 ---@return string word what follows propertytype_
 function sim.getPropertyTypeString(type) end
+
+--- Convex hull of points.
+---@deprecated simConvex.qhull
+---@param verticesIn number[] three coordinates each, metres
+---@return number[] verticesOut those of the points that are corners of the hull
+---@return integer[] indicesOut three vertices per triangle, from 0
+function sim.getQHull(verticesIn) end
 
 --- Rotation of a matrix.
 ---@deprecated sim.matrixToPose

@@ -39,6 +39,7 @@ mod sensor_objects;
 mod sensors;
 mod serial;
 mod shape;
+mod shape_convex;
 mod shape_group;
 mod shape_mass;
 mod signal;
@@ -86,6 +87,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Shapes", shape::FUNCTIONS),
     ("Mass of shapes", shape_mass::FUNCTIONS),
     ("Groups of shapes", shape_group::FUNCTIONS),
+    ("Convex and extruded shapes", shape_convex::FUNCTIONS),
     ("Colours", colour::FUNCTIONS),
     ("Joints", joint::FUNCTIONS),
     ("Joint motion", joint_motion::FUNCTIONS),

@@ -43,6 +43,8 @@ pub struct Part {
     pub primitive: Option<Primitive>,
     pub convex: bool,
     pub mass: MassProperties,
+    /// Of a group of groups: the number of the member it is in, then of the member of that member, and so on.
+    pub group: Vec<u32>,
     pub appearance: Appearance,
     /// Settings of its texture: there are no textures.
     pub kept: Kept,

@@ -68,6 +68,7 @@ impl Shape {
             primitive: pure.then_some(Primitive { kind, size: analytic, heights: None }),
             convex: kind.is_convex() && !open_ends,
             mass: MassProperties::of_primitive_at_creation(kind, size, DENSITY),
+            group: Vec::new(),
             appearance,
             kept: Kept::default(),
         };
@@ -138,6 +139,7 @@ fn mesh_part(mesh: Mesh, appearance: Appearance) -> Part {
         pose: Pose::identity(),
         primitive: None,
         mass: MassProperties::default(),
+        group: Vec::new(),
         appearance,
         kept: Kept::default(),
     }

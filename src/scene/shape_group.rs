@@ -1,6 +1,6 @@
 //! Joining shapes into one and taking them apart (SPEC-shapes section 5).
 //!
-//! Groups of groups are flat: taking them apart gives the simple shapes.
+//! A shape keeps a flat list of parts; each knows the groups it is in. The frame of a group is that of its last part.
 
 use std::rc::Rc;
 
@@ -12,13 +12,24 @@ use super::shape_geometry::box_of;
 use super::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
 
 impl Shape {
-    /// The parts with the mass each would have as a shape of its own, in the part's frame.
+    /// The parts with the mass each would have as a shape of its own, in the part's frame. Those of a group share the mass the group
+    /// was given.
     fn parts_with_mass(&self) -> Vec<Part> {
         let mut parts = self.parts.clone();
         if let [part] = parts.as_mut_slice() {
             part.mass = self.mass.reexpressed(&part.pose.inverse());
         }
+        let sum: f64 = parts.iter().map(|part| part.mass.mass).sum();
+        parts.iter_mut().for_each(|part| part.mass.set_mass(part.mass.mass * self.mass.mass / sum));
         parts
+    }
+
+    /// What the shape was grouped of: lists of parts, each without the number of its group.
+    fn members(&self) -> Vec<Vec<Part>> {
+        let together = |a: &Part, b: &Part| a.group.first().is_some_and(|group| b.group.first() == Some(group));
+        let mut members: Vec<Vec<Part>> = self.parts.chunk_by(together).map(<[Part]>::to_vec).collect();
+        members.iter_mut().flatten().for_each(|part| drop(part.group.drain(..part.group.len().min(1))));
+        members
     }
 
     /// Whether physics knows all parts as solids, not as terrain.
@@ -103,10 +114,26 @@ impl Scene {
         }
         let frame = self.object(handle)?.pose();
         let mut pieces = Vec::new();
-        for part in &shape.parts {
-            pieces.push(self.add_piece(handle, &shape, part, frame)?);
+        for member in shape.members() {
+            pieces.push(match member.as_slice() {
+                [part] => self.add_piece(handle, &shape, part, frame)?,
+                parts => self.add_group(handle, &shape, parts, frame)?,
+            });
         }
         Ok(Some(pieces))
+    }
+
+    /// A new object of several parts of `shape`, which the object `handle` is.
+    fn add_group(&mut self, handle: Handle, shape: &Shape, parts: &[Part], frame: Pose) -> SceneResult<Handle> {
+        let own = parts.last().ok_or(SceneError::OperationFailed)?.pose;
+        let mut parts = parts.to_vec();
+        parts.iter_mut().for_each(|part| part.pose = own.inverse() * part.pose);
+        let masses: Vec<_> = parts.iter().map(|part| (part.pose, part.mass)).collect();
+        let mass = MassProperties::combine(&masses).ok_or(SceneError::OperationFailed)?;
+        let bounding_box = box_of(&parts).ok_or(SceneError::OperationFailed)?;
+        let group = self.add_beside(handle, Shape { parts, mass, bounding_box, ..shape.clone() })?;
+        self.set_local_pose(group, frame * own)?;
+        Ok(group)
     }
 
     /// A new object of one part of `shape`, which the object `handle` is.
@@ -124,6 +151,24 @@ impl Scene {
         let piece = self.add_beside(handle, piece)?;
         self.set_local_pose(piece, frame * part.pose)?;
         Ok(piece)
+    }
+
+    /// The shape in convex pieces, and where it lies. Mass, flags, material and looks are those of the original.
+    ///
+    /// # Errors
+    /// When the object is no shape or has no volume.
+    pub fn convex_decomposition(&self, handle: Handle) -> SceneResult<(Shape, Pose)> {
+        let original = self.object(handle)?.shape()?;
+        let looks = original.parts.first().map_or_else(Shape::mesh_appearance, |part| part.appearance.clone());
+        let mut parts = Vec::new();
+        for mesh in original.mesh().convex_pieces() {
+            let mut piece = Shape::from_mesh(mesh, looks.clone())?;
+            piece.parts.iter_mut().for_each(|part| part.convex = true);
+            parts.append(&mut piece.parts);
+        }
+        let flat = || SceneError::Refused("the shape has no volume to divide.".into());
+        let bounding_box = box_of(&parts).ok_or_else(flat)?;
+        Ok((Shape { parts, bounding_box, ..original.clone() }, self.world_pose(handle)?))
     }
 
     /// Takes a single mesh apart into its islands. None when it is one island. The original is still there.
@@ -153,9 +198,12 @@ impl Scene {
 fn grouped(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
     let pure = placed.iter().all(|(_, shape)| shape.is_pure_solid());
     let mut parts = Vec::new();
-    for (pose, shape) in placed {
+    for (number, (pose, shape)) in (0..).zip(placed) {
         for mut part in shape.parts_with_mass() {
             part.pose = pose * part.pose;
+            if shape.is_compound() {
+                part.group.insert(0, number);
+            }
             part.primitive = part.primitive.filter(|_| pure);
             parts.push(part);
         }
@@ -197,5 +245,34 @@ mod tests {
         assert_eq!((members, shape.parts.len()), (vec![a, b], 2));
         assert!((shape.mass.mass - 1.0).abs() < 1e-12 && (shape.mass.com[0] + 0.2).abs() < 1e-12);
         assert!(scene.group_shapes(&[a.raw()], false).is_err());
+    }
+
+    #[test]
+    fn groups_of_groups_come_apart_level_by_level() {
+        let mut scene = Scene::new();
+        let mut cube = |x: f64| {
+            let shape = Shape::primitive(PrimitiveKind::Cuboid, [0.1; 3], Default::default()).unwrap();
+            let cube = scene.add("c", Kind::Shape(Box::new(shape))).unwrap();
+            scene.set_world_pose(cube, Pose::translation(x, 0.0, 0.0)).unwrap();
+            cube.raw()
+        };
+        let cubes = [cube(0.0), cube(1.0), cube(2.0), cube(3.0)];
+        let pair = scene.group_shapes(&cubes[..2], false).unwrap().0;
+        let three = scene.group_shapes(&[pair.raw(), cubes[2]], false).unwrap().0;
+        let four = scene.group_shapes(&[three.raw(), cubes[3]], false).unwrap().0;
+        let mut taken = |group| {
+            let pieces = scene.ungroup_shape(group).unwrap().unwrap();
+            let parts = |h: &Handle| scene.object(*h).unwrap().shape().unwrap().parts.len();
+            (
+                pieces.iter().map(parts).collect::<Vec<_>>(),
+                scene.world_pose(pieces[0]).unwrap().translation.x,
+                pieces[0],
+            )
+        };
+        let (sizes, x, three) = taken(four);
+        assert_eq!((sizes, x), (vec![3, 1], 2.0));
+        let (sizes, x, pair) = taken(three);
+        assert_eq!((sizes, x), (vec![2, 1], 1.0));
+        assert_eq!(taken(pair).0, [1, 1]);
     }
 }

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::object::{Kind, Object};
 use super::shape::Part;
+use super::shape::Shape;
 use super::{Change, Changes, CustomData, Field, Handle, Kept, SceneError, SceneResult, Settings, Uid, identity};
 
 /// Identifiers of meshes begin above all handles and their flags: both name targets of properties.
@@ -89,11 +90,33 @@ impl Scene {
 
     /// Gives the meshes of a shape that comes into the scene their identifiers.
     fn name_meshes(&mut self, object: &mut Object) {
-        let Kind::Shape(shape) = &mut object.kind else { return };
+        let handle = object.handle;
+        if let Kind::Shape(shape) = &mut object.kind {
+            self.name_parts(handle, shape);
+        }
+    }
+
+    fn name_parts(&mut self, handle: Handle, shape: &mut Shape) {
         for part in &mut shape.parts {
             part.uid = FIRST_MESH_UID + self.new_uid();
-            self.meshes.insert(part.uid, object.handle);
+            self.meshes.insert(part.uid, handle);
         }
+    }
+
+    /// Gives a shape other parts: the object stays, its meshes are new ones.
+    ///
+    /// # Errors
+    /// When the object is no shape.
+    pub fn morph_shape(&mut self, handle: Handle, mut shape: Shape) -> SceneResult<()> {
+        let old: Vec<Uid> = self.object(handle)?.shape()?.parts.iter().map(|part| part.uid).collect();
+        self.name_parts(handle, &mut shape);
+        for uid in old {
+            self.meshes.remove(&uid);
+        }
+        self.reshape(handle, |own| {
+            *own = shape;
+            Ok(())
+        })
     }
 
     /// The shape a mesh belongs to, and which of its meshes it is.

@@ -100,6 +100,7 @@ fn part(context: &mut Context<'_>, mesh: &FileMesh, frame: &Pose, simple: bool) 
         primitive,
         convex,
         mass: mass(node, frame).reexpressed(&in_node.inverse()),
+        group: Vec::new(),
         appearance: appearance(data),
         kept: Kept::default(),
     })
