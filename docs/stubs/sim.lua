@@ -58,6 +58,22 @@ function setYieldAllowed(allow) end
 --- Forbids yielding and interruption until sim.releaseLock.
 function sim.acquireLock() end
 
+--- Something to draw points, lines or triangles with. Nothing is drawn here.
+---@param objectType integer sim.drawing_*
+---@param size number of points and lines
+---@param duplicateTolerance number items closer than this are one
+---@param parentObjectHandle integer -1 for the world
+---@param maxItemCount integer more are refused or replace old ones, as the type says
+---@param ... any
+---@return integer drawingObjectHandle its handle
+function sim.addDrawingObject(objectType, size, duplicateTolerance, parentObjectHandle, maxItemCount, ...) end
+
+--- Adds items to a drawing object.
+---@param drawingObjectHandle integer from sim.addDrawingObject
+---@param itemData? any coordinates and more, as the type says; nil takes all items out
+---@return integer result 1
+function sim.addDrawingObjectItem(drawingObjectHandle, itemData) end
+
 --- Adds a force to a shape for the next dynamics call. Static shapes do not feel it.
 ---@param shapeHandle integer the shape, optionally with sim.handleflag_resetforce and sim.handleflag_resettorque
 ---@param position number[] where the force acts, relative to the centre of mass, in the axes of the shape, metres
@@ -71,6 +87,22 @@ function sim.addForce(shapeHandle, position, force) end
 ---@param torque? number[] world axes, newton metres
 ---@return integer result
 function sim.addForceAndTorque(shapeHandle, force, torque) end
+
+--- Draws streams over each other.
+---@param graphHandle integer the graph
+---@param curveName string its name
+---@param dim integer 2 or 3
+---@param ... any
+---@return integer curveId its number
+function sim.addGraphCurve(graphHandle, curveName, dim, ...) end
+
+--- Adds a stream of values to a graph. They are not kept here.
+---@param graphHandle integer the graph
+---@param streamName string its name
+---@param unit string its unit
+---@param ... any
+---@return integer streamId its number
+function sim.addGraphStream(graphHandle, streamName, unit, ...) end
 
 --- Adds to a collection, or subtracts from it.
 ---@param collectionHandle integer the collection
@@ -110,6 +142,14 @@ function sim.addReferencedHandle(objectHandle, referencedHandle, tag, options) e
 ---@param message string the line
 ---@return integer result 1
 function sim.addStatusbarMessage(message) end
+
+--- Shows an object in a view.
+---@param viewHandleOrIndex integer from sim.floatingViewAdd, or the number of a view of the page
+---@param objectHandle integer a camera, vision sensor or graph, or -1
+---@param options integer bits
+---@param ... any
+---@return integer res 1
+function sim.adjustView(viewHandleOrIndex, objectHandle, options, ...) end
 
 --- Turns the bounding box of a shape.
 ---@param shapeHandle integer the shape
@@ -288,6 +328,12 @@ function sim.clearIntegerSignal(signalName) end
 ---@return integer count how many there were
 function sim.clearStringSignal(signalName) end
 
+--- Does nothing: there are no plugins to be told.
+---@deprecated
+---@param module any a name, or sim.handle_all
+---@return integer count 0
+function sim.closeModule(module) end
+
 --- Appends the first point of a path to its end.
 ---@param path number[] flat table of points
 ---@param lengths number[] from sim.getPathLengths
@@ -463,10 +509,36 @@ function sim.createVisionSensor(options, intParams, floatParams) end
 ---@param collectionHandle integer the collection
 function sim.destroyCollection(collectionHandle) end
 
+--- Removes a curve.
+---@param graphHandle integer the graph
+---@param curveId integer from sim.addGraphCurve
+function sim.destroyGraphCurve(graphHandle, curveId) end
+
+--- A message in a window. There are no windows.
+---@deprecated the simUI functionality
+---@param title string of the window
+---@param text string in it
+---@param style integer sim.dlgstyle_*
+---@param modal boolean whether to wait
+---@param ... any
+---@return integer handle -1
+function sim.displayDialog(title, text, style, modal, ...) end
+
 --- Takes everything out of a collection.
 ---@deprecated sim.destroyCollection
 ---@param collectionHandle integer the collection
 function sim.emptyCollection(collectionHandle) end
+
+--- Does nothing: what there is to calculate is calculated.
+---@param count integer of threads
+---@return integer result 0
+function sim.enableWorkThreads(count) end
+
+--- Closes a window of sim.displayDialog.
+---@deprecated the simUI functionality
+---@param handle integer from sim.displayDialog
+---@return integer result 0
+function sim.endDialog(handle) end
 
 --- Runs Lua code in this script.
 ---@param code string text of a chunk
@@ -483,6 +555,20 @@ function sim.executeScriptString(stringToExecute, scriptHandle) end
 --- Lets the idle loop run without pauses; it always does here, so this does nothing.
 ---@param enable boolean ignored
 function sim.fastIdleLoop(enable) end
+
+--- Adds a view to the page.
+---@param posX number of its centre, 0 to 1
+---@param posY number of its centre
+---@param sizeX number part of the window
+---@param sizeY number part of the window
+---@param options integer bits
+---@return integer floatingViewHandle its handle
+function sim.floatingViewAdd(posX, posY, sizeX, sizeY, options) end
+
+--- Removes a view.
+---@param floatingViewHandle integer from sim.floatingViewAdd
+---@return integer result 1, or 0 when there is no such view
+function sim.floatingViewRemove(floatingViewHandle) end
 
 --- A new shape: a section moved along a path. Its frame is the world's, its ends are open.
 ---@param path number[] poses of 7 numbers, two at least
@@ -577,6 +663,12 @@ function sim.getClosestPosOnPath(path, lengths, position) end
 ---@return integer[] objectHandles in the order of their creation
 function sim.getCollectionObjects(collectionHandle) end
 
+--- Handle of a collision object; there are none.
+---@deprecated sim.checkCollision
+---@param collisionObjectName string its name
+---@return integer handle -1
+function sim.getCollisionHandle(collisionObjectName) end
+
 --- Value of a property.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
 ---@param propertyName string its name
@@ -604,6 +696,18 @@ function sim.getContactInfo(dynamicPass, objectHandle, index) end
 ---@param objectHandle integer the object
 ---@return integer scriptHandle -1 if there is none
 function sim.getCustomizationScriptAssociatedWithObject(objectHandle) end
+
+--- What the user chose; there is none.
+---@deprecated the simUI functionality
+---@param handle integer from sim.displayDialog
+---@return integer result sim.dlgret_still_open
+function sim.getDialogResult(handle) end
+
+--- Handle of a distance object; there are none.
+---@deprecated sim.checkDistance
+---@param distanceObjectName string its name
+---@return integer handle -1
+function sim.getDistanceHandle(distanceObjectName) end
 
 --- Value of a signal; nothing when there is none of that name.
 ---@deprecated sim.getFloatProperty(sim.handle_scene, 'signal.signalName')
@@ -693,6 +797,12 @@ function sim.getFloatSignal(signalName) end
 --- A snapshot of everything as events, in CBOR. The numbers of its events end where those of the next dispatched batch begin.
 ---@return string|table events
 function sim.getGenesisEvents() end
+
+--- Handle of an IK group of the scene; there are none.
+---@deprecated the simIK functionality
+---@param ikGroupName string its name
+---@return integer handle -1
+function sim.getIkGroupHandle(ikGroupName) end
 
 --- An integer parameter.
 ---@param parameter integer sim.intparam_*
@@ -848,6 +958,12 @@ function sim.getModelBB(handle) end
 ---@param objectHandle integer the object
 ---@return integer property sim.modelproperty_* bits; sim.modelproperty_not_model if it is no model base
 function sim.getModelProperty(objectHandle) end
+
+--- Name of a native plugin; there are none.
+---@deprecated sim.getPluginName
+---@param index integer from 0
+---@return string pluginName nil
+function sim.getModuleName(index) end
 
 --- Splits an old-style name at its `#`; without one the suffix is -1.
 ---@param name? string the name; nil for the suffix of the calling script
@@ -1113,6 +1229,11 @@ function sim.getPathLengths(path, dof, distCallback) end
 ---@deprecated properties
 ---@return string[] tags in alphabetical order
 function sim.getPersistentDataTags() end
+
+--- Name of a native plugin; there are none.
+---@param index integer from 0
+---@return string pluginName nil
+function sim.getPluginName(index) end
 
 --- Inverse of a pose.
 ---@param pose number[] x, y, z, qx, qy, qz, qw
@@ -1491,6 +1612,11 @@ function sim.getThreadSwitchAllowed() end
 ---@return number value milliseconds times 1000, as in 4.10
 function sim.getThreadSwitchTiming() end
 
+--- Handle of a custom user interface of V-REP; there are none.
+---@param name string of it
+---@return integer handle -1
+function sim.getUIHandle(name) end
+
 --- A parameter of an object.
 ---@param objectHandle integer the object
 ---@param parameterName string its name
@@ -1554,12 +1680,24 @@ function sim.handleAddOnScripts(callType, ...) end
 ---@return integer count how many scripts ran it
 function sim.handleChildScripts(callType, ...) end
 
+--- Does nothing: collision objects are gone.
+---@deprecated sim.checkCollision
+---@param collisionObjectHandle integer any
+---@return integer collisionCount 0
+function sim.handleCollision(collisionObjectHandle) end
+
 --- Calls a callback of all customization scripts. For the main script.
 ---@deprecated sim.handleEmbeddedScripts
 ---@param callType integer sim.syscb_*
 ---@param ... any
 ---@return integer count how many scripts ran it
 function sim.handleCustomizationScripts(callType, ...) end
+
+--- Does nothing: distance objects are gone.
+---@deprecated sim.checkDistance
+---@param distanceObjectHandle integer any
+---@return integer result 0
+function sim.handleDistance(distanceObjectHandle) end
 
 --- Advances the physics. For the main script or a simulation script.
 ---@param deltaTime number seconds
@@ -1575,8 +1713,48 @@ function sim.handleEmbeddedScripts(callType, ...) end
 --- Lets plugins of the original handle what came from outside. There are none; main scripts call it all the same.
 function sim.handleExtCalls() end
 
+--- Records the values of the streams.
+---@param graphHandle integer the graph, sim.handle_all or sim.handle_all_except_explicit
+---@param time number of the values
+function sim.handleGraph(graphHandle, time) end
+
+--- Does nothing: IK groups of the scene are gone, simIK is for that.
+---@deprecated the simIK functionality
+---@param ikGroupHandle integer any
+---@return integer result 0
+function sim.handleIkGroup(ikGroupHandle) end
+
+--- Does nothing: kinematic joints move by sim.handleJointMotion.
+---@param jointHandle integer any
+---@param deltaTime number seconds
+---@return integer result 0
+function sim.handleJoint(jointHandle, deltaTime) end
+
 --- Moves kinematic joints towards their targets by one step. For the main script.
 function sim.handleJointMotion() end
+
+--- Does nothing: mechanisms are gone.
+---@param mechanismHandle integer any
+---@return integer result 0
+function sim.handleMechanism(mechanismHandle) end
+
+--- Does nothing: mills are gone.
+---@param millHandle integer any
+---@return integer result 0
+function sim.handleMill(millHandle) end
+
+--- Does nothing: there are no plugins to be told.
+---@deprecated
+---@param module any a name, or sim.handle_all
+---@param calledInSensingPart boolean any
+---@return integer count 0
+function sim.handleModule(module, calledInSensingPart) end
+
+--- Does nothing: path objects are gone.
+---@param pathHandle integer any
+---@param deltaTime number seconds
+---@return integer result 0
+function sim.handlePath(pathHandle, deltaTime) end
 
 --- Handles proximity sensors. They detect nothing yet.
 ---@param sensorHandle integer a sensor, sim.handle_all or sim.handle_all_except_explicit
@@ -1599,6 +1777,10 @@ function sim.handleSimulationScripts(callType, ...) end
 
 --- Begins a run: primes the measurement of velocities. For the main script.
 function sim.handleSimulationStart() end
+
+--- Does nothing.
+---@return integer result 0
+function sim.handleVarious() end
 
 --- Handles vision sensors. They see nothing yet.
 ---@param sensorHandle integer a sensor, sim.handle_all or sim.handle_all_except_explicit
@@ -1679,6 +1861,10 @@ function sim.isPluginLoaded(name) end
 ---@param parameters? string its arguments, with spaces between; double quotes hold one together
 ---@param ShowStatus? integer
 function sim.launchExecutable(filename, parameters, ShowStatus) end
+
+--- Does nothing: threads are coroutines, which their scripts resume.
+---@return integer count 0
+function sim.launchThreadedChildScripts() end
 
 --- Reads an image: PNG, JPEG, BMP or TGA.
 ---@param options integer 1: with an alpha channel
@@ -1795,6 +1981,12 @@ function sim.multiplyPoses(poseIn1, poseIn2) end
 ---@param inVectors number[] three numbers for each vector
 ---@return number[] outVectors three numbers for each vector
 function sim.multiplyVector(matrix, inVectors) end
+
+--- Does nothing: there are no plugins to be told.
+---@deprecated
+---@param module any a name, or sim.handle_all
+---@return integer count 0
+function sim.openModule(module) end
 
 --- Packs numbers into bytes; those that do not fit are cut as in C.
 ---@param numbers number[] the list
@@ -1935,6 +2127,17 @@ function sim.readCustomTableData(handle, tag, options) end
 ---@return number[] torqueVector newton metres
 function sim.readForceSensor(objectHandle) end
 
+--- Takes what sim.sendData left.
+---@deprecated
+---@param dataHeader integer as sent
+---@param dataName string as sent
+---@param ... any
+---@return string data nil when there is nothing
+---@return integer senderID -1
+---@return integer dataHeader as sent
+---@return string dataName as sent
+function sim.receiveData(dataHeader, dataName, ...) end
+
 --- Accepted for scripts that describe themselves to the original's editor.
 ---@param ModuleName string
 ---@param ... any
@@ -1961,6 +2164,10 @@ function sim.relocateShapeFrame(shapeHandle, pose) end
 ---@deprecated sim.destroyCollection
 ---@param collectionHandle integer the collection
 function sim.removeCollection(collectionHandle) end
+
+--- Removes a drawing object.
+---@param drawingObjectHandle integer from sim.addDrawingObject, or sim.handle_all
+function sim.removeDrawingObject(drawingObjectHandle) end
 
 --- Removes a model: its base and everything below.
 ---@param objectHandle integer base of the model
@@ -2018,10 +2225,31 @@ function sim.reorientShapeBoundingBox(shapeHandle, relativeToHandle) end
 ---@return number[] path flat table of count points, both ends included
 function sim.resamplePath(path, lengths, count, method, types) end
 
+--- Does nothing: collision objects are gone.
+---@deprecated sim.checkCollision
+---@param collisionObjectHandle integer any
+---@return integer result 0
+function sim.resetCollision(collisionObjectHandle) end
+
+--- Does nothing: distance objects are gone.
+---@deprecated sim.checkDistance
+---@param distanceObjectHandle integer any
+---@return integer result 0
+function sim.resetDistance(distanceObjectHandle) end
+
 --- Makes the physics take an object up anew at the next dynamics call: it loses its velocity.
 ---@param objectHandle integer the object, with sim.handleflag_model also everything below it, or sim.handle_all
 ---@return integer result
 function sim.resetDynamicObject(objectHandle) end
+
+--- Forgets what was recorded.
+---@param graphHandle integer the graph, sim.handle_all or sim.handle_all_except_explicit
+function sim.resetGraph(graphHandle) end
+
+--- Does nothing: mills are gone.
+---@param millHandle integer any
+---@return integer result 0
+function sim.resetMill(millHandle) end
 
 --- Forgets what proximity sensors detected.
 ---@param sensorHandle integer a sensor, sim.handle_all or sim.handle_all_except_explicit
@@ -2034,6 +2262,11 @@ function sim.resetVisionSensor(sensorHandle) end
 --- Undoes sim.changeEntityColor.
 ---@param originalColors table[] from sim.changeEntityColor; objects that are gone are left out
 function sim.restoreEntityColor(originalColors) end
+
+--- Does nothing: threads are coroutines, which their scripts resume.
+---@param location integer sim.scriptthreadresume_*
+---@return integer count 0
+function sim.resumeThreads(location) end
 
 --- Moves joints to positions, blocking.
 ---@deprecated sim.moveToConfig
@@ -2184,6 +2417,15 @@ function sim.scaleObjects(objectHandles, scalingFactor, scalePositionsToo) end
 ---@param simulationTime? boolean which of the two
 ---@return integer id for sim.cancelScheduledExecution
 function sim.scheduleExecution(f, args, timePoint, simulationTime) end
+
+--- Leaves data for other scripts. Distances and directions of antennas do not count.
+---@deprecated
+---@param targetID integer any
+---@param dataHeader integer number both sides know
+---@param dataName string name both sides know
+---@param data string bytes
+---@param ... any
+function sim.sendData(targetID, dataHeader, dataName, data, ...) end
 
 --- How many bytes wait to be read from a serial port.
 ---@param portHandle integer from sim.serialOpen
@@ -2359,6 +2601,19 @@ function sim.setFloatProperty(target, propertyName, propertyState, options) end
 ---@param signalValue number the new value
 ---@return integer result 1
 function sim.setFloatSignal(signalName, signalValue) end
+
+--- What a stream does to its values before it records them.
+---@param graphHandle integer the graph
+---@param streamId integer from sim.addGraphStream
+---@param trType integer sim.stream_transf_*
+---@param ... any
+function sim.setGraphStreamTransformation(graphHandle, streamId, trType, ...) end
+
+--- The value a stream records next.
+---@param graphHandle integer the graph
+---@param streamId integer from sim.addGraphStream
+---@param value number number
+function sim.setGraphStreamValue(graphHandle, streamId, value) end
 
 --- Sets an integer parameter.
 ---@param parameter integer sim.intparam_*
@@ -2822,6 +3077,11 @@ function sim.setTableProperty(target, name, value, options) end
 ---@return integer level the previous level
 function sim.setThreadAutomaticSwitch(allow) end
 
+--- Does nothing: a thread never runs while the simulation does something else.
+---@param freeMode boolean any
+---@return integer result 0
+function sim.setThreadIsFree(freeMode) end
+
 --- Allows or forbids yielding altogether, in this script.
 ---@deprecated sim.acquireLock and sim.releaseLock
 ---@param allow any false raises the level, true lowers it, a number sets it; yielding is possible at level 0
@@ -3018,6 +3278,10 @@ function sim.wait(dt, simulationTime) end
 ---@param signalName string name without the prefix signal.
 ---@return any value the value of the signal, which stays set
 function sim.waitForSignal(target, signalName) end
+
+--- Does nothing.
+---@return integer result 0
+function sim.waitForWorkThreads() end
 
 --- Writes custom data.
 ---@param handle integer object, sim.handle_scene or sim.handle_app

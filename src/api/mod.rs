@@ -8,6 +8,7 @@ mod auxiliary_console;
 mod collection;
 mod colour;
 mod custom_data;
+mod drawing;
 mod dummy;
 mod dynamics;
 mod engine_param;
@@ -57,7 +58,9 @@ mod zmq;
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use crate::script::{Bound, Embedded, FILES, Member, Registry, cbor, file_lock};
+use crate::script::{Bound, Embedded, FILES, Registry, cbor, file_lock};
+
+pub(crate) use crate::script::Member;
 
 pub(crate) use crate::script::{ApiError, ApiResult as Result};
 pub use crate::script::{ApiFn, Args, Cx, FromScript, IntoScript, Param};
@@ -113,6 +116,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Consoles, messages of the interface, semaphores", auxiliary_console::FUNCTIONS),
     ("User parameters", user_param::FUNCTIONS),
     ("Scene files", scene_file::FUNCTIONS),
+    ("Display", drawing::FUNCTIONS),
 ];
 
 /// Native functions of Lua modules: `module.function` each. A Lua file of the module's name gets them as its second argument.

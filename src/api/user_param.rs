@@ -27,9 +27,9 @@ fn get_script_simulation_parameter(
     parameter_name: String,
     #[default(false)] force_string_return: bool,
 ) -> Result<Results> {
-    let (script, host) = hosts(cx, script_handle)?;
+    let hosts = hosts(cx, script_handle)?;
     let scene = cx.scene();
-    let text = [Some(script), host].into_iter().flatten().find_map(|object| find(&scene, object, &parameter_name));
+    let text = hosts.into_iter().find_map(|object| find(&scene, object, &parameter_name));
     Ok(Results(vec![value(text, force_string_return)]))
 }
 
@@ -46,8 +46,9 @@ fn set_script_simulation_parameter(
     parameter_name: String,
     parameter_value: String,
 ) -> Result<i64> {
-    let (script, host) = hosts(cx, script_handle)?;
-    let owner = host.filter(|&host| find(&cx.scene(), host, &parameter_name).is_some()).unwrap_or(script);
+    let hosts = hosts(cx, script_handle)?;
+    let owner = hosts.iter().rev().find(|&&host| find(&cx.scene(), host, &parameter_name).is_some());
+    let owner = *owner.or(hosts.first()).ok_or(ApiError::NoSuchScript)?;
     set(cx, owner, parameter_name, parameter_value)
 }
 
@@ -79,11 +80,15 @@ fn set_user_parameter(
     set(cx, object_handle, parameter_name, parameter_value)
 }
 
-/// The script object a handle means, and the object it is attached to.
-fn hosts(cx: &Cx, script_handle: Number) -> Result<(Handle, Option<Handle>)> {
-    let script = script_of(cx, script_handle.0)?.object.ok_or(ApiError::NoSuchScript)?;
-    let host = cx.scene().object(script)?.parent();
-    Ok((script, host))
+/// Who may hold the parameters of a script: its object, and the object it is attached to. At least one.
+fn hosts(cx: &Cx, script_handle: Number) -> Result<Vec<Handle>> {
+    let script = script_of(cx, script_handle.0)?;
+    let attached_to = match script.object {
+        Some(object) => cx.scene().object(object)?.parent(),
+        None => script.owner(),
+    };
+    let hosts: Vec<Handle> = [script.object, attached_to].into_iter().flatten().collect();
+    if hosts.is_empty() { Err(ApiError::NoSuchScript) } else { Ok(hosts) }
 }
 
 fn find(scene: &Scene, object: Handle, name: &str) -> Option<String> {

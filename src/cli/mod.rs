@@ -4,6 +4,7 @@
 #![allow(clippy::disallowed_methods, reason = "the outside world is this layer's business")]
 
 mod api;
+mod doctor;
 mod init;
 mod interrupt;
 mod output;
@@ -38,6 +39,7 @@ enum Command {
     Run(run::Args),
     Serve(serve::Args),
     Api(api::Args),
+    Doctor(doctor::Args),
     Init(init::Args),
     /// Print a completion script for a shell
     Completions {
@@ -62,6 +64,7 @@ impl Command {
             Self::Run(args) => run::run(&args),
             Self::Serve(args) => serve::serve(&args),
             Self::Api(args) => api::api(&args),
+            Self::Doctor(args) => doctor::doctor(&args),
             Self::Init(args) => init::init(&args),
             Self::Completions { shell } => {
                 let mut script = Vec::new();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::interrupt::Interrupt;
 use super::output::{Format, Output};
 use super::progress::Progress;
-use crate::format::scene_file::SceneFile;
+use crate::format::scene_file::{self, SceneFile};
 use crate::format::ttt;
 use crate::script::verbosity;
 use crate::{Options, ScriptKind, Simulator};
@@ -37,6 +37,10 @@ pub(super) struct Setup {
     /// A Lua file to load as an add-on first; may be repeated
     #[arg(long, value_name = "FILE")]
     addon: Vec<PathBuf>,
+    /// Bring Lua files of the time of V-REP and early CoppeliaSim up to date, as those in scenes are: old names, threads, what changed its
+    /// meaning
+    #[arg(long)]
+    compat: bool,
     /// Highest level of log lines to show: none, errors, warnings, loadinfos, scripterrors, scriptwarnings, scriptinfos, infos,
     /// debug or trace
     #[arg(long, value_name = "LEVEL", value_parser = level)]
@@ -70,8 +74,17 @@ impl Setup {
     /// # Errors
     /// When one cannot be read.
     pub(super) fn sources(&self, scene: Option<&Path>) -> Result<Sources, String> {
-        let add_ons = self.addon.iter().map(read).collect::<Result<_, _>>()?;
-        Ok(Sources { scene: scene.map(read_scene).transpose()?, add_ons })
+        let add_ons = self.addon.iter().map(|path| read(path).map(|source| self.up_to_date(source)));
+        let add_ons = add_ons.collect::<Result<_, _>>()?;
+        let scene = scene.map(read_scene).transpose()?.map(|scene| match scene {
+            Scene::Script(source) => Scene::Script(self.up_to_date(source)),
+            file @ Scene::File(_) => file,
+        });
+        Ok(Sources { scene, add_ons })
+    }
+
+    fn up_to_date(&self, (name, code): Source) -> Source {
+        if self.compat { (name, scene_file::with_compat(code)) } else { (name, code) }
     }
 
     /// The named parameter of the command line.

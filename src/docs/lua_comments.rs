@@ -12,6 +12,7 @@ const CATEGORIES: &[(&str, &str)] = &[
     ("sim/pathobject", "Paths"),
     ("sim/pose", "Motion"),
     ("sim/property", "Properties"),
+    ("sim/removed", "Removed from CoppeliaSim"),
     ("sim/script", "Scripts"),
     ("sim/shape", "Shapes"),
     ("sim/thread", "Threads"),

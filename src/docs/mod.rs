@@ -5,12 +5,14 @@
 
 mod coverage;
 mod lua_comments;
+mod lua_tokens;
 mod markdown;
 mod module_stubs;
 mod modules;
 mod properties;
 mod row;
 mod stubs;
+mod usage;
 
 use std::collections::BTreeMap;
 
@@ -18,6 +20,7 @@ use crate::api;
 
 pub use markdown::function_text;
 pub use row::{Function, Parameter, Returned};
+pub use usage::{Support, Use, uses};
 
 /// Where the editor stubs are kept in the repository.
 pub const STUBS: &str = "docs/stubs";

@@ -3,7 +3,7 @@
 //! The functions of a module are those its file declares, those it takes from its native part, and those its head tells of, which
 //! are all a module has that makes its functions while it is loaded.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write as _;
 
 use super::modules;
@@ -27,6 +27,18 @@ pub(super) fn files() -> impl Iterator<Item = (String, String)> {
     modules::public()
         .filter(|(path, _)| !path.starts_with("remote/"))
         .map(|(path, source)| (format!("{path}.lua"), text(path, source)))
+}
+
+/// The names of the functions of a module.
+pub(super) fn names(module: &str) -> HashSet<String> {
+    let source = |name: &str| {
+        let path = name.replace('.', "/");
+        modules::public().find(|(known, _)| *known == path).map_or("", |(_, source)| source)
+    };
+    let other = source(module).lines().last().and_then(|line| line.strip_prefix("return require "));
+    let module = other.map_or(module, |name| name.trim_matches('\''));
+    let table = returned(source(module)).unwrap_or("module");
+    functions(module, source(module), table).into_keys().collect()
 }
 
 fn text(path: &str, source: &str) -> String {

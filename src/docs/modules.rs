@@ -19,6 +19,7 @@ const INNER: &[&str] = &[
     "matrix/space",
     "modload",
     "no_unsafe",
+    "old_calls",
     "org/conman/cbor_tags",
     "quaternion",
     "remote/namespaces",

@@ -8,7 +8,7 @@ use super::error::ApiError;
 use super::instance::{Script, state};
 use super::lua::{LuaError, MULTIPLE, Stack, Type};
 use super::sim::Sim;
-use super::{data, startup, verbosity};
+use super::{data, old_calls, startup, verbosity};
 use crate::scene::Data;
 use crate::scene::script_object::ScriptType;
 
@@ -75,7 +75,7 @@ impl Sim {
             return Err(LuaError { text: ApiError::TooDeep(MAX_DEPTH).to_string() });
         }
         stack.load(&code, &name, false)?;
-        stack.protected_call(0, 0)
+        if old_calls::are_expected_by(&code) { old_calls::begin(stack, self) } else { stack.protected_call(0, 0) }
     }
 
     /// Text of a script and the name Lua shows for it in positions.

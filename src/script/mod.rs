@@ -29,6 +29,7 @@ mod joint_motion;
 mod lifecycle;
 mod lookup;
 mod lua;
+mod old_calls;
 mod order;
 mod property;
 mod random;

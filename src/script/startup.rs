@@ -146,7 +146,7 @@ fn return_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
 }
 
 /// Pushes the chunk of an embedded module.
-fn load_module(stack: Stack<'_>, sim: &Sim, name: &str) -> Result<(), LuaError> {
+pub(super) fn load_module(stack: Stack<'_>, sim: &Sim, name: &str) -> Result<(), LuaError> {
     match sim.registry.modules.get(name) {
         Some(module) => stack.load(module.bytecode(name), name, true),
         None => Err(LuaError { text: format!("no module '{name}' in Swanilda's library") }),

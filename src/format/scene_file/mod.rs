@@ -3,8 +3,11 @@
 //! [`SceneFile`] puts what a file holds into a scene. The scripts of a file are handed on: running them is not known here.
 
 mod load;
+mod migrate;
 
 pub use load::SceneFile;
+pub(crate) use migrate::old_names;
+pub use migrate::with_compat;
 
 use crate::scene::Handle;
 use crate::scene::script_object::ScriptType;
@@ -18,6 +21,15 @@ pub struct Loaded {
     pub root: Option<Handle>,
     /// Scripts outside of the tree: the main script, and those attached to objects.
     pub scripts: Vec<LoadedScript>,
+}
+
+/// The text of a script in a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ScriptCode {
+    /// The path of its object, and what kind it is where it is none itself: `/Robot@simulationScript`.
+    pub name: String,
+    pub code: Vec<u8>,
+    pub language: String,
 }
 
 /// A script outside of the tree of objects.

@@ -13,7 +13,7 @@ mod shape;
 
 use std::collections::BTreeMap;
 
-use super::{Loaded, LoadedScript};
+use super::{Loaded, LoadedScript, ScriptCode};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{File, FileError, FileKind, FileResult, Header};
 use crate::scene::dummy::{Dummy, LinkType};
@@ -62,6 +62,12 @@ impl SceneFile {
         &self.file
     }
 
+    /// The scripts, as they would run here. The usual main script is not among them.
+    pub fn scripts(&self) -> Vec<ScriptCode> {
+        let context = Context { header: &self.file.header, file: &self.file, meshes: Meshes::new(&self.file) };
+        script::texts(&context)
+    }
+
     /// Adds the objects to the scene. With `settings`, those of the scene become those of the file.
     ///
     /// # Errors
@@ -77,6 +83,9 @@ impl SceneFile {
         references::connect(scene, &file, &objects, &map)?;
         if settings {
             settings::apply(scene, &file)?;
+        }
+        for script in &file.contents.scripts {
+            script::hand_over(scene, script, &context, &map)?;
         }
         let scripts = file.contents.scripts.iter().filter_map(|script| script::attached(script, &context, &map));
         let filters = file.contents.objects.iter().zip(&objects).filter_map(|(o, handle)| script::filters(o, *handle));

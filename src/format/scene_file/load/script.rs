@@ -1,17 +1,31 @@
 //! Scripts: their text, language and place (section 7.3 of the format).
 
+use super::common::{alias, user_params};
 use super::{Context, HandleMap};
-use crate::format::scene_file::LoadedScript;
+use crate::format::scene_file::migrate::{self, Origin, Thread};
+use crate::format::scene_file::{LoadedScript, ScriptCode};
 use crate::format::ttt::chunks::{Script as Chunk, ScriptObject as ObjectChunk};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{ScriptText, Text};
-use crate::scene::Handle;
 use crate::scene::script_object::{ScriptObject, ScriptType};
+use crate::scene::{Field, Handle, Scene, SceneResult};
 
+const THREADED: u8 = 0x1;
 const DISABLED: u8 = 0x2;
 /// Where this bit is clear, the main script is the usual one, whatever text is stored.
 const OWN_MAIN_SCRIPT: u8 = 0x8;
+/// A thread that ends with its text, and does not begin anew.
+const ONCE: u8 = 0x10;
+/// Before 3.1.3 a script ran in the sensing phase where it says so, else with the actuation.
+const IN_SENSING: u8 = 0x20;
+/// Both are set where a script is made for the way scripts are called since 3.1.3.
+const CALLS: u8 = 0xc0;
+/// The program that brought these calls; later ones do not always set the bits.
+const CALLS_SINCE: u16 = 30103;
 const PARENT_IS_PROXY: u8 = 0x4;
+/// Since then an object says itself whether its scripts come first; where older files count from -1, it counts from 0.
+const OBJECT_PRIORITY: u16 = 40400;
+const NORMAL_PRIORITY: i64 = 1;
 
 /// What stands for the image filters of 3.x: programs since 4.1 write a script for them.
 const FILTERS: &str = "function sysCall_vision(inData)
@@ -52,7 +66,7 @@ pub(super) fn attached(chunk: &Chunk, context: &Context<'_>, map: &HandleMap) ->
     let script_type = type_of(chunk)?;
     let switches = chunk.switches.unwrap_or(0);
     let owner = match script_type {
-        ScriptType::Main if switches & OWN_MAIN_SCRIPT == 0 => return None,
+        ScriptType::Main if is_usual_main(chunk, context) => return None,
         ScriptType::Main => None,
         _ => Some(*map.get(&owner(chunk))?),
     };
@@ -67,6 +81,66 @@ pub(super) fn attached(chunk: &Chunk, context: &Context<'_>, map: &HandleMap) ->
     })
 }
 
+/// All scripts of a file that run, in its order.
+pub(super) fn texts(context: &Context<'_>) -> Vec<ScriptCode> {
+    let contents = &context.file.contents;
+    let attached = contents.scripts.iter().filter_map(|chunk| {
+        let name = match type_of(chunk)? {
+            ScriptType::Main if is_usual_main(chunk, context) => return None,
+            ScriptType::Main => "mainScript".to_owned(),
+            ScriptType::Customization => path(context, owner(chunk)) + "@customizationScript",
+            _ => path(context, owner(chunk)) + "@simulationScript",
+        };
+        Some((name, chunk))
+    });
+    let objects = contents.objects.iter().filter_map(|object| match &object.class {
+        Class::ScriptObject(script) => Some((path(context, object.common.handles?[0]), script.script.as_ref()?)),
+        _ => None,
+    });
+    let code = |(name, chunk)| {
+        let (code, language) = text(chunk, context);
+        ScriptCode { name, code, language }
+    };
+    attached.chain(objects).map(code).collect()
+}
+
+/// The path of an object of the file.
+fn path(context: &Context<'_>, handle: i32) -> String {
+    let objects = &context.file.contents.objects;
+    let (mut names, mut next) = (Vec::new(), handle);
+    while let Some(object) = objects.iter().find(|object| object.common.handles.is_some_and(|[own, _]| own == next)) {
+        names.push(alias(&object.common));
+        next = object.common.handles.map_or(-1, |[_, parent]| parent);
+        // Parents that go in a circle are a mistake of the file, and end here.
+        if names.len() > objects.len() {
+            break;
+        }
+    }
+    names.iter().rev().fold(String::new(), |path, name| path + "/" + name)
+}
+
+/// Whether what counts is not the text, but the main script that comes with the program.
+fn is_usual_main(chunk: &Chunk, context: &Context<'_>) -> bool {
+    chunk.switches.unwrap_or(0) & OWN_MAIN_SCRIPT == 0 || is_before_calls(chunk, context)
+}
+
+/// Objects get what their scripts held before: parameters, and in files before 4.4 the order of execution.
+///
+/// # Errors
+/// Never: the objects are in the scene.
+pub(super) fn hand_over(scene: &mut Scene, chunk: &Chunk, context: &Context<'_>, map: &HandleMap) -> SceneResult<()> {
+    let Some(&owner) = map.get(&owner(chunk)) else { return Ok(()) };
+    let params = user_params(chunk.params.as_ref());
+    scene.modify(owner, Field::Other, |object| {
+        if object.user_params.is_empty() {
+            object.user_params = params;
+        }
+        if context.header.version < OBJECT_PRIORITY {
+            object.priority = NORMAL_PRIORITY + i64::from(chunk.exec_order.unwrap_or(0).clamp(-1, 1));
+        }
+    })
+}
+
 fn type_of(chunk: &Chunk) -> Option<ScriptType> {
     ScriptType::from_number(chunk.ids?[2].into())
 }
@@ -77,11 +151,33 @@ fn owner(chunk: &Chunk) -> i32 {
     if owner >= 0 { owner } else { chunk.cust_obj_handle.or(chunk.coi).unwrap_or(-1) }
 }
 
-fn text(chunk: &Chunk, _context: &Context<'_>) -> (Vec<u8>, String) {
+/// The text, ready to run, and its language.
+fn text(chunk: &Chunk, context: &Context<'_>) -> (Vec<u8>, String) {
     let text = chunk.text.as_ref().map(|ScriptText(text)| text.as_slice()).unwrap_or_default();
     let (text, marked) = without_language_mark(text);
     let language = chunk.lang.as_ref().map(Text::decode).filter(|l| !l.is_empty());
-    (text, language.unwrap_or_else(|| marked.unwrap_or("lua").to_owned()))
+    let language = language.unwrap_or_else(|| marked.unwrap_or("lua").to_owned());
+    if language != "lua" {
+        return (text, language);
+    }
+    (migrate::lua(text, &origin(chunk, context)), language)
+}
+
+fn origin(chunk: &Chunk, context: &Context<'_>) -> Origin {
+    let switches = chunk.switches.unwrap_or(0);
+    let thread = if switches & ONCE == 0 { Thread::Again } else { Thread::Once };
+    let before_calls = is_before_calls(chunk, context);
+    Origin {
+        thread: (switches & THREADED != 0).then_some(thread),
+        before_calls,
+        in_sensing: switches & IN_SENSING != 0,
+        old_colours: chunk.switches_2.is_none() && context.header.version < 40000,
+        ..Origin::of(context.header)
+    }
+}
+
+fn is_before_calls(chunk: &Chunk, context: &Context<'_>) -> bool {
+    context.header.version <= CALLS_SINCE && chunk.switches.unwrap_or(0) & CALLS != CALLS
 }
 
 /// The text without the comment that tells its language, such as `#python` or `--lua`, among the comments at its head.

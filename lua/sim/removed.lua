@@ -1,0 +1,234 @@
+--[[
+Functions of sim whose work CoppeliaSim itself no longer does: they are called by old main scripts and models, and do nothing there as
+here. Also the dialogs and plugins of old scripts, of which there are none without a display.
+
+Does not log that they are old (native).
+]]
+
+local sim = ...
+local M = {}
+
+--- Does nothing: collision objects are gone.
+-- @api int collisionCount = sim.handleCollision(int collisionObjectHandle)
+-- @param collisionObjectHandle any
+-- @return collisionCount 0
+function M.handleCollision(collisionObjectHandle) return 0 end
+
+--- Does nothing: distance objects are gone.
+-- @api int result = sim.handleDistance(int distanceObjectHandle)
+-- @param distanceObjectHandle any
+-- @return result 0
+function M.handleDistance(distanceObjectHandle) return 0 end
+
+--- Does nothing: mechanisms are gone.
+-- @api int result = sim.handleMechanism(int mechanismHandle)
+-- @param mechanismHandle any
+-- @return result 0
+function M.handleMechanism(mechanismHandle) return 0 end
+
+--- Does nothing: IK groups of the scene are gone, simIK is for that.
+-- @api int result = sim.handleIkGroup(int ikGroupHandle)
+-- @param ikGroupHandle any
+-- @return result 0
+function M.handleIkGroup(ikGroupHandle) return 0 end
+
+--- Handle of an IK group of the scene; there are none.
+-- @api int handle = sim.getIkGroupHandle(string ikGroupName)
+-- @param ikGroupName its name
+-- @return handle -1
+function M.getIkGroupHandle(ikGroupName) return -1 end
+
+--- Handle of a collision object; there are none.
+-- @api int handle = sim.getCollisionHandle(string collisionObjectName)
+-- @param collisionObjectName its name
+-- @return handle -1
+function M.getCollisionHandle(collisionObjectName) return -1 end
+
+--- Handle of a distance object; there are none.
+-- @api int handle = sim.getDistanceHandle(string distanceObjectName)
+-- @param distanceObjectName its name
+-- @return handle -1
+function M.getDistanceHandle(distanceObjectName) return -1 end
+
+--- Does nothing: mills are gone.
+-- @api int result = sim.handleMill(int millHandle)
+-- @param millHandle any
+-- @return result 0
+function M.handleMill(millHandle) return 0 end
+
+--- Does nothing: mills are gone.
+-- @api int result = sim.resetMill(int millHandle)
+-- @param millHandle any
+-- @return result 0
+function M.resetMill(millHandle) return 0 end
+
+--- Does nothing: collision objects are gone.
+-- @api int result = sim.resetCollision(int collisionObjectHandle)
+-- @param collisionObjectHandle any
+-- @return result 0
+function M.resetCollision(collisionObjectHandle) return 0 end
+
+--- Does nothing: distance objects are gone.
+-- @api int result = sim.resetDistance(int distanceObjectHandle)
+-- @param distanceObjectHandle any
+-- @return result 0
+function M.resetDistance(distanceObjectHandle) return 0 end
+
+--- Does nothing: kinematic joints move by sim.handleJointMotion.
+-- @api int result = sim.handleJoint(int jointHandle, float deltaTime)
+-- @param jointHandle any
+-- @param deltaTime seconds
+-- @return result 0
+function M.handleJoint(jointHandle, deltaTime) return 0 end
+
+--- Does nothing: path objects are gone.
+-- @api int result = sim.handlePath(int pathHandle, float deltaTime)
+-- @param pathHandle any
+-- @param deltaTime seconds
+-- @return result 0
+function M.handlePath(pathHandle, deltaTime) return 0 end
+
+--- Does nothing.
+-- @api int result = sim.handleVarious()
+-- @return result 0
+function M.handleVarious() return 0 end
+
+--- Does nothing: what there is to calculate is calculated.
+-- @api int result = sim.enableWorkThreads(int count)
+-- @param count of threads
+-- @return result 0
+function M.enableWorkThreads(count) return 0 end
+
+--- Does nothing.
+-- @api int result = sim.waitForWorkThreads()
+-- @return result 0
+function M.waitForWorkThreads() return 0 end
+
+--- Does nothing: threads are coroutines, which their scripts resume.
+-- @api int count = sim.resumeThreads(int location)
+-- @param location sim.scriptthreadresume_*
+-- @return count 0
+function M.resumeThreads(location) return 0 end
+
+--- Does nothing: threads are coroutines, which their scripts resume.
+-- @api int count = sim.launchThreadedChildScripts()
+-- @return count 0
+function M.launchThreadedChildScripts() return 0 end
+
+--- Does nothing: a thread never runs while the simulation does something else.
+-- @api int result = sim.setThreadIsFree(bool freeMode)
+-- @param freeMode any
+-- @return result 0
+function M.setThreadIsFree(freeMode) return 0 end
+
+--- Does nothing: there are no plugins to be told.
+-- @api int count = sim.openModule(any module)
+-- @param module a name, or sim.handle_all
+-- @return count 0
+function M.openModule(module) return 0 end
+
+--- Does nothing: there are no plugins to be told.
+-- @api int count = sim.closeModule(any module)
+-- @param module a name, or sim.handle_all
+-- @return count 0
+function M.closeModule(module) return 0 end
+
+--- Does nothing: there are no plugins to be told.
+-- @api int count = sim.handleModule(any module, bool calledInSensingPart)
+-- @param module a name, or sim.handle_all
+-- @param calledInSensingPart any
+-- @return count 0
+function M.handleModule(module, calledInSensingPart) return 0 end
+
+--- Name of a native plugin; there are none.
+-- @api string pluginName = sim.getPluginName(int index)
+-- @param index from 0
+-- @return pluginName nil
+function M.getPluginName(index) return nil end
+
+--- Name of a native plugin; there are none.
+-- @api string moduleName = sim.getModuleName(int index)
+-- @param index from 0
+-- @return moduleName nil
+function M.getModuleName(index) return nil end
+
+---------------------------------------------------------------- dialogs
+
+--- A message in a window. There are no windows.
+-- @api int handle = sim.displayDialog(string title, string text, int style, bool modal, ...)
+-- @param title of the window
+-- @param text in it
+-- @param style sim.dlgstyle_*
+-- @param modal whether to wait
+-- @return handle -1
+function M.displayDialog(title, text, style, modal, ...) return -1 end
+
+--- Closes a window of sim.displayDialog.
+-- @api int result = sim.endDialog(int handle)
+-- @param handle from sim.displayDialog
+-- @return result 0
+function M.endDialog(handle) return 0 end
+
+--- What the user chose; there is none.
+-- @api int result = sim.getDialogResult(int handle)
+-- @param handle from sim.displayDialog
+-- @return result sim.dlgret_still_open
+function M.getDialogResult(handle) return sim.dlgret_still_open end
+
+---------------------------------------------------------------- custom user interfaces of V-REP
+
+--- Handle of a custom user interface of V-REP; there are none.
+-- @api int handle = sim.getUIHandle(string name)
+-- @param name of it
+-- @return handle -1
+function M.getUIHandle(name) return -1 end
+
+-- What there is nothing of can be set, and asked for, without effect.
+function M.getUIProperty(handle) return 0 end
+function M.setUIProperty(handle, property) return 0 end
+function M.getUIButtonProperty(handle, button) return 0 end
+function M.setUIButtonProperty(handle, button, property) return 0 end
+function M.getUISlider(handle, button) return 0 end
+function M.setUISlider(handle, button, position) return 0 end
+function M.getUIEventButton(handle) return -1 end
+function M.getUIButtonLabel(handle, button) return '' end
+function M.setUIButtonLabel(handle, button, label, downLabel) return 0 end
+function M.setUIButtonColor(handle, button, color) return 0 end
+function M.setUIPosition(handle, position) return 0 end
+function M.removeUI(handle) return 0 end
+
+---------------------------------------------------------------- wireless messages of V-REP
+
+-- Signals live as long as the script that set them.
+local function mailbox(header, name)
+    local plain = name:gsub('%W', function(letter) return '_' .. letter:byte() end)
+    return 'signal.wireless_' .. math.floor(header) .. '_' .. plain
+end
+
+--- Leaves data for other scripts. Distances and directions of antennas do not count.
+-- @api sim.sendData(int targetID, int dataHeader, string dataName, string data, ...)
+-- @param targetID any
+-- @param dataHeader number both sides know
+-- @param dataName name both sides know
+-- @param data bytes
+function M.sendData(targetID, dataHeader, dataName, data, ...)
+    sim.setBufferProperty(sim.handle_scene, mailbox(dataHeader, dataName), data)
+end
+
+--- Takes what sim.sendData left.
+-- @api string data, int senderID, int dataHeader, string dataName = sim.receiveData(int dataHeader, string dataName, ...)
+-- @param dataHeader as sent
+-- @param dataName as sent
+-- @return data nil when there is nothing
+-- @return senderID -1
+-- @return dataHeader as sent
+-- @return dataName as sent
+function M.receiveData(dataHeader, dataName, ...)
+    local box = mailbox(dataHeader, dataName)
+    local data = sim.getBufferProperty(sim.handle_scene, box, {noError = true})
+    if data == nil then return nil end
+    sim.removeProperty(sim.handle_scene, box)
+    return tostring(data), -1, dataHeader, dataName
+end
+
+return M

@@ -1,0 +1,178 @@
+//! `swanilda doctor`: which calls of scripts and scenes work here.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use super::{refuse, say};
+use crate::docs::{self, Support, Use};
+use crate::format::scene_file::{self, SceneFile};
+use crate::format::ttt;
+
+/// Exit code when something a script calls is approximated or missing.
+const NOT_ALL_WORKS: u8 = 1;
+
+/// Tell which calls of scripts, scenes or whole folders work, are approximated, or are missing
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Lua files, scenes and models of CoppeliaSim, folders with any of them
+    #[arg(required = true)]
+    paths: Vec<PathBuf>,
+    /// Look at Lua files as --compat of run and serve makes them
+    #[arg(long)]
+    compat: bool,
+    /// One JSON object on standard output
+    #[arg(long)]
+    json: bool,
+}
+
+/// Looks at everything; the exit code tells whether all of it works.
+pub(super) fn doctor(args: &Args) -> ExitCode {
+    let mut report = Report::default();
+    for path in &args.paths {
+        let files = match files(path) {
+            Ok(files) => files,
+            Err(reason) => return refuse(&reason),
+        };
+        for file in files {
+            if let Err(reason) = report.add_file(&file, args.compat) {
+                return refuse(&reason);
+            }
+        }
+    }
+    say(if args.json { report.json() } else { report.text() }.as_bytes());
+    if report.all_works() { ExitCode::SUCCESS } else { ExitCode::from(NOT_ALL_WORKS) }
+}
+
+/// The file, or those below the folder that are scripts or scenes, sorted.
+fn files(path: &Path) -> Result<Vec<PathBuf>, String> {
+    let unreadable = |error| format!("cannot read {}: {error}", path.display());
+    if !path.metadata().map_err(unreadable)?.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let mut entries: Vec<_> = path.read_dir().map_err(unreadable)?.flatten().collect();
+    entries.sort_by_key(std::fs::DirEntry::file_name);
+    let mut found = Vec::new();
+    for entry in entries {
+        let below = entry.path();
+        // Folders by their own type: a link could lead back here.
+        if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            found.extend(files(&below)?);
+        } else if below.extension().is_some_and(|e| ["lua", "ttt", "ttm"].iter().any(|known| e == *known)) {
+            found.push(below);
+        }
+    }
+    Ok(found)
+}
+
+/// A script and what it uses.
+struct Patient {
+    /// File, and the object in it where it is a scene.
+    name: String,
+    uses: Vec<Use>,
+}
+
+#[derive(Default)]
+struct Report {
+    scripts: Vec<Patient>,
+}
+
+impl Report {
+    fn add_file(&mut self, path: &Path, compat: bool) -> Result<(), String> {
+        let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
+        let bytes = std::fs::read(path).map_err(|error| unreadable(error.to_string()))?;
+        let name = path.display().to_string();
+        if ttt::is_binary(&bytes) {
+            let file = SceneFile::read(&bytes).map_err(|error| unreadable(error.to_string()))?;
+            for script in file.scripts() {
+                self.add(format!("{name}: {}", script.name), &script.code);
+            }
+        } else {
+            let code = if compat { scene_file::with_compat(bytes) } else { bytes };
+            self.add(name, &code);
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, name: String, code: &[u8]) {
+        self.scripts.push(Patient { name, uses: docs::uses(code) });
+    }
+
+    fn uses(&self) -> impl Iterator<Item = &Use> {
+        self.scripts.iter().flat_map(|script| &script.uses)
+    }
+
+    fn all_works(&self) -> bool {
+        self.uses().all(|found| found.support == Support::Works)
+    }
+
+    /// How many different functions there are of each kind: working, approximated, missing.
+    fn counts(&self) -> [usize; 3] {
+        let by_name: BTreeMap<&str, Support> = self.uses().map(|found| (found.name.as_str(), found.support)).collect();
+        let count = |kind| by_name.values().filter(|support| word(**support) == kind).count();
+        ["works", "approximated", "missing"].map(count)
+    }
+
+    /// What does not work in full, script by script, then a summary.
+    fn text(&self) -> String {
+        let mut out: String = self.scripts.iter().map(Patient::text).collect();
+        let [works, approximated, missing] = self.counts();
+        out.push_str(&format!(
+            "{} scripts call {} functions: {works} work, {approximated} are approximated, {missing} are missing.\n",
+            self.scripts.len(),
+            works + approximated + missing
+        ));
+        out
+    }
+
+    fn json(&self) -> String {
+        let scripts: Vec<_> = self.scripts.iter().map(Patient::json).collect();
+        let [works, approximated, missing] = self.counts();
+        let report = serde_json::json!({
+            "scripts": scripts,
+            "summary": {"works": works, "approximated": approximated, "missing": missing},
+        });
+        format!("{report}\n")
+    }
+}
+
+impl Patient {
+    fn text(&self) -> String {
+        let mut lines: BTreeMap<(Support, &str), Vec<String>> = BTreeMap::new();
+        for found in self.uses.iter().filter(|found| found.support != Support::Works) {
+            lines.entry((found.support, found.name.as_str())).or_default().push(found.line.to_string());
+        }
+        if lines.is_empty() {
+            return String::new();
+        }
+        let rows = lines.iter().map(|((support, name), lines)| {
+            let how = if let Support::Approximated(how) = support { format!(" ({how})") } else { String::new() };
+            format!("  {:<12} {name}: line {}{how}\n", word(*support), lines.join(", "))
+        });
+        format!("{}\n{}", self.name, rows.collect::<String>())
+    }
+
+    fn json(&self) -> serde_json::Value {
+        let uses: Vec<_> = self.uses.iter().map(json_of).collect();
+        serde_json::json!({"name": self.name, "uses": uses})
+    }
+}
+
+fn json_of(found: &Use) -> serde_json::Value {
+    let mut object = serde_json::json!({"name": found.name, "line": found.line, "support": word(found.support)});
+    if let Some(written) = &found.written {
+        object["written"] = written.as_str().into();
+    }
+    if let Support::Approximated(how) = found.support {
+        object["difference"] = how.into();
+    }
+    object
+}
+
+fn word(support: Support) -> &'static str {
+    match support {
+        Support::Works => "works",
+        Support::Approximated(_) => "approximated",
+        Support::Missing => "missing",
+    }
+}

@@ -1,0 +1,245 @@
+//! Which functions of the simulator Lua code uses, and whether they work here.
+//!
+//! What counts are members of `sim` and of CoppeliaSim's modules, under their names or those a `require` gave them, and the names from
+//! before there were modules (`simGetObjectHandle`). It reads code and runs nothing: what a script builds names from stays unseen.
+
+use std::collections::{HashMap, HashSet};
+use std::sync::LazyLock;
+
+use super::lua_tokens::{Kind, Token, tokens};
+use super::{module_stubs, modules};
+use crate::api;
+use crate::format::scene_file::old_names;
+
+/// What becomes of a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Support {
+    Works,
+    /// It does less than in CoppeliaSim: what is different.
+    Approximated(&'static str),
+    /// It raises an error, or is nil.
+    Missing,
+}
+
+/// One place where code names something of the simulator.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Use {
+    /// As it would be called today: `sim.getObject`, `simUI.create`, or the name of a module.
+    pub name: String,
+    /// The old name that stands in the code, where it is another.
+    pub written: Option<String>,
+    pub line: usize,
+    pub support: Support,
+}
+
+/// Everything of the simulator that `code` uses, in its order.
+pub fn uses(code: &[u8]) -> Vec<Use> {
+    let tokens = tokens(code);
+    let scope = Scope::of(&tokens);
+    let named = tokens.iter().enumerate().filter_map(|(at, token)| match &token.kind {
+        Kind::Name(name) if !is_definition(&tokens, at) => scope.member(name, is_call(&tokens, at), token.line),
+        Kind::Text(text) if required_at(&tokens, at) => required(&String::from_utf8_lossy(text), token.line),
+        _ => None,
+    });
+    named.collect()
+}
+
+/// What the names of one file stand for.
+struct Scope {
+    /// Variables that hold a module.
+    modules: HashMap<String, String>,
+    /// What the file itself makes.
+    own: HashSet<String>,
+}
+
+impl Scope {
+    fn of(tokens: &[Token<'_>]) -> Self {
+        let mut scope = Self { modules: HashMap::new(), own: HashSet::new() };
+        for (at, token) in tokens.iter().enumerate() {
+            match &token.kind {
+                Kind::Name(name) if is_definition(tokens, at) => drop(scope.own.insert(name.clone())),
+                Kind::Text(text) if required_at(tokens, at) => {
+                    if let Some(variable) = variable_of_require(tokens, at) {
+                        scope.modules.insert(variable.to_owned(), String::from_utf8_lossy(text).into_owned());
+                    }
+                }
+                _ => {}
+            }
+        }
+        scope
+    }
+
+    fn member(&self, written: &str, is_call: bool, line: usize) -> Option<Use> {
+        if self.own.contains(written) {
+            return None;
+        }
+        let (name, is_old) = match current_name(written) {
+            Some(name) => (name, true),
+            None => (written.to_owned(), false),
+        };
+        let mut parts = name.split('.');
+        let (owner, member) = (parts.next()?, parts.next()?);
+        let module = self.modules.get(owner).map_or(owner, String::as_str);
+        let support = if module == "sim" { of_sim(member)? } else { of_module(module, member, is_call)? };
+        let written = is_old.then(|| written.to_owned());
+        Some(Use { name: format!("{module}.{member}"), written, line, support })
+    }
+}
+
+/// Whether the name is given a value here, as a variable or a function.
+fn is_definition(tokens: &[Token<'_>], at: usize) -> bool {
+    let is = |at: usize, sign: u8| tokens.get(at).is_some_and(|token| token.kind == Kind::Sign(sign));
+    let after_function = at > 0 && is_word(&tokens[at - 1], "function");
+    after_function || is(at + 1, b'=') && !is(at + 2, b'=')
+}
+
+fn is_call(tokens: &[Token<'_>], at: usize) -> bool {
+    matches!(tokens.get(at + 1).map(|token| &token.kind), Some(Kind::Sign(b'(' | b'{') | Kind::Text(_)))
+}
+
+fn is_word(token: &Token<'_>, word: &str) -> bool {
+    matches!(&token.kind, Kind::Name(name) if name == word)
+}
+
+/// The place of the word `require` whose argument the text at `at` is.
+fn require_of(tokens: &[Token<'_>], at: usize) -> Option<usize> {
+    let before = at.checked_sub(1)?;
+    let word = if tokens[before].kind == Kind::Sign(b'(') { before.checked_sub(1)? } else { before };
+    is_word(&tokens[word], "require").then_some(word)
+}
+
+fn required_at(tokens: &[Token<'_>], at: usize) -> bool {
+    require_of(tokens, at).is_some()
+}
+
+/// The variable of `name = require 'module'`.
+fn variable_of_require<'a>(tokens: &'a [Token<'_>], at: usize) -> Option<&'a str> {
+    let equals = require_of(tokens, at)?.checked_sub(1)?;
+    match &tokens[equals.checked_sub(1)?].kind {
+        Kind::Name(name) if tokens[equals].kind == Kind::Sign(b'=') => Some(name),
+        _ => None,
+    }
+}
+
+/// The use of a module of CoppeliaSim that is missing here. Modules that are here say so by their functions.
+fn required(module: &str, line: usize) -> Option<Use> {
+    let is_missing = CATALOGUE.reference_modules.contains(module) && !CATALOGUE.modules.contains_key(module);
+    is_missing.then(|| Use { name: module.to_owned(), written: None, line, support: Support::Missing })
+}
+
+/// What an old name is called now; None for other names.
+fn current_name(written: &str) -> Option<String> {
+    if written.contains('.') || !written.starts_with("sim") {
+        return None;
+    }
+    let registry = api::registry();
+    let by_rule = || {
+        let rest = &written[3..];
+        let member = match rest.strip_prefix('_') {
+            Some(constant) => constant.to_owned(),
+            None if rest.starts_with(|c: char| c.is_ascii_uppercase()) => rest[..1].to_ascii_lowercase() + &rest[1..],
+            None => return None,
+        };
+        registry.members.contains_key(member.as_str()).then(|| format!("sim.{member}"))
+    };
+    let kept = registry.old_names.get(written).map(|member| format!("sim.{member}"));
+    kept.or_else(by_rule).or_else(|| old_names::current(written).map(str::to_owned))
+}
+
+/// None for constants, which are no functions.
+fn of_sim(member: &str) -> Option<Support> {
+    match api::registry().members.get(member) {
+        Some(api::Member::Constant(_)) => None,
+        Some(api::Member::Missing { .. }) | None => Some(Support::Missing),
+        Some(_) => Some(of_function(&format!("sim.{member}"))),
+    }
+}
+
+fn of_function(name: &str) -> Support {
+    api::pairs(APPROXIMATED)
+        .find(|(known, _)| *known == name)
+        .map_or(Support::Works, |(_, how)| Support::Approximated(how))
+}
+
+/// None for modules that are not CoppeliaSim's, and for constants of those that are here.
+fn of_module(module: &str, member: &str, is_call: bool) -> Option<Support> {
+    if !CATALOGUE.reference_modules.contains(module) {
+        return None;
+    }
+    match CATALOGUE.modules.get(module) {
+        Some(functions) if functions.contains(member) => Some(of_function(&format!("{module}.{member}"))),
+        Some(_) if !is_call => None,
+        _ => Some(Support::Missing),
+    }
+}
+
+/// `name<TAB>what is different` of functions that do less than in CoppeliaSim.
+const APPROXIMATED: &str = include_str!("approximated.tsv");
+
+/// What there is, and what CoppeliaSim has.
+struct Catalogue {
+    /// The functions of each module.
+    modules: HashMap<String, HashSet<String>>,
+    reference_modules: HashSet<&'static str>,
+}
+
+static CATALOGUE: LazyLock<Catalogue> = LazyLock::new(|| Catalogue {
+    modules: modules::names().map(|name| (name.clone(), module_stubs::names(&name))).collect(),
+    reference_modules: include_str!("reference_modules.txt").lines().collect(),
+});
+
+#[cfg(test)]
+mod tests {
+    use super::{Support, uses};
+    use crate::docs::functions;
+
+    fn names(code: &str) -> Vec<String> {
+        uses(code.as_bytes()).into_iter().map(|found| found.name).collect()
+    }
+
+    fn supports(code: &str) -> Vec<Support> {
+        uses(code.as_bytes()).into_iter().map(|found| found.support).collect()
+    }
+
+    #[test]
+    fn names_lines_and_support() {
+        let found = uses(b"sim = require 'sim'\nlocal h = sim.getObject('/a') -- sim.f()\nsim.frobnicate()");
+        assert_eq!((found[0].name.as_str(), found[0].line, found[0].support), ("sim.getObject", 2, Support::Works));
+        assert_eq!((found[1].name.as_str(), found[1].line, found[1].support), ("sim.frobnicate", 3, Support::Missing));
+        assert_eq!(found.len(), 2);
+    }
+
+    #[test]
+    fn constants_and_functions_of_the_file_do_not_count() {
+        assert!(
+            names("x = sim.handle_self; sim.mine = 1; function sim.f() end sim.f(sim.mine) print(simulate)").is_empty()
+        );
+        assert_eq!(names("if sim.getObject == nil then end"), ["sim.getObject"]);
+    }
+
+    #[test]
+    fn names_a_require_gives() {
+        assert_eq!(names("local s = require('sim')\ns.getObject('/a')"), ["sim.getObject"]);
+        assert_eq!(names("local cmd=require'mine'\ncmd.f()"), [""; 0]);
+        assert_eq!(supports("z = require 'simZMQ' z.ctx_new() z.PUB() z.PUB"), [Support::Works, Support::Missing]);
+    }
+
+    #[test]
+    fn old_names() {
+        let found = &uses(b"simGetObjectHandle('a', sim_handle_all)")[..];
+        assert_eq!(found.len(), 1);
+        assert_eq!(
+            (found[0].name.as_str(), found[0].written.as_deref()),
+            ("sim.getObjectHandle", Some("simGetObjectHandle"))
+        );
+        assert_eq!(names("simExtCustomUI_create('')"), ["simUI.create"]);
+    }
+
+    #[test]
+    fn approximated_functions_are_there() {
+        let known: Vec<String> = functions().into_iter().map(|function| function.name).collect();
+        for (name, _) in crate::api::pairs(super::APPROXIMATED) {
+            assert!(known.iter().any(|known| known == name), "{name}");
+        }
+    }
+}

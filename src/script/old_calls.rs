@@ -1,0 +1,62 @@
+//! Scripts from before there were callbacks. `lua/old_calls.lua` runs them.
+
+use std::rc::Rc;
+
+use super::callback::SysCall;
+use super::lua::{LuaError, Stack};
+use super::sim::Sim;
+use super::startup;
+
+/// What such a text asks for. It is looked for in the text as in the original, so that a comment is enough.
+const SIGN: &[u8] = b"sim.syscb_init";
+
+/// The calls there were.
+const CALLS: &[SysCall] = &[
+    SysCall::Cleanup,
+    SysCall::NonSimulation,
+    SysCall::BeforeSimulation,
+    SysCall::AfterSimulation,
+    SysCall::Actuation,
+    SysCall::Sensing,
+    SysCall::Suspended,
+    SysCall::Suspend,
+    SysCall::Resume,
+    SysCall::BeforeInstanceSwitch,
+    SysCall::AfterInstanceSwitch,
+    SysCall::BeforeCopy,
+    SysCall::AfterCopy,
+];
+
+/// Whether a text is of that kind.
+pub(super) fn are_expected_by(code: &[u8]) -> bool {
+    contains(code, SIGN) && !contains(code, SysCall::Init.name().as_bytes())
+}
+
+fn contains(code: &[u8], part: &[u8]) -> bool {
+    code.windows(part.len()).any(|window| window == part)
+}
+
+/// Runs the loaded text on top of the stack, which it takes, as its initialization, and defines its callbacks.
+pub(super) fn begin(stack: Stack<'_>, sim: &Rc<Sim>) -> Result<(), LuaError> {
+    startup::load_module(stack, sim, "old_calls")?;
+    stack.insert(-2);
+    stack.push_int(SysCall::Init as i64);
+    stack.new_table(0, CALLS.len());
+    for call in CALLS {
+        stack.push_int(*call as i64);
+        stack.raw_set_field(-2, call.name());
+    }
+    stack.protected_call(3, 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::are_expected_by;
+
+    #[test]
+    fn texts_that_ask_for_the_call() {
+        assert!(are_expected_by(b"if (sim_call_type==sim.syscb_init) then end"));
+        assert!(!are_expected_by(b"if (sim_call_type==sim.syscb_actuation) then end"));
+        assert!(!are_expected_by(b"function sysCall_init() print(sim.syscb_init) end"));
+    }
+}
