@@ -57,6 +57,31 @@ pub(super) struct Link {
     rows: Option<Rows>,
 }
 
+/// Takes along what hangs on joints that scripts moved, so that the joint finds it in its place: wheels of omnidirectional robots turn
+/// their joints back in every step. Velocities stay.
+pub(super) fn carry(
+    links: &Links,
+    plans: &BTreeMap<Handle, LinkPlan>,
+    bodies: &Bodies,
+    world: &mut World,
+    scene: &Scene,
+) {
+    for (&handle, plan) in plans {
+        let Some(old) = links.get(&handle).filter(|old| old.plan.base != plan.base) else { continue };
+        let ends = [plan.first, plan.second].map(|shape| bodies.get(shape).map(|body| body.rigid));
+        let [Some(first), Some(second)] = ends else { continue };
+        let Some(parent) = world.bodies.get(first).filter(|_| [first, second] == old.bodies) else { continue };
+        let parent = from_pose(parent.position());
+        let turn = parent * plan.base * old.plan.base.inverse() * parent.inverse();
+        for (_, body) in bodies.iter().filter(|(shape, _)| scene.is_ancestor_or_self(handle, *shape)) {
+            if let Some(rigid) = world.bodies.get_mut(body.rigid) {
+                let moved = turn * from_pose(rigid.position());
+                rigid.set_position(to_pose(&moved), true);
+            }
+        }
+    }
+}
+
 /// Makes the engine's constraints those of the plan.
 pub(super) fn follow(
     links: &mut Links,

@@ -152,6 +152,7 @@ impl Dynamics {
         let plan = Plan::new(scene, &self.frozen);
         self.far = plan.far;
         self.bodies.follow(plan.bodies, world, scene);
+        links::carry(&self.links, &plan.links, &self.bodies, world, scene);
         links::follow(&mut self.links, plan.links, &self.bodies, world, scene);
         contacts::ask_about_all(world, self.asks);
         self.articulation.follow(&self.links, &scene.all_breadth_first(), &self.bodies);

@@ -116,11 +116,12 @@ impl Scene {
     }
 
     /// Places `handle` as a script wishes; its children move along. What the physics moves is taken out of it and put back at the
-    /// new place, so that it loses its velocity.
+    /// new place, so that it loses its velocity; not so where a joint or sensor is placed, which takes the bodies behind it along.
     pub fn place(&mut self, handle: Handle, placement: Placement, frame: Frame, joint_base: bool) -> SceneResult<()> {
         let local = self.local_pose_of(handle, placement, frame, joint_base)?;
         self.set_local_pose(handle, local)?;
-        if self.object(handle)?.dynamic_flag > 1 {
+        let object = self.object(handle)?;
+        if object.dynamic_flag > 1 && !matches!(object.kind, Kind::Joint(_) | Kind::ForceSensor(_)) {
             self.reset_dynamics_below(handle)?;
         }
         Ok(())
