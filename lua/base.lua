@@ -119,7 +119,7 @@ local function loadImplicitly(proxy)
     if rawget(_G, name) == proxy then
         _G[name] = module
         implicit = name
-        usedModule(name)
+        usedModule(name, true)
         addLog(WARNING, "module '" .. name .. "' was implicitly loaded.")
     end
     return module
@@ -204,6 +204,33 @@ operator = setmetatable({}, {__index = function(t, key) return quietRequire('fun
 
 function wrap(original, generator) return generator(original) end
 loadstring, unpack, quit, exit = load, unpack_, quitSimulator, quitSimulator
+
+-- Lua 5.3 took any number as a seed.
+local seed = math.randomseed
+function math.randomseed(x, ...)
+    if type(x) == 'number' and not math.tointeger(x) then x = x == x and math.abs(x) < 2^62 and math.floor(x) or 0 end
+    if x == nil then return seed() end
+    return seed(x, ...)
+end
+
+-- Scripts up to 4.7 used matrices without asking for them.
+local function matrixClass(name)
+    local stub
+    local function class()
+        if rawget(_G, name) == stub then
+            quietRequire('matrix')
+            addLog(WARNING, "module 'matrix' was implicitly loaded.")
+            addLog(WARNING, '"matrix" module is deprecated. please use simEigen')
+        end
+        return _G[name]
+    end
+    stub = setmetatable({}, {
+        __index = function(_, key) return class()[key] end,
+        __call = function(_, ...) return class()(...) end,
+    })
+    _G[name] = stub
+end
+for _, name in ipairs {'Matrix', 'Vector', 'Vector3', 'Vector4', 'Vector7', 'Matrix3x3', 'Matrix4x4'} do matrixClass(name) end
 
 ---------------------------------------------------------------- the thread of a script
 

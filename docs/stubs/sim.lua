@@ -130,6 +130,23 @@ function sim.addObjectToCollection(collectionHandle, objectHandle, what, options
 ---@param objectHandle? integer the object meant
 function sim.addObjectToSelection(what, objectHandle) end
 
+--- A source of particles. They are not simulated; a warning says so.
+---@param objectType integer sim.particle_*
+---@param size number of a particle
+---@param density number of a particle
+---@param params any of the physics
+---@param lifeTime number in seconds
+---@param maxItemCount integer more replace old ones
+---@param ... any
+---@return integer particleObjectHandle its handle
+function sim.addParticleObject(objectType, size, density, params, lifeTime, maxItemCount, ...) end
+
+--- Adds a particle. It is not simulated.
+---@param particleObjectHandle integer from sim.addParticleObject
+---@param itemData? any position and target position; nil removes all
+---@return integer result 1
+function sim.addParticleObjectItem(particleObjectHandle, itemData) end
+
 --- Adds a reference to those an object has.
 ---@param objectHandle integer the object that refers
 ---@param referencedHandle integer the object referred to
@@ -1061,7 +1078,7 @@ function sim.getObjectFloatParameter(objectHandle, parameterId) end
 function sim.getObjectFromUid(uid, options) end
 
 --- Handle of the object at a path or with an old-style name.
----@param path string as in sim.getObject, or an old name such as robot#0
+---@param path string as in sim.getObject, or an old name such as robot#0; sim.handle_self: the object of this script
 ---@param options? table noError: -1 instead of an error
 ---@return integer objectHandle the object
 function sim.getObjectHandle(path, options) end
@@ -1395,7 +1412,7 @@ function sim.getScriptFunctions(handle, scriptType) end
 
 --- Handle of a script.
 ---@deprecated sim.getObject
----@param scriptType integer sim.scripttype_*, or sim.handle_self
+---@param scriptType any sim.scripttype_*, or sim.handle_self; V-REP gave the name of an object here, for its simulation script
 ---@param scriptName? string path of the object the script belongs to, or the display name of an add-on
 ---@param objectHandle? integer the object the script belongs to
 ---@return integer scriptHandle
@@ -1573,6 +1590,11 @@ function sim.getStringSignal(signalName) end
 --- Time by the wall clock, from a moment before the simulator started.
 ---@return number systemTime seconds
 function sim.getSystemTime() end
+
+--- Milliseconds of wall-clock time.
+---@param before? integer a time to count from
+---@return integer time since then
+function sim.getSystemTimeInMilliseconds(before) end
 
 --- Time by the wall clock in milliseconds.
 ---@deprecated sim.getSystemTime
@@ -2192,6 +2214,10 @@ function sim.removeObjectFromSelection(what, objectHandle) end
 ---@param delayedRemoval? boolean remove them when the scripts have run
 function sim.removeObjects(objectHandles, delayedRemoval) end
 
+--- Removes a source of particles.
+---@param particleObjectHandle integer from sim.addParticleObject, or sim.handle_all
+function sim.removeParticleObject(particleObjectHandle) end
+
 --- Removes custom data, a signal or a named parameter.
 ---@param target integer object, sim.handle_app or sim.handle_scene
 ---@param propertyName string with its prefix `customData.`, `signal.` or `namedParam.`
@@ -2250,6 +2276,11 @@ function sim.resetGraph(graphHandle) end
 ---@param millHandle integer any
 ---@return integer result 0
 function sim.resetMill(millHandle) end
+
+--- Does nothing: mills are gone.
+---@param objectHandle integer any
+---@return integer result 0
+function sim.resetMilling(objectHandle) end
 
 --- Forgets what proximity sensors detected.
 ---@param sensorHandle integer a sensor, sim.handle_all or sim.handle_all_except_explicit
@@ -2952,10 +2983,12 @@ function sim.setScriptAttribute(scriptHandle, attributeId, attribute) end
 function sim.setScriptInt32Param(scriptHandle, parameterId, parameter) end
 
 --- Sets a parameter of a script, or of the object the script is attached to if that has it.
----@param scriptHandle integer the script, or sim.handle_self
+---
+--- have the parameter
+---@param scriptHandle integer the script, sim.handle_self, or all below this script's object (sim.handle_tree) or above it (sim.handle_chain) that
 ---@param parameterName string its name
 ---@param parameterValue string its text
----@return integer result 1
+---@return integer result how many have it now
 function sim.setScriptSimulationParameter(scriptHandle, parameterName, parameterValue) end
 
 --- Sets a string parameter of a script.

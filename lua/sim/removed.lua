@@ -62,6 +62,12 @@ function M.handleMill(millHandle) return 0 end
 -- @return result 0
 function M.resetMill(millHandle) return 0 end
 
+--- Does nothing: mills are gone.
+-- @api int result = sim.resetMilling(int objectHandle)
+-- @param objectHandle any
+-- @return result 0
+function M.resetMilling(objectHandle) return 0 end
+
 --- Does nothing: collision objects are gone.
 -- @api int result = sim.resetCollision(int collisionObjectHandle)
 -- @param collisionObjectHandle any
@@ -151,6 +157,12 @@ function M.getPluginName(index) return nil end
 -- @param index from 0
 -- @return moduleName nil
 function M.getModuleName(index) return nil end
+
+--- Milliseconds of wall-clock time.
+-- @api int time = sim.getSystemTimeInMilliseconds(int before = 0)
+-- @param before a time to count from
+-- @return time since then
+function M.getSystemTimeInMilliseconds(before) return math.floor(sim.getSystemTime() * 1000) - (before or 0) end
 
 ---------------------------------------------------------------- dialogs
 

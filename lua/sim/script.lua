@@ -20,11 +20,11 @@ end
 
 --- Handle of the object at a path or with an old-style name.
 -- @api int objectHandle = sim.getObjectHandle(string path, map options = {})
--- @param path as in sim.getObject, or an old name such as robot#0
+-- @param path as in sim.getObject, or an old name such as robot#0; sim.handle_self: the object of this script
 -- @param options noError: -1 instead of an error
 -- @return objectHandle the object
 function M.getObjectHandle(path, options)
-    if type(path) == 'string' and not path:find('^[/.:]') then
+    if type(path) ~= 'string' or not path:find('^[/.:]') then
         addLog(
             sim.verbosity_scriptwarnings | sim.verbosity_once,
             'sim.getObjectHandle is deprecated. Use sim.getObject instead.'

@@ -2,8 +2,8 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Handle, SceneError};
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::{Data, Handle, SceneError, special};
 use crate::script::{Bytes, Table};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -35,14 +35,27 @@ fn get_object(cx: &Cx, path: Bytes, #[default(None)] options: Option<Table>) -> 
 /// @param options as in sim.getObject
 /// @return objectHandle the object
 #[api("sim._getObjectHandle")]
-fn get_object_handle(cx: &Cx, path: Bytes, #[default(None)] options: Option<Table>) -> Result<i64> {
+fn get_object_handle(cx: &Cx, path: Data, #[default(None)] options: Option<Table>) -> Result<i64> {
     let options = Lookup::read(options.as_ref());
-    let path = text(&path);
+    let path = match path {
+        // Scenes before 4.2 asked for the object of their script in another way.
+        Data::Int(special::SELF) => return Ok(own_object(cx)),
+        Data::Text(path) => text(&Bytes(path)),
+        Data::Int(number) => number.to_string(),
+        _ => return Err(ApiError::NotA { position: 1, expected: "string/buffer" }),
+    };
     if path.starts_with(['/', '.', ':']) {
         let emitter = options.emitter(cx)?;
         return options.answer(cx.scene().find(&path, emitter, options.index));
     }
     options.answer(cx.scene().find_old_name(&path))
+}
+
+/// The object a script is attached to, the script itself where it is an object at the top.
+fn own_object(cx: &Cx) -> i64 {
+    let script = cx.script();
+    let parent = script.object.and_then(|object| cx.scene().object(object).ok()?.parent());
+    script.owner().or(parent).or(script.object).map_or(special::WORLD, Handle::raw)
 }
 
 fn text(bytes: &Bytes) -> String {

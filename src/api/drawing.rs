@@ -1,4 +1,4 @@
-//! `sim.*`: drawing objects, curves of graphs, floating views: what only a display shows.
+//! `sim.*`: drawing objects, curves of graphs, floating views, particles: what only a display shows, or is not simulated.
 //!
 //! There is no display. Handles are given out and checked, so that scripts find their mistakes; what would be drawn is dropped.
 
@@ -25,6 +25,9 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     floating_view_add,
     floating_view_remove,
     adjust_view,
+    add_particle_object,
+    add_particle_object_item,
+    remove_particle_object,
 ];
 
 /// Bits above the handle of a drawing object: several items at once.
@@ -219,6 +222,62 @@ fn adjust_view(
     Ok(1)
 }
 
+/// A source of particles. They are not simulated; a warning says so.
+///
+/// @param objectType sim.particle_*
+/// @param size of a particle
+/// @param density of a particle
+/// @param params of the physics
+/// @param lifeTime in seconds
+/// @param maxItemCount more replace old ones
+/// @return particleObjectHandle its handle
+#[api("sim.addParticleObject")]
+#[expect(clippy::too_many_arguments, reason = "the reference has them")]
+fn add_particle_object(
+    cx: &mut Cx,
+    object_type: Number,
+    size: f64,
+    density: f64,
+    params: Data,
+    life_time: f64,
+    max_item_count: Number,
+    colour: Rest,
+) -> Result<i64> {
+    let _ = (object_type, size, density, params, life_time, max_item_count, colour);
+    cx.env().warn_once("sim.addParticleObject", "particles are not simulated.");
+    Ok(particles(cx).borrow_mut().add(Particles))
+}
+
+/// Adds a particle. It is not simulated.
+///
+/// @param particleObjectHandle from sim.addParticleObject
+/// @param itemData position and target position; nil removes all
+/// @return result 1
+#[api("sim.addParticleObjectItem")]
+fn add_particle_object_item(
+    cx: &mut Cx,
+    particle_object_handle: Number,
+    #[default(Data::Nil)] item_data: Data,
+) -> Result<i64> {
+    let _ = item_data;
+    particles(cx).borrow_mut().get_mut(particle_object_handle.0).map(|_| 1).ok_or_else(no_particles)
+}
+
+/// Removes a source of particles.
+///
+/// @param particleObjectHandle from sim.addParticleObject, or sim.handle_all
+#[api("sim.removeParticleObject")]
+fn remove_particle_object(cx: &mut Cx, particle_object_handle: Number) -> Result<()> {
+    let particles = particles(cx);
+    if particle_object_handle.0 == special::ALL {
+        particles.borrow_mut().clear();
+        return Ok(());
+    }
+    particles.borrow_mut().remove(particle_object_handle.0).map(drop).ok_or_else(no_particles)
+}
+
+/// A source of particles.
+struct Particles;
 /// A drawing object.
 struct Drawing;
 /// A stream of a graph, or a curve.
@@ -227,6 +286,10 @@ struct Stream;
 struct View;
 
 fn drawings(cx: &Cx) -> Rc<RefCell<ByHandle<Drawing>>> {
+    cx.library_data()
+}
+
+fn particles(cx: &Cx) -> Rc<RefCell<ByHandle<Particles>>> {
     cx.library_data()
 }
 
@@ -260,6 +323,10 @@ fn graph_or_all(cx: &Cx, handle: Number) -> Result<()> {
 
 fn no_drawing() -> ApiError {
     ApiError::Other("drawing object does not exist.".into())
+}
+
+fn no_particles() -> ApiError {
+    ApiError::Other("particle object does not exist.".into())
 }
 
 fn no_stream() -> ApiError {

@@ -186,9 +186,13 @@ fn print_line(cx: &Cx, text: crate::script::Bytes) -> Result<()> {
 /// Told of every module a script loads.
 ///
 /// @param name the module
+/// @param implicit it was loaded because a script used its name, which takes a thread's time slice
 #[api("_usedModule")]
-fn used_module(cx: &Cx, _name: String) -> Result<()> {
-    let _ = cx;
+fn used_module(cx: &Cx, name: String, #[default(false)] implicit: bool) -> Result<()> {
+    let _ = name;
+    if implicit {
+        cx.use_up_slice();
+    }
     Ok(())
 }
 

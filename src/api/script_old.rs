@@ -37,6 +37,8 @@ enum Attribute {
     Text,
     Name,
     Language,
+    /// CoppeliaSim has forgotten what it meant: it can be set, without effect.
+    Forgotten,
 }
 
 impl Attribute {
@@ -52,6 +54,7 @@ impl Attribute {
             10109 => Self::Name,
             10110 => Self::Text,
             10112 => Self::Language,
+            0 | 2 | 3 | 5 | 6 => Self::Forgotten,
             _ => return Err(ApiError::Other("invalid parameter.".into())),
         })
     }
@@ -66,7 +69,7 @@ impl Attribute {
             Self::Name => ("scriptName", ValueType::String),
             Self::Language => ("language", ValueType::String),
             Self::Enabled => ("scriptDisabled", ValueType::Bool),
-            Self::Handle | Self::Object => return None,
+            Self::Handle | Self::Object | Self::Forgotten => return None,
         })
     }
 }
@@ -79,6 +82,7 @@ fn read(cx: &Cx, script: &Rc<Script>, attribute: Attribute) -> Result<Data> {
     let Some((name, ty)) = attribute.property() else {
         let handle = match attribute {
             Attribute::Handle => Some(script.id),
+            Attribute::Forgotten => Some(0),
             _ => script.object.or(script.owner()).map(Handle::raw),
         };
         return Ok(Data::Int(handle.unwrap_or(special::WORLD)));
@@ -88,6 +92,9 @@ fn read(cx: &Cx, script: &Rc<Script>, attribute: Attribute) -> Result<Data> {
 }
 
 fn write(cx: &Cx, script: &Rc<Script>, attribute: Attribute, value: Data) -> Result<()> {
+    if attribute == Attribute::Forgotten {
+        return Ok(());
+    }
     let (name, ty) = attribute.property().ok_or(ApiError::PropertyNotWritable)?;
     let truth = match value {
         Data::Int(number) => number != 0,
@@ -139,20 +146,26 @@ fn get_customization_script_associated_with_object(cx: &Cx, object_handle: Numbe
 
 /// Handle of a script.
 ///
-/// @param scriptType sim.scripttype_*, or sim.handle_self
+/// @param scriptType sim.scripttype_*, or sim.handle_self; V-REP gave the name of an object here, for its simulation script
 /// @param scriptName path of the object the script belongs to, or the display name of an add-on
 /// @param objectHandle the object the script belongs to
 /// @return scriptHandle
 #[api("sim.getScriptHandle")]
 fn get_script_handle(
     cx: &Cx,
-    script_type: i64,
+    script_type: Data,
     #[default("")] script_name: String,
     #[default(special::WORLD)] object_handle: Number,
 ) -> Result<i64> {
-    if script_type == special::SELF {
-        return Ok(cx.script().id);
-    }
+    let script_type = match script_type {
+        Data::Int(special::SELF) => return Ok(cx.script().id),
+        Data::Int(number) => number,
+        Data::Text(name) => {
+            let name = String::from_utf8_lossy(&name).into_owned();
+            return cx.sim().script_by_name(ScriptType::Simulation, &name);
+        }
+        _ => return Err(ApiError::NotA { position: 1, expected: "integer" }),
+    };
     let script_type = ScriptType::from_number(script_type).ok_or(ApiError::NoSuchScript)?;
     if object_handle.0 == special::WORLD {
         return cx.sim().script_by_name(script_type, &script_name);

@@ -4,7 +4,7 @@ use api_macro::api;
 
 use super::scripts::script_of;
 use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Field, Handle, Scene};
+use crate::scene::{Data, Field, Handle, Scene, special};
 use crate::script::{Number, Results};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -35,10 +35,11 @@ fn get_script_simulation_parameter(
 
 /// Sets a parameter of a script, or of the object the script is attached to if that has it.
 ///
-/// @param scriptHandle the script, or sim.handle_self
+/// @param scriptHandle the script, sim.handle_self, or all below this script's object (sim.handle_tree) or above it (sim.handle_chain) that
+/// have the parameter
 /// @param parameterName its name
 /// @param parameterValue its text
-/// @return result 1
+/// @return result how many have it now
 #[api("sim.setScriptSimulationParameter")]
 fn set_script_simulation_parameter(
     cx: &mut Cx,
@@ -46,6 +47,9 @@ fn set_script_simulation_parameter(
     parameter_name: String,
     parameter_value: String,
 ) -> Result<i64> {
+    if [special::TREE, special::CHAIN].contains(&script_handle.0) {
+        return set_all(cx, script_handle.0 == special::TREE, &parameter_name, &parameter_value);
+    }
     let hosts = hosts(cx, script_handle)?;
     let owner = hosts.iter().rev().find(|&&host| find(&cx.scene(), host, &parameter_name).is_some());
     let owner = *owner.or(hosts.first()).ok_or(ApiError::NoSuchScript)?;
@@ -89,6 +93,21 @@ fn hosts(cx: &Cx, script_handle: Number) -> Result<Vec<Handle>> {
     };
     let hosts: Vec<Handle> = [script.object, attached_to].into_iter().flatten().collect();
     if hosts.is_empty() { Err(ApiError::NoSuchScript) } else { Ok(hosts) }
+}
+
+/// Sets a parameter where it is, below or above the object of the calling script.
+fn set_all(cx: &mut Cx, below: bool, name: &str, text: &str) -> Result<i64> {
+    let own = *hosts(cx, Number(special::SELF))?.last().ok_or(ApiError::NoSuchScript)?;
+    let all = {
+        let scene = cx.scene();
+        let near: Vec<Handle> =
+            if below { scene.tree(Some(own), false)? } else { scene.ancestors(own).chain([own]).collect() };
+        near.into_iter().filter(|&object| find(&scene, object, name).is_some()).collect::<Vec<_>>()
+    };
+    for &object in &all {
+        set(cx, object, name.to_owned(), text.to_owned())?;
+    }
+    Ok(all.len() as i64)
 }
 
 fn find(scene: &Scene, object: Handle, name: &str) -> Option<String> {

@@ -61,6 +61,11 @@ impl<'a> Cx<'a> {
         self.env().yields.overall.get() == 0 && !self.stack.is_main_coroutine()
     }
 
+    /// Ends the time slice of the calling thread, as work does that takes longer in the original.
+    pub(crate) fn use_up_slice(&self) {
+        super::use_up_slice(self.stack);
+    }
+
     pub(crate) fn scene(&self) -> Ref<'_, Scene> {
         self.sim.scene.borrow()
     }

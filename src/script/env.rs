@@ -34,6 +34,7 @@ pub(crate) struct Env {
 }
 
 /// May code of this state yield, and when is it made to?
+#[derive(Default)]
 pub(crate) struct Yields {
     /// 0: pre-emption is allowed in code outside of coroutines that have a level of their own.
     pub auto: Cell<i64>,
@@ -43,6 +44,8 @@ pub(crate) struct Yields {
     pub delay_ms: Cell<u32>,
     /// Instructions run by coroutines since the slice began.
     pub used: Cell<u64>,
+    /// The count hook comes early, to end a slice.
+    pub hastened: Cell<bool>,
 }
 
 /// Functions that run before and after callbacks.
@@ -67,7 +70,7 @@ impl Env {
             defined: Cell::new(0),
             hooks: RefCell::default(),
             depth: Cell::new(0),
-            yields: Yields { auto: Cell::new(0), overall: Cell::new(0), delay_ms: Cell::new(2), used: Cell::new(0) },
+            yields: Yields { delay_ms: Cell::new(2), ..Yields::default() },
             random: RefCell::new(Random::new(sim.options.seed)),
             event_filters: RefCell::default(),
             events_wanted: Rc::clone(&sim.events.listening),

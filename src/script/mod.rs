@@ -77,7 +77,7 @@ pub(crate) use order::Group;
 pub(crate) use property::{Target, table as property_table};
 pub(crate) use scene_switch::SceneSource;
 pub(crate) use sim::Sim;
-pub(crate) use threads::{auto_level, changed_level, set_auto_level};
+pub(crate) use threads::{auto_level, changed_level, set_auto_level, use_up_slice};
 
 /// Compiles Lua text to bytecode.
 pub(crate) fn compile(code: &[u8], chunk_name: &str) -> Result<Vec<u8>, String> {

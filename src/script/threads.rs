@@ -7,7 +7,7 @@
 use std::ffi::CStr;
 
 use super::env::Env;
-use super::lua::{HOOK_INTERVAL, Stack, Type, set_count_hook};
+use super::lua::{HOOK_INTERVAL, Stack, Type, hasten_count_hook, set_count_hook};
 
 /// Weak table from coroutine to its own pre-emption level.
 const LEVELS: &CStr = c"swanilda.levels";
@@ -16,12 +16,27 @@ const LEVELS: &CStr = c"swanilda.levels";
 pub(crate) fn on_count(stack: Stack<'_>) -> bool {
     let env = Env::of(stack);
     let yields = &env.yields;
-    yields.used.set(yields.used.get() + HOOK_INTERVAL as u64);
+    if yields.hastened.take() {
+        set_count_hook(stack, true);
+    }
+    yields.used.set(yields.used.get().saturating_add(HOOK_INTERVAL as u64));
     if yields.overall.get() != 0 || yields.used.get() < budget(env) || auto_level(stack) != 0 {
         return false;
     }
     yields.used.set(0);
     true
+}
+
+/// Ends the slice of the running thread in a few instructions, unless it forbids that before: what it has done takes longer than a slice
+/// in the original.
+pub(crate) fn use_up_slice(stack: Stack<'_>) {
+    if stack.is_main_coroutine() || auto_level(stack) != 0 {
+        return;
+    }
+    let yields = &Env::of(stack).yields;
+    yields.used.set(u64::MAX);
+    yields.hastened.set(true);
+    hasten_count_hook(stack);
 }
 
 /// Instructions in a slice.

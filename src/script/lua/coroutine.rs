@@ -10,6 +10,8 @@ use super::callback::panic_message;
 
 /// How many virtual machine instructions pass between two looks at the budget.
 pub(crate) const HOOK_INTERVAL: c_int = 1000;
+/// How many pass before a slice that is used up ends.
+const SOON: c_int = 100;
 
 /// Told after every `HOOK_INTERVAL` instructions of a coroutine; true asks it to yield.
 pub(crate) type OnCount = fn(Stack<'_>) -> bool;
@@ -33,27 +35,38 @@ pub(crate) fn install_coroutine_hooks(stack: Stack<'_>, on_count: OnCount) {
 
 /// Switches the count hook of the running coroutine on or off. The main coroutine never has one.
 pub(crate) fn set_count_hook(stack: Stack<'_>, on: bool) {
+    set_interval(stack, if on { HOOK_INTERVAL } else { 0 });
+}
+
+/// Makes the count hook of the running coroutine come in a few instructions, until it is set again.
+pub(crate) fn hasten_count_hook(stack: Stack<'_>) {
+    set_interval(stack, SOON);
+}
+
+fn set_interval(stack: Stack<'_>, interval: c_int) {
     // SAFETY: `lua_pushthread` tells whether this is the main coroutine.
     unsafe {
         let is_main = ffi::lua_pushthread(stack.raw()) != 0;
         stack.pop(1);
         if !is_main {
-            set_hook(stack.raw(), on);
+            set_hook(stack.raw(), interval);
         }
     }
 }
 
-unsafe fn set_hook(raw: *mut ffi::lua_State, on: bool) {
-    let (hook, mask): (Option<ffi::lua_Hook>, _) = if on { (Some(count), ffi::LUA_MASKCOUNT) } else { (None, 0) };
+/// Sets the count hook, or with an interval of 0 takes it away.
+unsafe fn set_hook(raw: *mut ffi::lua_State, interval: c_int) {
+    let (hook, mask): (Option<ffi::lua_Hook>, _) =
+        if interval > 0 { (Some(count), ffi::LUA_MASKCOUNT) } else { (None, 0) };
     // SAFETY: `raw` is a coroutine of a living state.
-    unsafe { ffi::lua_sethook(raw, hook, mask, HOOK_INTERVAL) }
+    unsafe { ffi::lua_sethook(raw, hook, mask, interval) }
 }
 
 unsafe extern "C-unwind" fn create(raw: *mut ffi::lua_State) -> c_int {
     // SAFETY: calls the original `coroutine.create`, which checks its argument and may raise; nothing is owned here.
     unsafe {
         call_original(raw);
-        set_hook(ffi::lua_tothread(raw, -1), true);
+        set_hook(ffi::lua_tothread(raw, -1), HOOK_INTERVAL);
         1
     }
 }
@@ -65,7 +78,7 @@ unsafe extern "C-unwind" fn wrap(raw: *mut ffi::lua_State) -> c_int {
         if !ffi::lua_getupvalue(raw, -1, 1).is_null() {
             let coroutine = ffi::lua_tothread(raw, -1);
             if !coroutine.is_null() {
-                set_hook(coroutine, true);
+                set_hook(coroutine, HOOK_INTERVAL);
             }
             ffi::lua_settop(raw, -2);
         }

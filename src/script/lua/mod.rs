@@ -25,7 +25,7 @@ mod tables;
 
 pub(crate) use callback::{Callback, push_callback};
 pub(crate) use calls::{LuaError, MULTIPLE};
-pub(crate) use coroutine::{HOOK_INTERVAL, install_coroutine_hooks, set_count_hook};
+pub(crate) use coroutine::{HOOK_INTERVAL, hasten_count_hook, install_coroutine_hooks, set_count_hook};
 pub(crate) use file::FileLock;
 pub(crate) use object::Object;
 pub(crate) use stack::{Stack, Type};

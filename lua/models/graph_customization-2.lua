@@ -1,0 +1,5 @@
+--[[
+What graph_customization is, by its later name.
+]]
+
+return require 'graph_customization'
