@@ -253,6 +253,50 @@ fn api_prints_the_reference() {
 }
 
 #[test]
+fn compat_brings_old_code_up_to_date() {
+    let old = "function sysCall_threadmain()
+        while simGetSimulationState()~=sim_simulation_advancing_abouttostop do
+            simSetThreadAutomaticSwitch(false) print('step') simSwitchThread()
+        end
+    end";
+    let args = ["--steps", "2", "--as", "simulation", "--empty"];
+    let output = Scene::new(old).run(&[&args[..], &["--compat"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stdout(&output).lines().count() >= 2, "{}", stdout(&output));
+    assert_eq!(stdout(&Scene::new(old).run(&args)), "", "nobody calls sysCall_threadmain today");
+}
+
+#[test]
+fn texts_that_ask_for_the_call_are_called_by_number() {
+    let old = "if sim_call_type==sim.syscb_init then count=0 end
+        if sim_call_type==sim.syscb_actuation then count=count+1 end
+        if sim_call_type==sim.syscb_cleanup then print(count) end";
+    let output = Scene::new(old).run(&["--steps", "2", "--as", "simulation", "--empty"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stdout(&output), "5\n");
+    assert!(stderr(&output).contains("compatibility mode"), "{}", stderr(&output));
+}
+
+#[test]
+fn doctor_tells_what_works() {
+    let scene = Scene::new(
+        "sim = require 'sim'\nsim.getObject('/a') -- sim.nothing()\nsim.frobnicate()\nsimGetSimulationTime()",
+    );
+    let doctor = |args: &[&str]| swanilda().arg("doctor").args(args).output().expect("the command starts");
+    let folder = scene.folder.path().display().to_string();
+    let output = doctor(&[&folder]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stdout(&output).contains("missing      sim.frobnicate: line 3\n"), "{}", stdout(&output));
+    assert!(stdout(&output).ends_with("1 scripts call 3 functions: 2 work, 0 are approximated, 1 are missing.\n"));
+    let json: serde_json::Value = serde_json::from_slice(&doctor(&[&folder, "--json"]).stdout).expect("JSON");
+    assert_eq!(json["summary"]["missing"], 1);
+    assert_eq!(json["scripts"][0]["uses"][2]["written"], "simGetSimulationTime");
+    let fine = Scene::new("sim.getObject('/a')");
+    assert_eq!(doctor(&[&fine.path().display().to_string()]).status.code(), Some(0));
+    assert_eq!(doctor(&["no such file"]).status.code(), Some(2));
+}
+
+#[test]
 fn init_does_not_overwrite() {
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
     let run = |args: &[&str]| {

@@ -864,6 +864,11 @@ function sim.getIntProperty(target, propertyName, options) end
 ---@return integer signalValue
 function sim.getIntegerSignal(signalName) end
 
+--- The inverse of a matrix.
+---@param matrix number[] 3 rows of 4
+---@return number[] inverse another table
+function sim.getInvertedMatrix(matrix) end
+
 --- Whether the simulation keeps to wall-clock time.
 ---@return integer result 1 or 0
 function sim.getIsRealTimeSimulation() end
@@ -1064,12 +1069,13 @@ function sim.getObjectFloatArrayParam(objectHandle, ParameterId) end
 ---@return number parameter nothing if the object has no such parameter
 function sim.getObjectFloatParam(objectHandle, parameterId) end
 
---- Float parameter of an object.
+--- A floating-point parameter of an object.
 ---@deprecated properties
 ---@param objectHandle integer the object
----@param parameterId integer
----@return number parameter nothing if the object has no such parameter
-function sim.getObjectFloatParameter(objectHandle, parameterId) end
+---@param parameterID integer as in sim.getObjectFloatParam
+---@return integer result 1, or 0 when there is no value
+---@return number parameter the value
+function sim.getObjectFloatParameter(objectHandle, parameterID) end
 
 --- Object with an identifier.
 ---@param uid integer the identifier
@@ -1100,11 +1106,12 @@ function sim.getObjectHierarchyOrder(objectHandle) end
 ---@return integer parameter nothing if the object has no such parameter
 function sim.getObjectInt32Param(objectHandle, parameterId) end
 
---- Integer parameter of an object.
+--- An integer parameter of an object.
 ---@param objectHandle integer the object
----@param parameterId integer
----@return integer parameter nothing if the object has no such parameter
-function sim.getObjectInt32Parameter(objectHandle, parameterId) end
+---@param parameterID integer as in sim.getObjectInt32Param
+---@return integer result 1, or 0 when there is no value
+---@return integer parameter the value
+function sim.getObjectInt32Parameter(objectHandle, parameterID) end
 
 --- Pose of an object as a matrix.
 ---@param objectHandle integer the object
@@ -3017,7 +3024,7 @@ function sim.setShapeAppearance(handle, appearance, options) end
 function sim.setShapeBB(shapeHandle, size) end
 
 --- Colours a shape.
----@param shapeHandle integer the shape
+---@param shapeHandle any the shape; scripts from before 3.1.4 put '@backCompatibility1:' before it
 ---@param colorName string nil: every mesh, a text: meshes whose colour is called so, '@compound': each mesh its own
 ---@param colorComponent integer sim.colorcomponent_*
 ---@param rgbData number[] red, green, blue; one number for transparency, 1 for opaque
@@ -4591,6 +4598,16 @@ sim.texturemap_cube = 3
 sim.texturemap_cylinder = 1
 sim.texturemap_plane = 0
 sim.texturemap_sphere = 2
+sim.ui_property_fixedwidthfont = 16
+sim.ui_property_moveable = 2
+sim.ui_property_relativetoleftborder = 4
+sim.ui_property_relativetotopborder = 8
+sim.ui_property_rolledup = 128
+sim.ui_property_selectassociatedobject = 256
+sim.ui_property_settocenter = 64
+sim.ui_property_systemblock = 32
+sim.ui_property_visible = 1
+sim.ui_property_visiblewhenobjectselected = 512
 sim.verbosity_debug = 600
 sim.verbosity_default = 400
 sim.verbosity_errors = 200

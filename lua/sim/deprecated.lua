@@ -203,6 +203,32 @@ function M.getSettingInt32(key) return math.tointeger(tonumber(setting(key))) en
 -- @return value nil if there is none
 function M.getSettingString(key) return setting(key) end
 
+---------------------------------------------------------------- parameters of objects, with a result before the value
+
+--- A floating-point parameter of an object.
+-- @api int result, float parameter = sim.getObjectFloatParameter(int objectHandle, int parameterID)
+-- @param objectHandle the object
+-- @param parameterID as in sim.getObjectFloatParam
+-- @return result 1, or 0 when there is no value
+-- @return parameter the value
+function M.getObjectFloatParameter(objectHandle, parameterID)
+    local value = sim.getObjectFloatParam(objectHandle, parameterID)
+    if value == nil then return 0 end
+    return 1, value
+end
+
+--- An integer parameter of an object.
+-- @api int result, int parameter = sim.getObjectInt32Parameter(int objectHandle, int parameterID)
+-- @param objectHandle the object
+-- @param parameterID as in sim.getObjectInt32Param
+-- @return result 1, or 0 when there is no value
+-- @return parameter the value
+function M.getObjectInt32Parameter(objectHandle, parameterID)
+    local value = sim.getObjectInt32Param(objectHandle, parameterID)
+    if value == nil then return 0 end
+    return 1, value
+end
+
 ---------------------------------------------------------------- moves of V-REP
 
 --- Moves joints to positions, blocking.

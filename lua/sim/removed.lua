@@ -158,6 +158,12 @@ function M.getPluginName(index) return nil end
 -- @return moduleName nil
 function M.getModuleName(index) return nil end
 
+--- The inverse of a matrix.
+-- @api float[12] inverse = sim.getInvertedMatrix(float[12] matrix)
+-- @param matrix 3 rows of 4
+-- @return inverse another table
+function M.getInvertedMatrix(matrix) return sim.getMatrixInverse(matrix) end
+
 --- Milliseconds of wall-clock time.
 -- @api int time = sim.getSystemTimeInMilliseconds(int before = 0)
 -- @param before a time to count from

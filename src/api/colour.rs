@@ -4,7 +4,7 @@ use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::colour::{ColourName, Component};
-use crate::scene::{Handle, SceneError};
+use crate::scene::{Data, Handle, SceneError};
 use crate::script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![get_shape_color, set_shape_color, get_object_color, set_object_color];
@@ -34,7 +34,7 @@ fn get_shape_color(
 
 /// Colours a shape.
 ///
-/// @param shapeHandle the shape
+/// @param shapeHandle the shape; scripts from before 3.1.4 put '@backCompatibility1:' before it
 /// @param colorName nil: every mesh, a text: meshes whose colour is called so, '@compound': each mesh its own
 /// @param colorComponent sim.colorcomponent_*
 /// @param rgbData red, green, blue; one number for transparency, 1 for opaque
@@ -42,7 +42,7 @@ fn get_shape_color(
 #[api("sim.setShapeColor")]
 fn set_shape_color(
     cx: &mut Cx,
-    shape_handle: Handle,
+    shape_handle: Data,
     color_name: Option<String>,
     color_component: Number,
     rgb_data: Vec<f64>,
@@ -51,6 +51,7 @@ fn set_shape_color(
     if rgb_data.len() < component.width() {
         return Err(ApiError::TableSize);
     }
+    let shape_handle = marked_shape(cx, &shape_handle)?;
     cx.scene_mut().set_shape_colour(shape_handle, &ColourName::from_script(color_name), component, &rgb_data)?;
     Ok(1)
 }
@@ -93,4 +94,17 @@ fn set_object_color(
     }
     let Ok(index) = usize::try_from(index.0) else { return Ok(false) };
     Ok(cx.scene_mut().set_object_colour(object_handle, index, component, &rgb_data)?)
+}
+
+/// The shape a handle means, which scripts of old scenes mark.
+fn marked_shape(cx: &Cx, handle: &Data) -> Result<Handle> {
+    let number = match handle {
+        Data::Text(text) => std::str::from_utf8(text)
+            .ok()
+            .and_then(|text| text.strip_prefix("@backCompatibility1:").unwrap_or(text).parse::<f64>().ok()),
+        other => other.as_f64(),
+    };
+    let number = number.ok_or(ApiError::NotA { position: 1, expected: "number" })?;
+    let handle = Handle::from_raw(number as i64).ok_or(SceneError::NoSuchObject)?;
+    Ok(cx.scene().object(handle)?.handle())
 }

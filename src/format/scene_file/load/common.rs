@@ -1,6 +1,6 @@
 //! What all objects have.
 
-use super::{Context, custom_data};
+use super::{Context, custom_data, path};
 use crate::format::ttt::chunks::{Common, UserParams};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{Counted, Text};
@@ -42,6 +42,9 @@ pub(super) fn fill(scene: &mut Scene, context: &Context<'_>, handle: Handle, obj
             "_oldObjectCustomData_",
         );
         colour(new, context, &object.class);
+        if let Class::Path(path) = &object.class {
+            path::fill(&mut new.custom_data, path);
+        }
     })
 }
 

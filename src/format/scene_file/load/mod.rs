@@ -5,6 +5,7 @@ mod custom_data;
 mod joint;
 mod material;
 mod mesh;
+mod path;
 mod references;
 mod script;
 mod sensors;
