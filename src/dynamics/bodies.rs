@@ -9,7 +9,7 @@ use rapier3d_f64::prelude::{
 
 use super::colliders;
 use super::convert::{from_pose, to_matrix, to_pose, to_vector};
-use super::plan::{BodyBuild, BodyPlan, Surface, is_far};
+use super::plan::{BodyBuild, BodyPlan, FrictionRule, Surface, is_far};
 use super::world::World;
 use crate::scene::pose::interpolate;
 use crate::scene::{Field, Handle, Pose, Scene};
@@ -109,11 +109,18 @@ impl Body {
         {
             rigid.set_linvel(to_vector(velocity.linear), true);
             rigid.set_angvel(to_vector(velocity.angular), true);
+            if plan.asleep && velocity == Default::default() {
+                rigid.sleep();
+            }
         }
         let rigid = world.bodies.insert(rigid);
         let mut body =
             Self { rigid, colliders: Vec::new(), build: plan.build, surface: plan.surface, local, sweep: None };
         body.insert_colliders(shape, world);
+        // rapier would only know the mass during the first step, the articulation needs it before.
+        if let Some(rigid) = world.bodies.get_mut(rigid) {
+            rigid.recompute_mass_properties_from_colliders(&world.colliders);
+        }
         body
     }
 
@@ -129,7 +136,7 @@ impl Body {
                 .density(0.0)
                 .friction(self.surface.friction)
                 .restitution(self.surface.restitution)
-                .friction_combine_rule(CoefficientCombineRule::Multiply)
+                .friction_combine_rule(combine_rule(self.surface.friction_rule))
                 .restitution_combine_rule(CoefficientCombineRule::Multiply)
                 .active_hooks(hooks_for(tag.mask))
                 .user_data(tag.pack());
@@ -146,6 +153,7 @@ impl Body {
         for &handle in &self.colliders {
             if let Some(collider) = world.colliders.get_mut(handle) {
                 collider.set_friction(surface.friction);
+                collider.set_friction_combine_rule(combine_rule(surface.friction_rule));
                 collider.set_restitution(surface.restitution);
                 collider.set_active_hooks(hooks_for(surface.mask));
                 collider.user_data = tag.pack();
@@ -161,6 +169,13 @@ impl Body {
     /// Whether the engine still has the body.
     pub(super) fn pose(&self, world: &World) -> Option<Pose> {
         world.bodies.get(self.rigid).map(|rigid| from_pose(rigid.position()))
+    }
+}
+
+fn combine_rule(rule: FrictionRule) -> CoefficientCombineRule {
+    match rule {
+        FrictionRule::Product => CoefficientCombineRule::Multiply,
+        FrictionRule::Largest => CoefficientCombineRule::Max,
     }
 }
 

@@ -19,7 +19,7 @@ use super::motors::{Drive, Motion, Motor, wrap};
 use super::plan::{LinkKind, LinkPlan};
 use super::world::World;
 use crate::scene::joint::Joint;
-use crate::scene::{Handle, Pose, Scene};
+use crate::scene::{Field, Handle, Pose, Scene};
 
 /// Damping that makes a velocity motor rigid within its force.
 const RIGID: f64 = 1e12;
@@ -94,7 +94,9 @@ pub(super) fn follow(
     for (handle, plan) in plans {
         let (Some(first), Some(second)) = (bodies.get(plan.first), bodies.get(plan.second)) else { continue };
         let ends = [first.rigid, second.rigid];
-        let kept = old.remove(&handle).filter(|link| link.plan == plan && link.bodies == ends);
+        let reset = scene.object(handle).is_ok_and(|object| object.dynamics_reset);
+        let goes_on = |link: &Link| link.plan == plan && link.bodies == ends && !reset;
+        let kept = if old.get(&handle).is_some_and(goes_on) { old.remove(&handle) } else { None };
         let mut link = match kept {
             Some(link) => link,
             None => Link::insert(plan, ends, world),
@@ -275,7 +277,19 @@ fn locked_axes(plan: &LinkPlan) -> JointAxesMask {
     }
 }
 
+/// Notes that the links scripts asked for were built anew.
+pub(super) fn take_resets(links: &Links, scene: &mut Scene) {
+    for &handle in links.keys() {
+        if scene.object(handle).is_ok_and(|object| object.dynamics_reset) {
+            // The handle was just read.
+            let _ = scene.modify(handle, Field::Dynamics, |object| object.dynamics_reset = false);
+        }
+    }
+}
+
 /// Whether a script moved a link, or asks for it to be built anew.
 pub(super) fn were_touched(links: &Links, scene: &Scene) -> bool {
-    links.iter().any(|(&handle, link)| scene.object(handle).map_or(true, |object| object.pose() != link.plan.base))
+    links.iter().any(|(&handle, link)| {
+        scene.object(handle).map_or(true, |object| object.pose() != link.plan.base || object.dynamics_reset)
+    })
 }

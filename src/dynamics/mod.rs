@@ -154,6 +154,7 @@ impl Dynamics {
         self.bodies.follow(plan.bodies, world, scene);
         links::carry(&self.links, &plan.links, &self.bodies, world, scene);
         links::follow(&mut self.links, plan.links, &self.bodies, world, scene);
+        links::take_resets(&self.links, scene);
         contacts::ask_about_all(world, self.asks);
         self.articulation.follow(&self.links, &scene.all_breadth_first(), &self.bodies);
         self.revision = Some(scene.changes().dynamics_revision());
@@ -170,7 +171,7 @@ impl Dynamics {
         for (&handle, link) in &mut self.links {
             let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) else { continue };
             let drive = match joint.mode {
-                JointMode::Dependent => master_of(joint, &motions)
+                JointMode::Dependent => master_of(scene, joint, &motions)
                     .and_then(|master| motors::follow_master(joint, link.motion, master, call.step)),
                 _ => {
                     if joint.control.asks() {
@@ -228,8 +229,13 @@ impl Dynamics {
     }
 }
 
-fn master_of(joint: &Joint, motions: &BTreeMap<Handle, Motion>) -> Option<Motion> {
-    motions.get(&joint.dependency?.master).copied()
+/// Where the master of a joint is; one that nothing in the physics hangs on stands where the scene has it.
+fn master_of(scene: &Scene, joint: &Joint, motions: &BTreeMap<Handle, Motion>) -> Option<Motion> {
+    let master = joint.dependency?.master;
+    motions.get(&master).copied().or_else(|| {
+        let joint = scene.object(master).ok()?.joint().ok()?;
+        Some(Motion { position: joint.position, velocity: 0.0 })
+    })
 }
 
 fn request(handle: Handle, joint: &Joint, link: &links::Link) -> JointRequest {

@@ -17,6 +17,8 @@ use crate::scene::{Handle, Kind, Object, Pose, Scene, Uid};
 /// `sim.modelproperty_not_dynamic` and `_not_respondable`.
 const NOT_DYNAMIC: i64 = 0x20;
 const NOT_RESPONDABLE: i64 = 0x40;
+/// `sim.physics_mujoco`.
+const MUJOCO: i64 = 4;
 /// Root shapes further from the origin than this are out of service with their trees, metres.
 const ACTIVITY_RANGE: f64 = 1000.0;
 
@@ -35,6 +37,8 @@ pub(super) struct Plan {
 pub(super) struct BodyPlan {
     pub build: BodyBuild,
     pub surface: Surface,
+    /// It begins at rest, and stays so until something touches or pushes it.
+    pub asleep: bool,
 }
 
 /// What a body is made of: when any of it changes, the body is built anew and loses its velocity.
@@ -72,9 +76,17 @@ pub(super) struct Surface {
     /// Low byte: local mask, high byte: global mask.
     pub mask: u16,
     pub friction: f64,
+    pub friction_rule: FrictionRule,
     pub restitution: f64,
     pub linear_damping: f64,
     pub angular_damping: f64,
+}
+
+/// How the frictions of two shapes become one: as the selected engine does it.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum FrictionRule {
+    Product,
+    Largest,
 }
 
 /// A constraint between two bodies: `first` carries the base of the link, `second` its moving side.
@@ -140,7 +152,7 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
         mass: shape.mass,
         parts: shape.parts.iter().map(PartForm::of).collect(),
     };
-    Some(BodyPlan { build, surface: surface(scene, handle, shape) })
+    Some(BodyPlan { build, surface: surface(scene, handle, shape), asleep: dynamics.start_asleep })
 }
 
 impl PartForm {
@@ -150,11 +162,14 @@ impl PartForm {
 }
 
 fn surface(scene: &Scene, handle: Handle, shape: &Shape) -> Surface {
-    let (friction, restitution) = shape.material.contact_values(scene.settings().dynamics.engine);
+    let engine = scene.settings().dynamics.engine;
+    let (friction, restitution) = shape.material.contact_values(engine);
+    let suspended = shape.dynamics.respondable_suspend_count > 0;
     Surface {
         root: scene.root_of(handle),
-        mask: shape.dynamics.respondable_mask as u16,
+        mask: if suspended { 0 } else { shape.dynamics.respondable_mask as u16 },
         friction,
+        friction_rule: if engine[0] == MUJOCO { FrictionRule::Largest } else { FrictionRule::Product },
         restitution,
         linear_damping: shape.material.linear_damping,
         angular_damping: shape.material.angular_damping,
@@ -184,13 +199,19 @@ fn children<'a>(scene: &'a Scene, object: &'a Object) -> impl Iterator<Item = &'
     object.children().iter().filter_map(|&child| scene.object(child).ok())
 }
 
-/// Also a joint that follows a dynamic one counts as dynamic.
+/// Also a joint that follows a dynamic one counts as dynamic, directly or by way of others. Masters never form a circle.
 fn is_dynamic_mode(scene: &Scene, joint: &Joint) -> bool {
-    let mode_of = |handle| scene.object(handle).and_then(Object::joint).map(|joint| joint.mode);
-    match joint.mode {
-        JointMode::Dynamic => true,
-        JointMode::Dependent => joint.dependency.is_some_and(|d| mode_of(d.master) == Ok(JointMode::Dynamic)),
-        JointMode::Kinematic | JointMode::Motion | JointMode::InverseKinematics => false,
+    let mut joint = joint;
+    loop {
+        let master = match joint.mode {
+            JointMode::Dynamic => return true,
+            JointMode::Dependent => joint.dependency.map(|law| law.master),
+            JointMode::Kinematic | JointMode::Motion | JointMode::InverseKinematics => None,
+        };
+        match master.and_then(|master| scene.object(master).ok()?.joint().ok()) {
+            Some(master) => joint = master,
+            None => return false,
+        }
     }
 }
 

@@ -12,6 +12,7 @@ use super::world::World;
 use super::{Dynamics, Pass, contacts};
 use crate::scene::dynamics_report::JointReport;
 use crate::scene::force_sensor::{Filter, ForceSensor};
+use crate::scene::joint::Joint;
 use crate::scene::poses::is_place;
 use crate::scene::shape::Velocity;
 use crate::scene::{Field, Handle, Kind, Pose, Scene};
@@ -115,7 +116,11 @@ impl Dynamics {
             }),
             Kind::Joint(_) if self.links.contains_key(&handle) => JOINT,
             Kind::ForceSensor(_) if self.links.contains_key(&handle) => SENSOR,
-            Kind::Dummy(_) if self.links.contains_key(&handle) => DUMMY,
+            Kind::Dummy(dummy)
+                if [Some(handle), dummy.link].iter().flatten().any(|end| self.links.contains_key(end)) =>
+            {
+                DUMMY
+            }
             _ => 0,
         }
     }
@@ -143,10 +148,10 @@ fn report_link(scene: &mut Scene, handle: Handle, link: &Link, moving_side: Pose
         LinkKind::Weld => Ok(()),
         LinkKind::Sensor => scene.report_sensor(handle, moving_side),
         kind => {
-            let cyclic = scene.object(handle).and_then(|o| o.joint()).is_ok_and(|joint| joint.cyclic);
-            let position = link.motion.position;
+            let shown = |joint: &Joint| shown_position(joint, kind, link.motion.position);
+            let position = scene.object(handle).and_then(|object| object.joint().map(shown));
             let report = JointReport {
-                position: if cyclic && kind == LinkKind::Revolute { wrap(position) } else { position },
+                position: position.unwrap_or(link.motion.position),
                 rotation: if kind == LinkKind::Spherical { moving_side.rotation } else { UnitQuaternion::identity() },
                 velocity: link.motion.velocity,
                 moving_side,
@@ -155,6 +160,15 @@ fn report_link(scene: &mut Scene, handle: Handle, link: &Link, moving_side: Pose
             scene.report_joint(handle, &report)
         }
     };
+}
+
+/// The position scripts read: a turn of cyclic joints, within the interval where limits are enforced.
+fn shown_position(joint: &Joint, kind: LinkKind, position: f64) -> f64 {
+    match kind {
+        LinkKind::Revolute if joint.cyclic => wrap(position),
+        _ if joint.enforce_limits && !joint.cyclic => position.max(joint.min).min(joint.max()),
+        _ => position,
+    }
 }
 
 fn is_forced(object: &crate::scene::Object) -> bool {

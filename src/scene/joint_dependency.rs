@@ -46,8 +46,11 @@ impl Scene {
         self.follow_master(handle)
     }
 
-    /// Frees the joint through which `master` follows `handle`.
-    fn break_circle(&mut self, handle: Handle, master: Handle) -> SceneResult<()> {
+    /// Frees the joint through which `master` follows `handle`: before `handle` begins to follow `master`.
+    ///
+    /// # Errors
+    /// When one of them is no joint.
+    pub fn break_circle(&mut self, handle: Handle, master: Handle) -> SceneResult<()> {
         let mut follower = master;
         while let Some(dependency) = self.object(follower)?.joint()?.dependency {
             if dependency.master == handle {

@@ -44,6 +44,7 @@ impl Scene {
                 if object.is_model() {
                     object.model_property &= !NOT_RESET;
                 }
+                end_suspension(object);
                 let stored = !kept.contains(&handle);
                 object.initial = stored.then(|| Box::new(InitialState::of(object, parent, world)));
             }
@@ -94,6 +95,7 @@ impl Scene {
             let Ok(object) = self.object_mut(handle) else { continue };
             object.measured = super::Measured::default();
             (object.dynamic_flag, object.dynamics_reset) = (0, false);
+            end_suspension(object);
             if let Some(initial) = object.initial.take().filter(|_| !kept.contains(&handle)) {
                 restored.push((handle, initial));
             }
@@ -138,6 +140,13 @@ impl Scene {
             self.modify(handle, Field::Layer, |object| object.layer = initial.layer)?;
         }
         self.modify(handle, Field::Other, |object| initial.restore_kind(&mut object.kind))
+    }
+}
+
+/// A shape that was to touch nothing for a while touches again: that lasts no longer than a run.
+fn end_suspension(object: &mut Object) {
+    if let Kind::Shape(shape) = &mut object.kind {
+        shape.dynamics.respondable_suspend_count = 0;
     }
 }
 

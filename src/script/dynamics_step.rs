@@ -96,7 +96,7 @@ impl Sim {
         let data =
             Data::map([("handle1", first.raw().into()), ("handle2", second.raw().into()), ("engine", engine.into())]);
         let answer = self.ask(&self.everyone_reversed(), SysCall::Contact, &[data]);
-        answer.map_or(Verdict::Default, |answer| verdict(&answer))
+        answer.map_or(Verdict::Default, |answer| verdict(&answer, engine))
     }
 
     fn force_sensor_triggered(self: &Rc<Self>, trigger: &Trigger) {
@@ -146,17 +146,23 @@ fn joint_data(joint: &Joint, request: &JointRequest, call: Call, pass: u32) -> D
     ])
 }
 
-/// What the table returned by `sysCall_contact` means (SPEC-dynamics section 4).
-fn verdict(answer: &Data) -> Verdict {
+/// What the table returned by `sysCall_contact` means (SPEC-dynamics section 4): values for the selected engine come first, then
+/// those for Bullet.
+fn verdict(answer: &Data, engine: i64) -> Verdict {
     let number = |engine: &str, name: &str| {
         let nested = answer.field(engine).and_then(|table| table.field(name));
         nested.or_else(|| answer.field(&format!("{engine}.{name}"))).and_then(Data::as_f64)
     };
+    let own = |[ode, newton]: [&str; 2]| match engine {
+        1 => number("ode", ode),
+        3 => number("newton", newton),
+        _ => None,
+    };
     match (answer.field("ignoreContact"), answer.field("collisionResponse")) {
         (Some(ignore), response) if !ignore.truthy() => match response.is_some_and(Data::truthy) {
             true => Verdict::Collide {
-                friction: number("bullet", "friction").unwrap_or(1.0),
-                restitution: number("bullet", "restitution").unwrap_or(0.0),
+                friction: own(["mu", "kineticFriction"]).or_else(|| number("bullet", "friction")).unwrap_or(1.0),
+                restitution: own(["bounce", "restitution"]).or_else(|| number("bullet", "restitution")).unwrap_or(0.0),
             },
             false => Verdict::PassThrough,
         },

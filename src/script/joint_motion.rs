@@ -6,7 +6,6 @@ use super::callback::SysCall;
 use super::sim::Sim;
 use crate::scene::joint::{Joint, Motion};
 use crate::scene::joint_motion::JointStep;
-use crate::scene::script_object::ScriptType;
 use crate::scene::{Data, Handle, Key};
 
 impl Sim {
@@ -18,12 +17,10 @@ impl Sim {
         }
     }
 
-    /// Asks the scripts above a joint, then the main script, for its next step.
+    /// Asks the scripts above a joint, then those without an object, for its next step.
     fn move_joint(self: &Rc<Self>, handle: Handle) {
         let Some(question) = self.motion_question(handle) else { return };
-        let mut scripts = self.joint_chain(handle);
-        scripts.extend(self.detached(ScriptType::Main));
-        if let Some(answer) = self.ask(&scripts, SysCall::Joint, &[question]) {
+        if let Some(answer) = self.ask(&self.joint_chain(handle), SysCall::Joint, &[question]) {
             // A script may have removed the joint: then there is nothing to move.
             let _ = self.scene.borrow_mut().step_joint(handle, read_step(&answer));
         }

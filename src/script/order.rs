@@ -115,12 +115,14 @@ impl Sim {
     }
 
     /// Scripts asked about a joint: those attached to it, to its parent, and so on to the root; simulation scripts of the whole chain
-    /// first, then customization scripts.
+    /// first, then customization scripts, the main script, add-ons and the sandbox.
     pub(crate) fn joint_chain(&self, joint: Handle) -> Vec<Rc<Script>> {
         let chain: Vec<Handle> = std::iter::once(joint).chain(self.scene.borrow().ancestors(joint)).collect();
         let scripts: Vec<_> = chain.into_iter().flat_map(|object| self.scripts_of_object(object)).collect();
         let of_type = |t: ScriptType| scripts.iter().filter(move |s| s.script_type == t).cloned();
-        of_type(ScriptType::Simulation).chain(of_type(ScriptType::Customization)).collect()
+        let attached = of_type(ScriptType::Simulation).chain(of_type(ScriptType::Customization));
+        let detached = [Group::Main, Group::AddOn, Group::Sandbox].map(|group| self.scripts_in(group));
+        attached.chain(detached.iter().flat_map(|list| list.iter().cloned())).collect()
     }
 }
 

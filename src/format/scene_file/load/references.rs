@@ -44,10 +44,14 @@ fn connect_one(scene: &mut Scene, object: &FileObject, handle: Handle, map: &Han
             }
         }
         Class::Joint(joint) => {
-            let dependency = dependency(joint, map);
+            let is_joint = |of: Handle| scene.object(of).is_ok_and(|object| object.joint().is_ok());
+            let dependency = dependency(joint, map).filter(|law| law.master != handle && is_joint(law.master));
+            if let Some(law) = dependency {
+                scene.break_circle(handle, law.master)?;
+            }
             scene.try_modify(handle, Field::Joint, |object| {
                 let joint = object.joint_mut()?;
-                joint.dependency = dependency.filter(|d| d.master != handle);
+                joint.dependency = dependency;
                 if joint.dependency.is_some() && joint.mode == JointMode::Kinematic {
                     joint.mode = JointMode::Dependent;
                 }
