@@ -79,7 +79,9 @@ impl Bodies {
         let mut old = std::mem::take(&mut self.by_shape);
         self.order.clear();
         for (shape, plan) in plan {
-            let kept = old.remove(&shape).filter(|body| body.build == plan.build && !wants_rebuild(scene, shape, body));
+            let goes_on = |body: &Body| body.build == plan.build && !wants_rebuild(scene, shape, body);
+            // What does not go on stays in `old`, to be removed from the engine.
+            let kept = if old.get(&shape).is_some_and(goes_on) { old.remove(&shape) } else { None };
             let body = match kept {
                 Some(body) => body.with_surface(shape, plan.surface, world),
                 None => Body::insert(shape, plan, world, scene),

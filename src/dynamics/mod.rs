@@ -10,7 +10,7 @@
 //! - `bodies`, `colliders`, `links`: plans made real; `articulation`: all links solved at once.
 //! - `motors`: the control law; `load`, `contacts`: what is read back; `frozen`: bodies that could not go on.
 //!
-//! Bodies never sleep and no state outlives the run: the same scene gives the same bytes.
+//! Bodies never fall asleep, though some start so, and no state outlives the run: the same scene gives the same bytes.
 
 mod articulation;
 mod bodies;
