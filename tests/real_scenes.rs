@@ -1,0 +1,105 @@
+//! Scenes and models of other people: what is loaded agrees with an independent reader of the format, and a few steps of each run.
+//!
+//! They lie beside the repository and belong to their authors; where they are missing, there is nothing to compare.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use swanilda::scene::{Kind, Object};
+use swanilda::{Options, SceneFile, Simulator};
+
+/// Larger files take too long without optimisation, in Python and here.
+const LARGEST: u64 = 300_000;
+
+fn shared() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared")
+}
+
+fn files() -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(shared().join("scenes/files")).into_iter().flatten();
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("a readable folder").path()).collect();
+    files.retain(|path| path.metadata().is_ok_and(|file| file.len() < LARGEST));
+    files.sort();
+    files
+}
+
+fn loaded(path: &Path) -> Simulator {
+    let bytes = std::fs::read(path).expect("a readable file");
+    let file = SceneFile::read(&bytes).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let mut sim = Simulator::new(Options::default());
+    sim.load(file).expect("there is room");
+    sim
+}
+
+#[test]
+fn scenes_agree_with_an_independent_reader() {
+    let files = files();
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scene_files/independent.py");
+    let reader = Command::new("python3").arg(script).arg(shared().join("tools/ttt")).args(&files).output();
+    let Some(output) = reader.ok().filter(|_| !files.is_empty()) else {
+        return eprintln!("skipped: no python3, or no scenes of other people");
+    };
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let mut compared = 0;
+    for part in text.split("file\t").skip(1) {
+        let (path, lines) = part.split_once('\n').expect("a line");
+        let sim = loaded(Path::new(path));
+        let expected: Vec<&str> = lines.lines().filter(|line| line.starts_with("object\t")).collect();
+        let scene = sim.scene();
+        let objects: Vec<&Object> = scene.objects().collect();
+        assert_eq!(objects.len(), expected.len(), "{path}");
+        for (object, line) in objects.iter().zip(expected) {
+            compare(object, &objects, line, path);
+            compared += 1;
+        }
+    }
+    assert!(compared > 100, "the files hold objects");
+}
+
+fn compare(object: &Object, all: &[&Object], line: &str, path: &str) {
+    let fields: Vec<&str> = line.split('\t').collect();
+    let [_, kind, alias, parent, pose @ .., mass] = &fields[..] else { panic!("{line}") };
+    assert_eq!(object.alias(), *alias, "{path}");
+    assert_eq!(word(&object.kind), *kind, "{path}: {alias}");
+    let place = object.parent().and_then(|parent| all.iter().position(|other| other.handle() == parent));
+    assert_eq!(place.map_or(-1, |place| place as i64), parent.parse::<i64>().expect("a place"), "{path}: {alias}");
+    let pose: Vec<f64> = pose.iter().map(|number| number.parse().expect("a number")).collect();
+    let (p, q) = (object.pose().translation, object.pose().rotation);
+    let same = [p.x, p.y, p.z].iter().zip(&pose).all(|(a, b)| (a - b).abs() < 1e-9);
+    let overlap: f64 = [q.i, q.j, q.k, q.w].iter().zip(&pose[3..]).map(|(a, b)| a * b).sum();
+    assert!(same && (overlap.abs() - 1.0).abs() < 1e-6, "{path}: {alias} is at {:?}, not {pose:?}", object.pose());
+    if let Ok(shape) = object.shape() {
+        let mass: f64 = mass.parse().expect("a mass");
+        let mass = if mass == 0.0 { 0.001 } else { mass };
+        assert!((shape.mass.mass - mass).abs() <= 1e-6 * mass, "{path}: {alias} weighs {} kg", shape.mass.mass);
+    }
+}
+
+/// The type as the independent reader calls it; types that are gone are dummies here.
+fn word(kind: &Kind) -> &'static str {
+    match kind {
+        Kind::Shape(_) => "shape",
+        Kind::Joint(_) => "joint",
+        Kind::Graph(_) => "graph",
+        Kind::Camera(_) => "camera",
+        Kind::Dummy(_) => "dummy",
+        Kind::ProximitySensor(_) => "proximitySensor",
+        Kind::VisionSensor(_) => "visionSensor",
+        Kind::ForceSensor(_) => "forceSensor",
+        Kind::Light(_) => "light",
+        Kind::OcTree(_) => "octree",
+        Kind::PointCloud(_) => "pointCloud",
+        Kind::Script(_) => "script",
+    }
+}
+
+#[test]
+fn scenes_run() {
+    for path in files() {
+        let mut sim = loaded(&path);
+        sim.step(5);
+        sim.stop();
+        assert!(!sim.scene().is_empty(), "{}", path.display());
+    }
+}
