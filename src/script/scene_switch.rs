@@ -6,6 +6,7 @@ use super::callback::SysCall;
 use super::error::{ApiError, ApiResult};
 use super::instance::Script;
 use super::sim::Sim;
+use super::verbosity;
 use crate::format::scene_file::{Loaded, LoadedScript, SceneFile};
 use crate::scene::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Edit, Handle, Kept, Kind, Namespace, Settings};
@@ -75,6 +76,13 @@ impl Sim {
     }
 
     fn load_file(&self, file: SceneFile, is_scene: bool) -> ApiResult<Loaded> {
+        for chunk in &file.file().skipped {
+            let text = format!(
+                "chunk {} of {} bytes at offset {} is unknown and was skipped.",
+                chunk.path, chunk.size, chunk.offset
+            );
+            self.log(verbosity::INFOS, &text);
+        }
         let loaded = file.add_to(&mut self.scene.borrow_mut(), is_scene)?;
         loaded.scripts.iter().for_each(|script| self.take_script(script));
         Ok(loaded)

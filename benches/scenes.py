@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""Scores of other people's scenes against recordings of CoppeliaSim: `benches/scenes.py [BINARY]` after `cargo build --release`.
+
+Records every scene of ../shared/scenes (about two minutes), judges it with the compare.py there, and writes the table in
+docs/COMPATIBILITY.md. One hundred passes of each; `load` is what is there after loading, `behave` what happens then.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+SCENES = ROOT.parent / "shared" / "scenes"
+PAGE = ROOT / "docs" / "COMPATIBILITY.md"
+MARK = "<!-- scores -->\n"
+PASSES, PATIENCE = "100", 60
+CLASSES = {
+    "A": "nothing moves: loading, scripts, messages",
+    "B": "things move without physics",
+    "C": "physics; the engines of the original differ among themselves",
+    "D": "scenes that need what the recording program lacked",
+    "X": "scenes that do not run on the original",
+}
+
+
+def record(binary, slug, folder):
+    name = slug + (".ttm" if slug.endswith(".m") else ".ttt")
+    out = folder / slug
+    out.mkdir()
+    settings = {
+        "YARD_FILE": str(SCENES / "files" / name),
+        "YARD_OUT": str(out),
+        "YARD_N": PASSES,
+        "YARD_TRACK": str(SCENES / "reference" / slug / "track.txt"),
+    }
+    command = [binary, "serve", "--no-remote-api", "--addon", SCENES / "recorder.lua"]
+    with open(out / "console.raw", "wb") as console:
+        try:
+            subprocess.run(command, env=os.environ | settings, stdout=console, stderr=console, timeout=PATIENCE)
+        except subprocess.TimeoutExpired:
+            print(f"{slug}: stopped after {PATIENCE} s")
+
+
+def judge(slug, folder):
+    command = [sys.executable, SCENES / "compare.py", SCENES / "reference" / slug, folder / slug]
+    found = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    return json.JSONDecoder().raw_decode(found)[0]
+
+
+def mean(scores):
+    """In words; some scenes have nothing to judge."""
+    scores = [score for score in scores if score is not None]
+    return f"{sum(scores) / len(scores):.1f}" if scores else "-"
+
+
+def table(rows):
+    lines = ["| class | scenes | load | behave |", "|---|---|---|---|"]
+    for letter, meaning in CLASSES.items():
+        scores = [score for kind, _, score in rows if kind == letter]
+        load, behave = (mean([s[part] for s in scores]) for part in ("load", "behave"))
+        lines.append(f"| {letter}: {meaning} | {len(scores)} | {load} | {behave} |")
+    lines += ["", "| scene | class | load | behave |", "|---|---|---|---|"]
+    for kind, slug, score in sorted(rows):
+        lines.append(f"| {slug.rsplit('-', 1)[0]} | {kind} | {mean([score['load']])} | {mean([score['behave']])} |")
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    binary = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "target" / "release" / "swanilda")
+    listed = [line.split("\t") for line in (SCENES / "dev.tsv").read_text().splitlines()[1:]]
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        for slug, kind, _ in listed:
+            record(binary, slug, Path(folder))
+            rows.append((kind, slug, judge(slug, Path(folder))))
+    result = table(rows)
+    print(result)
+    before, _, after = PAGE.read_text().split(MARK)
+    PAGE.write_text(before + MARK + result + MARK + after)
+
+
+if __name__ == "__main__":
+    main()
