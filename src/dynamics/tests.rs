@@ -382,3 +382,22 @@ fn a_chain_of_twenty_links_carries_a_load_a_hundred_times_as_heavy() {
     bench.run(100);
     near(bench.height(parent), 1.05, 0.01);
 }
+
+#[test]
+fn a_joint_that_is_placed_takes_its_body_along() {
+    let mut bench = Bench::new();
+    bench.gravity(0.0);
+    let (joint, body) = bench.arm(0.01, 0.3, |joint| joint.control = Control::Free);
+    bench.run(1);
+    let turn = nalgebra::UnitQuaternion::from_axis_angle(&nalgebra::Vector3::z_axis(), 0.1);
+    let start = bench.scene.world_pose(body).expect("exists");
+    for _ in 0..3 {
+        let pose = bench.scene.object(joint).expect("exists").pose();
+        bench.scene.set_local_pose(joint, Pose::from_parts(pose.translation, turn * pose.rotation)).expect("a place");
+        bench.run(1);
+    }
+    let end = bench.scene.world_pose(body).expect("exists");
+    near(start.rotation.angle_to(&end.rotation), 0.3, 1e-6);
+    // The engine has this one joint only, not those of the places before.
+    assert_eq!(bench.dynamics.world.as_ref().expect("a world").joints.len(), 1);
+}
