@@ -46,6 +46,29 @@ impl Sim {
         attached
     }
 
+    /// Text of a script and the name Lua shows for it in positions.
+    pub(super) fn code_of(&self, script: &Script) -> (Vec<u8>, String) {
+        let Some(handle) = script.object else {
+            let detached = script.detached.borrow();
+            let name = if detached.owner.is_some() { self.log_name(script) } else { detached.chunk_name.clone() };
+            return (detached.code.clone(), name);
+        };
+        let code =
+            self.scene.borrow().object(handle).and_then(|o| o.script()).map(|s| s.code.clone()).unwrap_or_default();
+        (code, self.log_name(script))
+    }
+
+    /// `lua` or `python`.
+    pub(super) fn language_of(&self, script: &Script) -> String {
+        match script.object {
+            Some(handle) => {
+                let scene = self.scene.borrow();
+                scene.object(handle).and_then(|o| o.script()).map(|s| s.language.clone()).unwrap_or_default()
+            }
+            None => script.detached.borrow().language().to_owned(),
+        }
+    }
+
     /// Attaches to a copy what is attached to its original.
     pub(crate) fn copy_attached(&self, original: Handle, copy: Handle) {
         for script in self.attached_to(original) {

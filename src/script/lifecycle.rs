@@ -69,6 +69,9 @@ impl Sim {
     fn run_chunk(self: &Rc<Self>, script: &Rc<Script>, runtime: &Rc<Runtime>) -> Result<(), LuaError> {
         let stack = runtime.stack();
         startup::fill(self, runtime)?;
+        if self.language_of(script) == "python" {
+            return Err(LuaError { text: "scripts in Python are not implemented in Swanilda.".into() });
+        }
         let (code, name) = self.code_of(script);
         let level = Level::enter(self, &runtime.env);
         if level.too_deep {
@@ -76,18 +79,6 @@ impl Sim {
         }
         stack.load(&code, &name, false)?;
         if old_calls::are_expected_by(&code) { old_calls::begin(stack, self) } else { stack.protected_call(0, 0) }
-    }
-
-    /// Text of a script and the name Lua shows for it in positions.
-    fn code_of(&self, script: &Script) -> (Vec<u8>, String) {
-        let Some(handle) = script.object else {
-            let detached = script.detached.borrow();
-            let name = if detached.owner.is_some() { self.log_name(script) } else { detached.chunk_name.clone() };
-            return (detached.code.clone(), name);
-        };
-        let code =
-            self.scene.borrow().object(handle).and_then(|o| o.script()).map(|s| s.code.clone()).unwrap_or_default();
-        (code, self.log_name(script))
     }
 
     fn initialize(self: &Rc<Self>, script: &Rc<Script>) {

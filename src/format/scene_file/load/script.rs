@@ -1,5 +1,7 @@
 //! Scripts: their text, language and place (section 7.3 of the format).
 
+use std::collections::BTreeMap;
+
 use super::common::{alias, user_params};
 use super::{Context, HandleMap};
 use crate::format::scene_file::migrate::{self, Origin, Thread};
@@ -33,10 +35,16 @@ const FILTERS: &str = "function sysCall_vision(inData)
 end
 ";
 
+/// The filters that take the sensor's image and hand it on: alone they change nothing, and no script is written for them.
+const PASS_ON: [i32; 2] = [1, 4];
+
 /// The script that takes the place of the image filters of a vision sensor.
 pub(super) fn filters(object: &FileObject, handle: Handle) -> Option<LoadedScript> {
     let Class::VisionSensor(sensor) = &object.class else { return None };
-    sensor.filter.as_ref().filter(|chain| !chain.filters.is_empty())?;
+    let filters = &sensor.filter.as_ref()?.filters;
+    if filters.iter().all(|filter| filter.kind.is_none_or(|[kind, ..]| PASS_ON.contains(&kind))) {
+        return None;
+    }
     Some(LoadedScript {
         script_type: ScriptType::Customization,
         owner: Some(handle),
@@ -84,38 +92,42 @@ pub(super) fn attached(chunk: &Chunk, context: &Context<'_>, map: &HandleMap) ->
 /// All scripts of a file that run, in its order.
 pub(super) fn texts(context: &Context<'_>) -> Vec<ScriptCode> {
     let contents = &context.file.contents;
+    let known = contents.objects.iter().filter_map(|object| Some((object.common.handles?[0], object)));
+    let objects: ByHandle<'_> = known.collect();
     let attached = contents.scripts.iter().filter_map(|chunk| {
         let name = match type_of(chunk)? {
             ScriptType::Main if is_usual_main(chunk, context) => return None,
             ScriptType::Main => "mainScript".to_owned(),
-            ScriptType::Customization => path(context, owner(chunk)) + "@customizationScript",
-            _ => path(context, owner(chunk)) + "@simulationScript",
+            ScriptType::Customization => path(&objects, owner(chunk)) + "@customizationScript",
+            _ => path(&objects, owner(chunk)) + "@simulationScript",
         };
         Some((name, chunk))
     });
-    let objects = contents.objects.iter().filter_map(|object| match &object.class {
-        Class::ScriptObject(script) => Some((path(context, object.common.handles?[0]), script.script.as_ref()?)),
+    let in_tree = contents.objects.iter().filter_map(|object| match &object.class {
+        Class::ScriptObject(script) => Some((path(&objects, object.common.handles?[0]), script.script.as_ref()?)),
         _ => None,
     });
     let code = |(name, chunk)| {
         let (code, language) = text(chunk, context);
         ScriptCode { name, code, language }
     };
-    attached.chain(objects).map(code).collect()
+    attached.chain(in_tree).map(code).collect()
 }
 
+/// The objects of a file by their handles.
+type ByHandle<'a> = BTreeMap<i32, &'a FileObject>;
+
+/// Deeper objects than that are named by the lower part of their path: no scene is so deep, unless a mistake of the file leads in a circle.
+const DEEPEST: usize = 100;
+
 /// The path of an object of the file.
-fn path(context: &Context<'_>, handle: i32) -> String {
-    let objects = &context.file.contents.objects;
-    let (mut names, mut next) = (Vec::new(), handle);
-    while let Some(object) = objects.iter().find(|object| object.common.handles.is_some_and(|[own, _]| own == next)) {
-        names.push(alias(&object.common));
-        next = object.common.handles.map_or(-1, |[_, parent]| parent);
-        // Parents that go in a circle are a mistake of the file, and end here.
-        if names.len() > objects.len() {
-            break;
-        }
-    }
+fn path(objects: &ByHandle<'_>, handle: i32) -> String {
+    let parent = |object: &&FileObject| {
+        let [_, parent] = object.common.handles?;
+        objects.get(&parent).copied()
+    };
+    let chain = std::iter::successors(objects.get(&handle).copied(), parent).take(DEEPEST);
+    let names: Vec<String> = chain.map(|object| alias(&object.common)).collect();
     names.iter().rev().fold(String::new(), |path, name| path + "/" + name)
 }
 
