@@ -26,7 +26,9 @@ end
 
 function deque:pushleft(x) push(self, -1, x) end
 function deque:pushright(x) push(self, 1, x) end
-deque.push, deque.append, deque.appendleft = deque.pushright, deque.pushright, deque.pushleft
+function deque:push(x) push(self, 1, x) end
+function deque:append(x) push(self, 1, x) end
+function deque:appendleft(x) push(self, -1, x) end
 
 function deque:popleft()
     local list = rawget(self, SLOT)
@@ -43,7 +45,8 @@ function deque:popright()
     list[list.last], list.last = nil, list.last - 1
     return x
 end
-deque.pop = deque.popright
+
+function deque:pop() return self:popright() end
 
 function deque:__len()
     local list = rawget(self, SLOT)
@@ -91,8 +94,10 @@ function deque.unittest()
     print(debug.getinfo(1, 'S').source, 'tests passed')
 end
 
-return setmetatable(deque, {__call = function(_, values)
+setmetatable(deque, {__call = function(_, values)
     local list = table.move(values or {}, 1, #(values or {}), 1, {first = 1, last = 0})
     list.last = #list
     return setmetatable({[SLOT] = list}, deque)
 end})
+
+return deque

@@ -26,7 +26,8 @@ Failures are results, -1, and errnum() tells why. __raiseErrors(true) makes erro
 __raiseError.name are the two forms of each function. Options are bytes: sim.packInt32Table{0} for most.
 
 send, recv, msg_send, msg_recv and poll wait when they are told to. In a thread the simulation goes on meanwhile; elsewhere it waits
-too, until a message comes; ctrl-c makes an error of that. __send, __recv, __msg_send and __msg_recv obey the options SNDTIMEO and RCVTIMEO.
+too, but not longer than __patience seconds, 60 if the script sets no other number: then send and recv return -1 with EAGAIN, poll 0,
+proxies -1, and a warning is logged. Ctrl-c makes an error of a wait. __send, __recv, __msg_send and __msg_recv obey the options SNDTIMEO and RCVTIMEO.
 ctx_term gives up after two seconds outside of threads, and at once while there are open sockets: -1 with EINTR; call it again.
 
 Events of a monitor wait for a reader, some thousand of them; what comes beyond is lost, and told once.
@@ -38,7 +39,7 @@ msg_set_group and msg_group do nothing.
 local _, native = ...
 local sim = require 'sim'
 
-local simZMQ = {__checkError = {}, __noError = {}, __raiseError = {}}
+local simZMQ = {__checkError = {}, __noError = {}, __raiseError = {}, __patience = 60}
 for name, value in pairs(require 'simZMQ.constants') do simZMQ[name] = value end
 for name, value in pairs(native.errors()) do simZMQ[name] = value end
 
@@ -133,12 +134,28 @@ local function milliseconds(deadline)
     return math.max(0, math.ceil((deadline - sim.getSystemTime()) * 1000))
 end
 
+local hasWarned = false
+
+-- How long to wait for what may take `patience`: a wait that holds the simulation has an end. And whether this is less than was asked.
+local function bounded(patience)
+    local most = math.ceil(math.min(simZMQ.__patience, 1e6) * 1000)
+    if (patience >= 0 and patience <= most) or canYield() then return patience, false end
+    return most, true
+end
+
+local function warn()
+    if hasWarned then return end
+    hasWarned = true
+    sim.addLog(sim.verbosity_scriptwarnings,
+        ('simZMQ gave up waiting after %g s: outside of threads the simulation waits too.'):format(simZMQ.__patience))
+end
+
 -- The native function's error, blamed on who called a function of this module.
 local function blame(message) error((message:gsub('^%-?%d+: ', '')), 3) end
 
 -- Tries again until there is something to tell.
 local function persist(attempt, socket, event, patience, ...)
-    local sockets, events, deadline = {socket}, {event}, clock(patience)
+    local sockets, events, deadline, isCut = {socket}, {event}, nil, false
     while true do
         local ok, result, data = pcall(attempt, ...)
         if not ok then blame(result) end
@@ -146,8 +163,16 @@ local function persist(attempt, socket, event, patience, ...)
             if data == nil then return result end
             return result, data
         end
+        if errnum() ~= EAGAIN then return -1, nil end
+        if not deadline then
+            patience, isCut = bounded(patience)
+            deadline = clock(patience)
+        end
         local left = milliseconds(deadline)
-        if left == 0 or errnum() ~= EAGAIN then return -1, nil end
+        if left == 0 then
+            if isCut then warn() end
+            return -1, nil
+        end
         pause(sockets, events, left)
     end
 end
@@ -239,7 +264,10 @@ local function poll(sockets, events, timeout)
     timeout = timeout or 0
     if #sockets == 0 and timeout < 0 then timeout = 0 end
     if timeout ~= 0 and canYield() then return pollYielding(sockets, events, timeout) end
-    return pollNow(sockets, events, timeout)
+    local limit, isCut = bounded(timeout)
+    local result, revents = pollNow(sockets, events, limit)
+    if result == 0 and isCut then warn() end
+    return result, revents
 end
 
 declare('poll', 'sockets:strings events:ints timeout:int?', function(sockets, events, timeout)

@@ -1,5 +1,9 @@
 --[[
 Old home of a few helpers for interactive use, which are global functions now.
+
+    hexdump(data), printbytes(data)     prints bytes
+    rerequire(name)                     loads a module again
+    apropos(input, pos)                 what a line being typed may go on with
 ]]
 
 local console = require 'console'

@@ -7,7 +7,7 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use support::process::run_bounded;
+use support::process::{LIMIT, run_bounded, wait_within};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/sockets")
@@ -90,6 +90,7 @@ fn an_interrupt_ends_every_wait() {
         let mut out = BufReader::new(child.stdout.take().expect("standard output is piped"));
         out.read_line(&mut String::new()).expect("the script says when it waits");
         run_bounded(Command::new("kill").args(["-INT", &child.id().to_string()])).expect("the signal is sent");
+        assert!(wait_within(&mut child, LIMIT).is_some(), "{wait} goes on");
         let output = child.wait_with_output().expect("the command ends");
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(said.contains("interrupted"), "{wait}: {said}");

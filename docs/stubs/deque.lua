@@ -8,6 +8,24 @@
 ---     d:push(x), d:pushright(x), d:append(x), d:pushleft(x), d:appendleft(x)
 ---     d:pop(), d:popright(), d:popleft()      the element, or nil when there is none
 ---     #d, d[1], d[#d] = x, for i, x in ipairs(d)
-local module = {}
+local deque = {}
 
-return module
+function deque:append(x) end
+
+function deque:appendleft(x) end
+
+function deque:pop() end
+
+function deque:popleft() end
+
+function deque:popright() end
+
+function deque:push(x) end
+
+function deque:pushleft(x) end
+
+function deque:pushright(x) end
+
+function deque.unittest() end
+
+return deque

@@ -29,7 +29,8 @@
 --- __raiseError.name are the two forms of each function. Options are bytes: sim.packInt32Table{0} for most.
 ---
 --- send, recv, msg_send, msg_recv and poll wait when they are told to. In a thread the simulation goes on meanwhile; elsewhere it waits
---- too, until a message comes; ctrl-c makes an error of that. __send, __recv, __msg_send and __msg_recv obey the options SNDTIMEO and RCVTIMEO.
+--- too, but not longer than __patience seconds, 60 if the script sets no other number: then send and recv return -1 with EAGAIN, poll 0,
+--- proxies -1, and a warning is logged. Ctrl-c makes an error of a wait. __send, __recv, __msg_send and __msg_recv obey the options SNDTIMEO and RCVTIMEO.
 --- ctx_term gives up after two seconds outside of threads, and at once while there are open sockets: -1 with EINTR; call it again.
 ---
 --- Events of a monitor wait for a reader, some thousand of them; what comes beyond is lost, and told once.

@@ -76,7 +76,8 @@ local function turn(state)
         sockets[#sockets + 1], events[#events + 1] = socket, POLLIN
     end
     local result, revents = poll(sockets, events, -1)
-    if result < 0 then return false end
+    -- Without a message the wait ends only where nothing can yield.
+    if result <= 0 then return false end
     if state.control and revents[#sockets] ~= 0 and not obey(state) then return false end
     if state.paused or state.ended then return true end
     local front, back = state.frontend, state.backend

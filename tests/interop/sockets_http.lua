@@ -5,24 +5,15 @@ local ssl = require 'ssl'
 local socket = require 'socket'
 local ltn12 = require 'ltn12'
 local lfs = require 'lfs'
+local checks = require 'sockets_checks'
 
+local is, descriptors = checks.is, checks.descriptors
 local function param(name) return sim.getNamedStringParam(name) end
 local HTTP = 'http://127.0.0.1:' .. param('http')
 local HTTPS = 'https://127.0.0.1:' .. param('https')
 local ODD = 'http://127.0.0.1:' .. param('odd')
 local CA = param('cafile')
 
-local function is(found, expected, what)
-    if found ~= expected then error(('%s: %s instead of %s'):format(what, tostring(found), tostring(expected)), 2) end
-end
-
-local function descriptors()
-    collectgarbage()
-    collectgarbage()
-    local count = 0
-    for _ in lfs.dir('/proc/self/fd') do count = count + 1 end
-    return count
-end
 -- The first request of all may make the resolver keep something.
 http.request(HTTP .. '/plain')
 local before = descriptors()

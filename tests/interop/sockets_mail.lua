@@ -4,18 +4,10 @@ local ftp = require 'socket.ftp'
 local ltn12 = require 'ltn12'
 local mime = require 'mime'
 local lfs = require 'lfs'
+local checks = require 'sockets_checks'
 
+local is, descriptors = checks.is, checks.descriptors
 local function param(name) return sim.getNamedStringParam(name) end
-local function is(found, expected, what)
-    if found ~= expected then error(('%s: %s instead of %s'):format(what, tostring(found), tostring(expected)), 2) end
-end
-local function descriptors()
-    collectgarbage()
-    collectgarbage()
-    local count = 0
-    for _ in lfs.dir('/proc/self/fd') do count = count + 1 end
-    return count
-end
 local before = descriptors()
 
 ---------------------------------------------------------------- mail

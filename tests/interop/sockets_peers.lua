@@ -2,22 +2,14 @@
 local socket = require 'socket'
 local unix = require 'socket.unix'
 local lfs = require 'lfs'
+local checks = require 'sockets_checks'
 
+local is, descriptors = checks.is, checks.descriptors
 local function param(name) return sim.getNamedStringParam(name) end
-local function is(found, expected, what)
-    if found ~= expected then error(('%s: %s instead of %s'):format(what, tostring(found), tostring(expected)), 2) end
-end
 local function are(what, expected, ...)
     local found = table.pack(...)
     for i = 1, found.n do found[i] = tostring(found[i]) end
     is(table.concat(found, ' '), expected, what)
-end
-local function descriptors()
-    collectgarbage()
-    collectgarbage()
-    local count = 0
-    for _ in lfs.dir('/proc/self/fd') do count = count + 1 end
-    return count
 end
 local before = descriptors()
 local function connect(name)

@@ -2,11 +2,11 @@
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 /// How long one command may take.
-const LIMIT: Duration = Duration::from_secs(20);
+pub const LIMIT: Duration = Duration::from_secs(20);
 
 /// Runs a command; stdout and stderr merged in the order they were written.
 ///
@@ -25,20 +25,27 @@ pub fn run_within(command: &mut Command, limit: Duration) -> Result<String, Stri
     let (out, err) =
         (output.try_clone().expect("files can be cloned"), output.try_clone().expect("files can be cloned"));
     let mut child = command.stdin(Stdio::null()).stdout(out).stderr(err).spawn().expect("the command starts");
-    let deadline = Instant::now() + limit;
-    let status = loop {
-        match child.try_wait().expect("the child is ours") {
-            Some(status) => break status,
-            None if Instant::now() > deadline => {
-                let _ = child.kill();
-                let _ = child.wait();
-                return Err(format!("did not end within {limit:?}; it said last:\n{}", last_lines(&mut output)));
-            }
-            None => std::thread::sleep(Duration::from_millis(2)),
-        }
+    let Some(status) = wait_within(&mut child, limit) else {
+        return Err(format!("did not end within {limit:?}; it said last:\n{}", last_lines(&mut output)));
     };
     let text = read(&mut output);
     if status.code().is_none() { Err(format!("ended by a signal: {status}\n{text}")) } else { Ok(text) }
+}
+
+/// Waits for the end of a child. One that goes on is killed: None.
+pub fn wait_within(child: &mut Child, limit: Duration) -> Option<ExitStatus> {
+    let deadline = Instant::now() + limit;
+    loop {
+        match child.try_wait().expect("the child is ours") {
+            Some(status) => return Some(status),
+            None if Instant::now() > deadline => {
+                let _ = child.kill();
+                let _ = child.wait();
+                return None;
+            }
+            None => std::thread::sleep(Duration::from_millis(2)),
+        }
+    }
 }
 
 fn read(output: &mut File) -> String {
