@@ -2434,6 +2434,17 @@ function sim.ruckigVel(dofs, baseCycleTime, flags, currentPosVelAccel, maxAccelJ
 ---@return string|table serializedImage
 function sim.saveImage(image, resolution, options, filename, quality) end
 
+--- Writes a model to a file, or returns its bytes. It is saved where it stands in the world.
+---@param modelBaseHandle integer an object that is marked as the base of a model
+---@param filename? string a `.ttm` file; nothing for the bytes
+---@return any result 1, or a buffer with the bytes
+function sim.saveModel(modelBaseHandle, filename) end
+
+--- Writes the scene to a file, which becomes the scene's, or returns its bytes. CoppeliaSim 4.6 and later read them.
+---@param filename? string a `.ttt` file; nothing for the bytes
+---@return any result 1, or a buffer with the bytes
+function sim.saveScene(filename) end
+
 --- Scales an object along its axes; mass and inertia stay.
 ---@param objectHandle integer the object
 ---@param xScale number at least 0.0001

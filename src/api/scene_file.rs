@@ -8,11 +8,11 @@ use std::rc::Rc;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::format::scene_file::SceneFile;
-use crate::scene::{Data, special};
+use crate::format::scene_file::{SceneFile, write_whole};
+use crate::scene::{Data, Handle, SceneError, special};
 use crate::script::SceneSource;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, close_scene, load_model];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, save_scene, close_scene, load_model, save_model];
 
 /// A text as long as this is a file, not its name.
 const LONGEST_NAME: usize = 1000;
@@ -45,7 +45,46 @@ fn load_model(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
         FileOrBytes::Bytes(bytes) => scene_file("the buffer", &bytes)?,
     };
     let root = Rc::clone(cx.sim()).load_model_file(file)?;
-    Ok(root.map_or(special::WORLD, crate::scene::Handle::raw))
+    Ok(root.map_or(special::WORLD, Handle::raw))
+}
+
+/// Writes the scene to a file, which becomes the scene's, or returns its bytes. CoppeliaSim 4.6 and later read them.
+///
+/// @param filename a `.ttt` file; nothing for the bytes
+/// @return result 1, or a buffer with the bytes
+#[api("sim.saveScene")]
+fn save_scene(cx: &mut Cx, #[default(None)] filename: Option<String>) -> Result<Data> {
+    let sim = Rc::clone(cx.sim());
+    let Some(filename) = filename else { return Ok(Data::Buffer(sim.scene_bytes()?)) };
+    check_binary(&filename)?;
+    sim.save_scene(&filename)?;
+    Ok(Data::Int(1))
+}
+
+/// Writes a model to a file, or returns its bytes. It is saved where it stands in the world.
+///
+/// @param modelBaseHandle an object that is marked as the base of a model
+/// @param filename a `.ttm` file; nothing for the bytes
+/// @return result 1, or a buffer with the bytes
+#[api("sim.saveModel")]
+fn save_model(cx: &mut Cx, model_base_handle: Handle, #[default(None)] filename: Option<String>) -> Result<Data> {
+    if !cx.scene().object(model_base_handle)?.is_model() {
+        return Err(SceneError::NotAModel.into());
+    }
+    let bytes = cx.sim().model_bytes(model_base_handle)?;
+    let Some(filename) = filename else { return Ok(Data::Buffer(bytes)) };
+    check_binary(&filename)?;
+    write_whole(Path::new(&filename), &bytes)
+        .map_err(|error| ApiError::Other(format!("'{filename}' could not be written: {error}.")))?;
+    Ok(Data::Int(1))
+}
+
+/// XML is read, not written.
+fn check_binary(filename: &str) -> Result<()> {
+    if filename.ends_with("@simpleXml") || filename.ends_with(".xml") {
+        return Err(ApiError::Other("writing XML is not implemented in Swanilda: save as .ttt or .ttm.".into()));
+    }
+    Ok(())
 }
 
 enum FileOrBytes {

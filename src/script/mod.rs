@@ -35,6 +35,7 @@ mod property;
 mod random;
 mod removal;
 mod returns;
+mod scene_save;
 mod scene_switch;
 mod sim;
 mod startup;

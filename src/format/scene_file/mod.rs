@@ -1,13 +1,20 @@
 //! Scenes and models between files and the scene: what `sim.loadScene`, `sim.loadModel` and their savers do.
 //!
-//! [`SceneFile`] puts what a file holds into a scene. The scripts of a file are handed on: running them is not known here.
+//! [`SceneFile`] puts what a file holds into a scene, [`save`] makes a file of a scene. The scripts of a file are handed on: running them
+//! is not known here.
 
 mod load;
 mod migrate;
+pub mod save;
+mod write;
+
+#[cfg(test)]
+pub(crate) mod tests;
 
 pub use load::SceneFile;
 pub(crate) use migrate::old_names;
 pub use migrate::with_compat;
+pub use write::write_whole;
 
 use crate::scene::Handle;
 use crate::scene::script_object::ScriptType;

@@ -19,7 +19,8 @@ pub use container::{FileKind, Header, is_binary};
 pub use error::{FileError, FileResult};
 pub use read::Skipped;
 pub use value::{
-    Counted, EngineBlock, Indices, Normals, PositionFirst, Rest, ScriptText, Text, decode, unit_quaternion,
+    Counted, EngineBlock, Heights, Indices, Normals, OriginalReference, PositionFirst, Rest, ScriptText, Text, decode,
+    unit_quaternion,
 };
 
 use read::{Reader, Real};

@@ -140,28 +140,33 @@ fn damaged(object: &FileObject, what: String) -> FileError {
 
 /// Gives all their parents and their order; the last object without parent is the model.
 fn place(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) -> SceneResult<Option<Handle>> {
-    let mut order: Vec<usize> = (0..objects.len()).collect();
-    order.sort_by_key(|at| file.contents.objects[*at].common.child_order.unwrap_or(-1));
     let parent_of =
         |at: usize| file.contents.objects[at].common.handles.and_then(|[_, parent]| map.get(&parent).copied());
-    for at in order {
+    for at in sibling_order(file) {
         match parent_of(at) {
             // A file that makes an object its own ancestor is wrong; the object stays at the top.
             Some(parent) if !scene.is_ancestor_or_self(objects[at], parent) => {
                 scene.set_parent(objects[at], Some(parent), false)?;
             }
-            _ => {}
+            _ => scene.set_hierarchy_order(objects[at], -1)?,
         }
     }
-    sort_roots(scene, file, objects)?;
     Ok((0..objects.len()).rev().find(|at| parent_of(*at).is_none()).map(|at| objects[at]))
 }
 
-/// The new objects at the top, behind the ones that were there, in the order of the file.
-fn sort_roots(scene: &mut Scene, file: &File, objects: &[Handle]) -> SceneResult<()> {
-    let orders: BTreeMap<Handle, i32> =
-        objects.iter().zip(&file.contents.objects).map(|(h, o)| (*h, o.common.child_order.unwrap_or(-1))).collect();
-    let mut new: Vec<Handle> = scene.roots().iter().copied().filter(|root| orders.contains_key(root)).collect();
-    new.sort_by_key(|root| orders[root]);
-    new.into_iter().try_for_each(|root| scene.set_hierarchy_order(root, -1))
+/// The objects as siblings come one after another: as in the file, those that share parent and alias by their numbers.
+fn sibling_order(file: &File) -> Vec<usize> {
+    let objects = &file.contents.objects;
+    let mut namesakes: BTreeMap<(i32, String), Vec<usize>> = BTreeMap::new();
+    for (at, object) in objects.iter().enumerate() {
+        let parent = object.common.handles.map_or(-1, |[_, parent]| parent);
+        namesakes.entry((parent, common::alias(&object.common))).or_default().push(at);
+    }
+    let mut order: Vec<usize> = (0..objects.len()).collect();
+    for places in namesakes.into_values().filter(|places| places.len() > 1) {
+        let mut sorted = places.clone();
+        sorted.sort_by_key(|at| objects[*at].common.child_order.unwrap_or(-1));
+        places.iter().zip(sorted).for_each(|(place, at)| order[*place] = at);
+    }
+    order
 }

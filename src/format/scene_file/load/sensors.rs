@@ -154,9 +154,23 @@ pub(super) fn light(chunk: &file::Light) -> Light {
     let switches = chunk.switches.unwrap_or(1);
     (light.enabled, light.casts_shadows) = (switches & 1 != 0, switches & 4 == 0);
     if let Some(chunk) = &chunk.light_colour {
-        light.colour = colour(chunk, light.colour, false);
+        light.colour = emitted(chunk, light.colour);
     }
     light
+}
+
+/// What a light sheds stands in the second group of its colour; in old files it is the mean of the diffuse light.
+fn emitted(chunk: &file::Colour, default: Colour) -> Colour {
+    let mut colour = colour(chunk, default, false);
+    let second = |values: &[f32]| [values[3], values[4], values[5]];
+    if let Some(values) = &chunk.values {
+        colour.ambient_diffuse = second(values);
+    } else if let Some(values) =
+        chunk.old_values.as_ref().map(|v| &v[..]).or(chunk.oldest_values.as_ref().map(|v| &v[..]))
+    {
+        colour.ambient_diffuse = [second(values).iter().sum::<f32>() / 3.0; 3];
+    }
+    colour
 }
 
 pub(super) fn graph(chunk: &file::Graph) -> Graph {

@@ -1,0 +1,141 @@
+//! What all objects have.
+
+use super::{Context, custom_data};
+use crate::format::ttt::chunks::{Common, UserParams};
+use crate::format::ttt::{Counted, OriginalReference, Text};
+use crate::scene::{Data, Handle, Movement, Object, SceneResult};
+
+/// Current programs mark every property with it.
+const WRITTEN_SINCE_2_5: i32 = 0x4;
+/// Kinds of references.
+const SCENE_OBJECT: i32 = 109;
+const COLLECTION: i32 = 115;
+
+pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Common> {
+    let order = namesake_order(context, object)?;
+    let movement = &object.movement;
+    let model = u8::from(object.is_model());
+    let mut common = Common {
+        signature: Some([57, 58, 59]),
+        pose: Some(object.pose().into()),
+        handles: Some([object.handle().0 as i32, context.file_handle(object.parent())]),
+        alias: Some(object.alias().into()),
+        name: Some(object.old_name().into()),
+        alt_name: Some(alternative_name(object.old_name()).as_str().into()),
+        hierarchy_colour: Some(object.hierarchy_colour as i32),
+        self_collision_indicator: Some(object.self_collision_indicator as i32),
+        object_property: Some(object.object_property as i32 | WRITTEN_SINCE_2_5),
+        switches_2: Some(model | old_switches(movement.options)),
+        switches: Some(model | switches(movement.options)),
+        locks: Some((movement.options >> 4 & 3) as u8),
+        special_property: Some(object.special_property as i32),
+        model_property: Some(object.model_property as i32),
+        layer: Some(object.layer as u16),
+        script_exec_priority: Some(object.priority as i32),
+        child_order: Some(order),
+        translation: Some((movement.preferred_axes as i32, movement.relativity[0] as i32, movement.step[0])),
+        rotation: Some((movement.relativity[1] as i32, movement.step[1])),
+        size_factor: Some(object.size_factor),
+        custom_data: custom_data::chunk(&object.custom_data),
+        user_params: user_params(object),
+        acknowledgment: Some(acknowledgment(object)),
+        dna: Some(Text(object.dna.clone())),
+        persistent_id: Some(object.persistent_uid.as_str().into()),
+        ..Common::default()
+    };
+    references(context, object, &mut common);
+    originals(context, object, &mut common);
+    Ok(common)
+}
+
+/// The place among the siblings of the same alias; -1 for an alias of one's own.
+fn namesake_order(context: &Context<'_>, object: &Object) -> SceneResult<i32> {
+    let siblings = context.scene.siblings(object.handle())?.iter();
+    let namesakes = siblings.filter(|other| context.scene.object(**other).is_ok_and(|o| o.alias() == object.alias()));
+    Ok(if namesakes.count() < 2 { -1 } else { context.scene.child_order(object.handle())? as i32 })
+}
+
+/// The name of before 4.3 without its copy number sign and the like, which were no letters there.
+fn alternative_name(name: &str) -> String {
+    let signs = [('#', "_HASHMARK_"), ('-', "_MINUSMARK_"), ('(', "_OPARENTHESISMARK_"), (')', "_CPARENTHESISMARK_")];
+    let word = |c: char| match signs.iter().find(|(sign, _)| *sign == c) {
+        Some((_, word)) => (*word).to_owned(),
+        None if c.is_ascii_alphanumeric() => c.to_string(),
+        None => "_".to_owned(),
+    };
+    name.chars().map(word).collect()
+}
+
+/// Bits of what a hand may not do, moving and turning apart.
+fn switches(options: i64) -> u8 {
+    bits(
+        options,
+        &[
+            (Movement::TRANSLATION_RUNNING, 0x2),
+            (Movement::TRANSLATION_STOPPED, 0x4),
+            (Movement::ROTATION_RUNNING, 0x10),
+            (Movement::ROTATION_STOPPED, 0x20),
+        ],
+    )
+}
+
+fn old_switches(options: i64) -> u8 {
+    bits(options, &[(Movement::TRANSLATION_RUNNING, 0x2), (Movement::TRANSLATION_STOPPED, 0x4)])
+}
+
+fn bits(options: i64, table: &[(i64, u8)]) -> u8 {
+    table.iter().filter(|(option, _)| options & option != 0).fold(0, |bits, (_, bit)| bits | bit)
+}
+
+fn user_params(object: &Object) -> Option<UserParams> {
+    let params =
+        object.user_params.iter().map(|(name, value)| (name.as_str().into(), "".into(), value.as_str().into(), 0));
+    let params: Vec<_> = params.collect();
+    (!params.is_empty()).then_some(UserParams { params: Some(Counted(params)) })
+}
+
+fn acknowledgment(object: &Object) -> Text {
+    match object.kept.get("modelAcknowledgment") {
+        Some(Data::Text(text)) => Text(text.clone()),
+        _ => Text::default(),
+    }
+}
+
+fn references(context: &Context<'_>, object: &Object, common: &mut Common) {
+    for (tag, list) in &object.references {
+        let handles = list.iter().map(|raw| reference(context, *raw));
+        if tag.is_empty() {
+            let kind = |handle: i32| if handle >= 2_000_000 { COLLECTION } else { SCENE_OBJECT };
+            common.references = Some(Counted(handles.map(|handle| [kind(handle), handle, 0]).collect()));
+        } else {
+            common.tagged_references.push((tag.as_str().into(), Counted(handles.collect())));
+        }
+    }
+}
+
+/// A saved object, or a collection.
+fn reference(context: &Context<'_>, raw: i64) -> i32 {
+    match context.scene.collection(raw) {
+        Ok(_) => raw as i32,
+        Err(_) => context.file_handle(Handle::from_raw(raw)),
+    }
+}
+
+/// Originals are known by their identity, wherever they are.
+fn originals(context: &Context<'_>, object: &Object, common: &mut Common) {
+    let known = |raw: i64| Some(context.scene.object(Handle::from_raw(raw)?).ok()?.persistent_uid.as_str());
+    let pair = |raw: &i64| known(*raw).map_or((-1, Text::default()), |id| (*raw as i32, id.into()));
+    for (tag, list) in &object.original_references {
+        let pairs = list.iter().map(pair);
+        if tag.is_empty() {
+            let of = |(handle, id): (i32, Text)| OriginalReference {
+                kind: SCENE_OBJECT,
+                handle,
+                persistent_id: (handle >= 0).then_some(id),
+            };
+            common.original_references = Some(Counted(pairs.map(of).collect()));
+        } else {
+            common.tagged_original_references.push((tag.as_str().into(), Counted(pairs.collect())));
+        }
+    }
+}

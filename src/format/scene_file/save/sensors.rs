@@ -1,0 +1,160 @@
+//! Sensors, cameras, lights, graphs, voxels.
+
+use super::{Context, colour};
+use crate::format::ttt::Counted;
+use crate::format::ttt::chunks as file;
+use crate::scene::Handle;
+use crate::scene::sensor_volume::{RAY, Volume};
+use crate::scene::sensors::{Camera, Graph, Light, OcTree, PointCloud, ProximitySensor, VisionSensor};
+
+/// The first type of proximity sensors; their volumes count from 0.
+const FIRST_SENSOR_TYPE: i32 = 30;
+/// What kinds of detectable objects there once were.
+const ULTRASONIC: i32 = 16;
+/// The bits that later renderers read: all of what a picture can show.
+const RENDER_EVERYTHING: i32 = 3969;
+/// Every way of moving a camera by hand.
+const ALL_MANIPULATIONS: i32 = 31;
+
+type Colour = Option<file::Colour>;
+
+/// A number of bits, each from its switch.
+fn bits(switches: &[(bool, u8)]) -> u8 {
+    switches.iter().filter(|(on, _)| *on).fold(0, |bits, (_, bit)| bits | 1 << bit)
+}
+
+/// An object, a collection, or everything.
+fn entity(context: &Context<'_>, raw: i64) -> i32 {
+    match context.scene.collection(raw) {
+        Ok(_) => raw as i32,
+        Err(_) => context.file_handle(Handle::from_raw(raw)),
+    }
+}
+
+pub(super) fn proximity_sensor(
+    context: &Context<'_>,
+    sensor: &ProximitySensor,
+    colour: Colour,
+) -> file::ProximitySensor {
+    // Sensors are numbered otherwise than their volumes: a ray is 34 and 4.
+    let shape = sensor.volume_type as i32 - FIRST_SENSOR_TYPE;
+    let switches = [
+        (sensor.show_volume, 0),
+        (sensor.exact, 1),
+        (!sensor.front_faces, 4),
+        (!sensor.back_faces, 5),
+        (sensor.explicit, 7),
+    ];
+    file::ProximitySensor {
+        sensor_type: Some(sensor.volume_type as i32),
+        volume: Some(volume(&sensor.volume, shape, sensor.volume_type == RAY)),
+        size: Some(sensor.size),
+        angle_threshold: Some(sensor.angle_threshold),
+        switches: Some(bits(&switches)),
+        switches_2: Some(bits(&[(sensor.randomized, 1)])),
+        randomized: Some([sensor.samples as i32, sensor.required_samples as i32]),
+        colour,
+        colour3: Some(colour::colour(&sensor.ray_colour)),
+        detectable: Some(entity(context, sensor.entity)),
+        sensable_type: Some(ULTRASONIC),
+        ..file::ProximitySensor::default()
+    }
+}
+
+fn volume(volume: &Volume, shape: i32, is_ray: bool) -> file::Volume {
+    let [x, x_far] = volume.x_size;
+    let [y, y_far] = volume.y_size;
+    let [radius, radius_far] = volume.radius;
+    let [faces, faces_far] = volume.faces.map(|n| n as i32);
+    let [subdivisions, subdivisions_far] = volume.subdivisions.map(|n| n as i32);
+    let ray = vec![0.0, 0.0, volume.offset, 0.0, 0.0, volume.offset + volume.range];
+    file::Volume {
+        volume_type: Some(shape),
+        sizes: Some([volume.offset, volume.range, x, y, x_far, y_far, radius, radius_far, volume.angle]),
+        inside_angle: Some(volume.inside_gap),
+        faces: Some([faces, faces_far, subdivisions, subdivisions_far]),
+        smallest_distance: Some(volume.close_threshold),
+        switches: Some(0),
+        edges: is_ray.then_some(Counted(ray)),
+        ..file::Volume::default()
+    }
+}
+
+pub(super) fn vision_sensor(context: &Context<'_>, sensor: &VisionSensor, colour: Colour) -> file::VisionSensor {
+    let view = &sensor.view;
+    let third =
+        [(view.perspective, 0), (sensor.explicit, 1), (view.show_frustum, 4), (sensor.background_from_environment, 7)];
+    let second =
+        [(sensor.external_image, 0), (sensor.ignore_image, 1), (sensor.ignore_depth, 2), (sensor.omit_statistics, 4)];
+    file::VisionSensor {
+        optics: Some([view.ortho_size, view.angle, view.clipping[0], view.clipping[1]]),
+        resolution: Some(view.resolution.map(|pixels| pixels as i32)),
+        renderable: Some(entity(context, sensor.entity)),
+        default_buffer: Some(sensor.background),
+        size: Some(sensor.size),
+        render_mode: Some(sensor.render_mode as i32),
+        render_attributes: Some(RENDER_EVERYTHING),
+        switches_3: Some(bits(&third)),
+        switches_2: Some(bits(&second)),
+        colour,
+        ..file::VisionSensor::default()
+    }
+}
+
+pub(super) fn camera(context: &Context<'_>, camera: &Camera, colour: Colour) -> file::Camera {
+    let view = &camera.view;
+    file::Camera {
+        tracked_and_size: Some((context.file_handle(camera.tracked), camera.size)),
+        optics: Some([view.ortho_size, view.angle]),
+        clipping: Some(view.clipping),
+        manip: Some(ALL_MANIPULATIONS),
+        old_render_mode: Some(0),
+        render_mode: Some(0),
+        cpm: Some(view.perspective.into()),
+        switches: Some(bits(&[(view.show_frustum, 7)])),
+        switches_2: Some(bits(&[(true, 0), (view.perspective, 1)])),
+        colour,
+        ..file::Camera::default()
+    }
+}
+
+pub(super) fn light(light: &Light, colour: Colour) -> file::Light {
+    file::Light {
+        kind_and_size: Some(([light.light_type as i32, light.spot_exponent as i32], light.size)),
+        spot_cutoff: Some(light.spot_cutoff),
+        attenuation: Some(light.attenuation),
+        switches: Some(bits(&[(light.enabled, 0), (!light.casts_shadows, 2)])),
+        colour,
+        light_colour: Some(colour::emitted(&light.colour)),
+        ..file::Light::default()
+    }
+}
+
+pub(super) fn graph(graph: &Graph, colour: Colour) -> file::Graph {
+    let [r, g, b] = graph.background;
+    let [x, y, z] = graph.foreground;
+    file::Graph {
+        size: Some(graph.size),
+        colour,
+        bgfg: Some([r, g, b, x, y, z]),
+        buffer: Some([graph.buffer_size as i32, 0]),
+        gps: Some(bits(&[(graph.cyclic, 0), (true, 1), (true, 2), (true, 3), (graph.explicit, 4)])),
+        ..file::Graph::default()
+    }
+}
+
+pub(super) fn octree(tree: &OcTree, colour: Colour) -> file::OcTree {
+    let flags = Some(bits(&[(true, 4)]));
+    file::OcTree { sizes: Some((tree.voxel_size, tree.point_size as i32)), flags, colour, ..file::OcTree::default() }
+}
+
+pub(super) fn point_cloud(cloud: &PointCloud, colour: Colour) -> file::PointCloud {
+    file::PointCloud {
+        sizes: Some((cloud.max_cell_size, cloud.point_size as i32)),
+        display_ratio: Some(cloud.display_fraction),
+        cells: Some((cloud.max_points_in_cell as i32, cloud.max_cell_size)),
+        flags: Some(bits(&[(true, 3), (!cloud.uses_octree, 4)])),
+        colour,
+        ..file::PointCloud::default()
+    }
+}

@@ -1,0 +1,150 @@
+//! What belongs to the scene as a whole: simulation, physics, surroundings, the page of the window, collections.
+
+use std::collections::BTreeSet;
+
+use super::{Context, custom_data, shape};
+use crate::format::ttt::Counted;
+use crate::format::ttt::chunks::{Collection, CollectionElement, Dynamics, Environment, Page, Simulation, View, Views};
+use crate::format::ttt::tree::Contents;
+use crate::scene::{CollectionItem, Data, Kind, Object, Scene, Settings, special};
+
+/// The preset of the physics, and of the step, that means settings of one's own.
+const CUSTOM: i32 = 5;
+const MICROSECONDS: f64 = 1e6;
+/// Pages of the window that show nothing.
+const FURTHER_PAGES: usize = 7;
+
+pub(super) fn fill(contents: &mut Contents, scene: &Scene) {
+    let settings = scene.settings();
+    contents.simulation = Some(simulation(settings));
+    contents.dynamics = Some(dynamics(settings));
+    contents.environment = Some(environment(scene));
+    contents.custom_data = custom_data::chunk(&scene.custom_data);
+    contents.views = views(scene);
+}
+
+fn simulation(settings: &Settings) -> Simulation {
+    let switches = [
+        (settings.real_time, 0x1),
+        (settings.pause_at_time, 0x4),
+        (settings.pause_at_error, 0x8),
+        (!settings.remove_new_objects_at_end, 0x80),
+    ];
+    Simulation {
+        old_dt: Some(settings.time_step as f32),
+        dt_us: Some((settings.time_step * MICROSECONDS).round() as u64),
+        dt: Some(settings.time_step),
+        passes_per_frame: Some(settings.steps_per_rendering as i32),
+        old_preset: Some(CUSTOM),
+        switches: Some(switches.iter().filter(|(on, _)| *on).fold(0, |bits, (_, bit)| bits | bit)),
+        old_rt_coef: Some(settings.real_time_factor as f32),
+        rt_coef: Some(settings.real_time_factor),
+        old_pause: Some(settings.time_to_pause as f32),
+        pause_us: Some((settings.time_to_pause * MICROSECONDS).round() as u64),
+        pause_time: Some(settings.time_to_pause),
+        ..Simulation::default()
+    }
+}
+
+fn dynamics(settings: &Settings) -> Dynamics {
+    let dynamics = &settings.dynamics;
+    let mut blocks = shape::blocks(dynamics);
+    for block in blocks.iter_mut().flatten() {
+        if let Some(step) = block.reals.first_mut() {
+            *step = dynamics.step;
+        }
+    }
+    let [bullet, ode, vortex, newton, mujoco] = blocks;
+    let [engine, version] = dynamics.engine.map(|number| number as i32);
+    Dynamics {
+        engine: Some((engine, dynamics.gravity.map(f64::from), CUSTOM)),
+        engine_version: Some(version),
+        step_size: Some(dynamics.step),
+        switches: Some(u8::from(dynamics.enabled) | u8::from(dynamics.show_contact_points) << 1),
+        bullet,
+        ode,
+        vortex,
+        newton,
+        mujoco,
+        ..Dynamics::default()
+    }
+}
+
+fn environment(scene: &Scene) -> Environment {
+    let ambient = scene.kept.get("ambientLight").and_then(three);
+    Environment {
+        active_layers: Some(scene.settings().visibility_layers as u16),
+        old_ambient: ambient.map(|light| light.map(|c| c / 2.0)),
+        ambient,
+        acknowledgment: Some(scene.settings().acknowledgment.as_str().into()),
+        max_tri_size: Some(0.3),
+        min_rel_tri: Some(0.02),
+        ..Environment::default()
+    }
+}
+
+fn three(value: &Data) -> Option<[f32; 3]> {
+    let Data::Array(items) = value else { return None };
+    let numbers: Vec<f32> = items.iter().filter_map(|item| Some(item.as_f64()? as f32)).collect();
+    numbers.try_into().ok()
+}
+
+/// A page with the first camera, so that there is something to see.
+fn views(scene: &Scene) -> Option<Views> {
+    let camera = scene.objects().find(|object| matches!(object.kind, Kind::Camera(_)))?;
+    let view = View {
+        linked_object: Some(camera.handle().0 as i32),
+        place: Some([-0.5, -0.5, 1.0, 1.0]),
+        render_mode: Some(0),
+        va2: Some(0x15),
+        va3: Some(1),
+    };
+    let sizes = Some(Counted(vec![0.25, 0.25, 0.05, 0.05]));
+    let page = Page { page_type: Some(0), views: vec![view], sizes_pos: sizes, ..Page::default() };
+    Some(Views { pages: vec![page], empty_pages: vec![0; FURTHER_PAGES], active_page: Some(0) })
+}
+
+/// The collections that saved objects refer to; others live only as long as the scripts that made them.
+pub(super) fn collections(context: &Context<'_>) -> Vec<Collection> {
+    let mut used = BTreeSet::new();
+    for object in context.saved.iter().filter_map(|handle| context.scene.object(*handle).ok()) {
+        used.extend(entity(object));
+        used.extend(object.references.iter().flat_map(|(_, list)| list.iter().copied()));
+    }
+    used.into_iter().filter_map(|handle| collection(context, handle)).collect()
+}
+
+fn entity(object: &Object) -> Option<i64> {
+    match &object.kind {
+        Kind::ProximitySensor(sensor) => Some(sensor.entity),
+        Kind::VisionSensor(sensor) => Some(sensor.entity),
+        _ => None,
+    }
+}
+
+fn collection(context: &Context<'_>, handle: i64) -> Option<Collection> {
+    let collection = context.scene.collection(handle).ok()?;
+    Some(Collection {
+        name: Some(format!("collection{handle}").as_str().into()),
+        handle: Some(handle as i32),
+        flags: Some(collection.overrides.into()),
+        elements: collection.items.iter().enumerate().map(|(at, item)| element(context, item, at)).collect(),
+        ..Collection::default()
+    })
+}
+
+fn element(context: &Context<'_>, item: &CollectionItem, at: usize) -> CollectionElement {
+    let kind = match (item.what, item.exclude_base) {
+        (special::SINGLE, _) => 0,
+        (special::TREE, false) => 1,
+        (special::TREE, true) => 2,
+        (special::CHAIN, false) => 3,
+        (special::CHAIN, true) => 4,
+        _ => 5,
+    };
+    CollectionElement {
+        handles: Some([context.file_handle(item.base), at as i32]),
+        kind: Some(kind),
+        flags: Some((!item.subtract).into()),
+    }
+}

@@ -1,0 +1,154 @@
+//! Real scenes and models, loaded, saved and loaded again, are the same.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::rc::Rc;
+
+use super::{Loaded, SceneFile, save};
+use crate::format::ttt::File;
+use crate::scene::engine_blocks::EngineValues;
+use crate::scene::{DynamicsSettings, Handle, Kept, Kind, Object, Scene, Settings};
+
+/// Scenes and models of other people, where they are at hand.
+pub(crate) fn real_files() -> Vec<PathBuf> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/scenes/files");
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("a readable folder").path()).collect();
+    files.sort();
+    files
+}
+
+pub(crate) fn load(bytes: &[u8]) -> (Scene, Loaded) {
+    let mut scene = Scene::new();
+    let loaded = SceneFile::read(bytes).unwrap().add_to(&mut scene, true).unwrap();
+    (scene, loaded)
+}
+
+fn saved(scene: &Scene, loaded: &Loaded) -> Vec<u8> {
+    save::scene(scene, &loaded.scripts).unwrap().write()
+}
+
+/// Where an object is: the places among its siblings from the root down.
+fn place(scene: &Scene, handle: Handle) -> String {
+    let order = |h: Handle| scene.siblings(h).unwrap().iter().position(|s| *s == h).unwrap();
+    let above: Vec<usize> = scene.ancestors(handle).map(order).collect();
+    above.iter().rev().chain([&order(handle)]).map(|at| format!("/{at}")).collect()
+}
+
+/// All that is known of an object, handles and identifiers of the session apart; meshes by their numbers and extents.
+fn description(scene: &Scene, object: &Object) -> String {
+    let mut slim = object.clone();
+    let mut text = String::new();
+    let engines = |values: &dyn Fn(usize) -> (Vec<f64>, Vec<i32>)| format!("{:?}", [0, 1, 2, 3, 4].map(values));
+    match &mut slim.kind {
+        Kind::Shape(shape) => {
+            for part in &mut shape.parts {
+                text += &format!("{} {} {:?} ", part.mesh.vertices.len(), part.mesh.triangles.len(), part.mesh.aabb());
+                part.mesh = Rc::default();
+            }
+            text += &engines(&|engine| shape.material.engine_rows(engine));
+            shape.material.engine_values = Kept::default();
+        }
+        Kind::Joint(joint) => {
+            text += &engines(&|engine| joint.engine_rows(engine));
+            joint.engine_values = Kept::default();
+        }
+        Kind::Dummy(dummy) => {
+            text += &engines(&|engine| dummy.engine_rows(engine));
+            dummy.engine_values = Kept::default();
+        }
+        _ => {}
+    }
+    let all = format!("{slim:?}");
+    let mut rest = all.as_str();
+    while let Some((before, after)) = rest.split_once("Handle(") {
+        let (number, after) = after.split_once(')').unwrap();
+        text.push_str(before);
+        text.push_str(&place(scene, Handle(number.parse().unwrap())));
+        rest = after;
+    }
+    text + rest
+}
+
+fn descriptions(scene: &Scene) -> BTreeMap<String, String> {
+    scene.objects().map(|object| (place(scene, object.handle()), description(scene, object))).collect()
+}
+
+/// Words and numbers; what identifies an object in a session only is left out.
+fn words(text: &str) -> Vec<&str> {
+    let all =
+        text.split(|c: char| !(c.is_alphanumeric() || matches!(c, '.' | '-' | '_' | '/'))).filter(|w| !w.is_empty());
+    let mut words: Vec<&str> = Vec::new();
+    for word in all {
+        match words.last() {
+            Some(&"uid") => drop(words.pop()),
+            _ => words.push(word),
+        }
+    }
+    words
+}
+
+fn same(a: &str, b: &str) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() <= 2e-6 * (1.0 + a.abs());
+    a == b || a.parse().is_ok_and(|a| b.parse().is_ok_and(|b| near(a, b)))
+}
+
+#[track_caller]
+fn assert_same(a: &Scene, b: &Scene, what: &str) {
+    let (first, second) = (descriptions(a), descriptions(b));
+    assert!(first.keys().eq(second.keys()), "{what}: other objects");
+    for (place, text) in &first {
+        let (x, y) = (words(text), words(&second[place]));
+        let differ =
+            x.iter().zip(&y).position(|(x, y)| !same(x, y)).or((x.len() != y.len()).then_some(x.len().min(y.len())));
+        if let Some(at) = differ {
+            let around = |w: &[&str]| w[at.saturating_sub(12)..(at + 6).min(w.len())].join(" ");
+            panic!("{what} {place}:\n{}\n{}\n{}", &text[..text.len().min(160)], around(&x), around(&y));
+        }
+    }
+    let rows = |scene: &Scene| [0, 1, 2, 3, 4].map(|engine| scene.settings().dynamics.engine_rows(engine));
+    assert_eq!(rows(a), rows(b), "{what}");
+    let plain = |scene: &Scene| {
+        let settings = scene.settings().clone();
+        let dynamics = DynamicsSettings { engine_values: Kept::default(), ..settings.dynamics };
+        Settings { dynamics, ..settings }
+    };
+    assert_eq!(plain(a), plain(b), "{what}");
+    assert_eq!(a.custom_data, b.custom_data, "{what}");
+    assert_eq!(a.kept, b.kept, "{what}");
+}
+
+#[test]
+fn real_scenes_come_back_from_the_saver() {
+    for path in real_files() {
+        let what = path.file_name().unwrap().to_string_lossy().into_owned();
+        let (first, loaded) = load(&std::fs::read(&path).unwrap());
+        let bytes = saved(&first, &loaded);
+        let (second, again) = load(&bytes);
+        assert_same(&first, &second, &what);
+        let texts = |l: &Loaded| {
+            l.scripts
+                .iter()
+                .map(|s| (s.script_type, s.code.clone(), s.language.clone(), s.disabled, s.exec_order))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(texts(&loaded), texts(&again), "{what}");
+        assert_eq!(File::read(&bytes).unwrap().skipped, [], "{what}");
+    }
+}
+
+#[test]
+fn a_model_comes_back_where_it_stood() {
+    for path in real_files().into_iter().filter(|path| path.extension().is_some_and(|e| e == "ttm")) {
+        let (first, loaded) = load(&std::fs::read(&path).unwrap());
+        let Some(base) = loaded.root else { continue };
+        let bytes = save::model(&first, base, &loaded.scripts).unwrap().write();
+        let file = SceneFile::read(&bytes).unwrap();
+        assert!(file.is_model());
+        let mut scene = Scene::new();
+        let root = file.add_to(&mut scene, false).unwrap().root.unwrap();
+        assert_eq!(scene.len(), first.subtree(base).len());
+        let (there, here) = (first.world_pose(base).unwrap(), scene.world_pose(root).unwrap());
+        assert!((there.translation.vector - here.translation.vector).norm() < 1e-12);
+    }
+}
