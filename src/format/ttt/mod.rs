@@ -7,6 +7,7 @@ pub mod chunks;
 pub mod container;
 mod error;
 mod huffman;
+pub mod node;
 mod read;
 mod stream;
 pub mod tree;
@@ -23,6 +24,7 @@ pub use value::{
     unit_quaternion,
 };
 
+pub use node::{Node, NodeResult};
 use read::{Reader, Real};
 use stream::Stream;
 use tree::Contents;
@@ -55,6 +57,35 @@ impl File {
         let mut body = Writer::default();
         self.contents.write_stream(&mut body);
         container::pack(&self.header, &body.bytes)
+    }
+}
+
+impl File {
+    /// The file as a tree of names and values.
+    pub fn to_node(&self) -> Node {
+        let header = &self.header;
+        let header = Node::table([
+            ("serialization", Node::Int(header.serialization.into())),
+            ("version", Node::Int(header.version.into())),
+            ("revision", Node::Int(header.revision.into())),
+            ("kind", Node::Int(header.kind.into())),
+        ]);
+        Node::table([("header", header), ("contents", self.contents.to_node())])
+    }
+
+    /// # Errors
+    /// When the tree is not that of a file; in words, with the names that lead there.
+    pub fn from_node(node: &Node) -> NodeResult<Self> {
+        let header = node.need("header")?;
+        let range = |_| "header: a number is out of range".to_owned();
+        let number = |name| header.need(name)?.int();
+        let header = Header {
+            serialization: number("serialization")?.try_into().map_err(range)?,
+            version: number("version")?.try_into().map_err(range)?,
+            revision: number("revision")?.try_into().map_err(range)?,
+            kind: number("kind")?.try_into().map_err(range)?,
+        };
+        Ok(Self { header, contents: Value::from_node(node.need("contents")?)?, skipped: Vec::new() })
     }
 }
 
@@ -94,6 +125,8 @@ mod tests {
             // Bytes, since numbers that are none differ from themselves.
             assert!(read(&written).write() == written, "{}", path.display());
             assert_eq!(read(&written).contents.objects.len(), file.contents.objects.len());
+            let tree = Node::parse(&file.to_node().print()).and_then(|node| File::from_node(&node));
+            assert!(tree.unwrap_or_else(|what| panic!("{}: {what}", path.display())).write() == written);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Streams of chunks as types: a table of tags becomes a struct, its reader and its writer.
 
 use super::error::FileResult;
+use super::node::{Node, NodeResult, at};
 use super::read::{Reader, Real, Tag};
 use super::value::Value;
 use super::write::Writer;
@@ -13,6 +14,13 @@ pub trait Stream: Default {
     fn take(&mut self, chunk: &mut Reader<'_>) -> FileResult<bool>;
 
     fn write_chunks(&self, out: &mut Writer);
+
+    /// The fields that are there, by their names.
+    fn entries(&self) -> Vec<(String, Node)>;
+
+    /// # Errors
+    /// When a name is unknown, or its value is not what it should be.
+    fn of_entries(entries: &[(String, Node)]) -> NodeResult<Self>;
 
     /// Reads to the end of the stream. What comes twice counts the second time; what is unknown is skipped and noted.
     fn read_stream(input: &mut Reader<'_>) -> FileResult<Self> {
@@ -37,6 +45,9 @@ pub trait Stream: Default {
 pub trait Slot {
     fn fill(&mut self, chunk: &mut Reader<'_>, real: Real) -> FileResult<()>;
     fn write(&self, tag: Tag, out: &mut Writer);
+    /// Nothing where it is missing.
+    fn to_node(&self) -> Option<Node>;
+    fn fill_from_node(&mut self, node: &Node) -> NodeResult<()>;
 }
 
 impl<T: Value> Slot for Option<T> {
@@ -50,6 +61,15 @@ impl<T: Value> Slot for Option<T> {
             out.chunk(value.tag(tag), |out| value.write(out));
         }
     }
+
+    fn to_node(&self) -> Option<Node> {
+        self.as_ref().map(Value::to_node)
+    }
+
+    fn fill_from_node(&mut self, node: &Node) -> NodeResult<()> {
+        *self = Some(T::from_node(node)?);
+        Ok(())
+    }
 }
 
 impl<T: Value> Slot for Vec<T> {
@@ -61,6 +81,22 @@ impl<T: Value> Slot for Vec<T> {
     fn write(&self, tag: Tag, out: &mut Writer) {
         self.iter().for_each(|value| out.chunk(value.tag(tag), |out| value.write(out)));
     }
+
+    fn to_node(&self) -> Option<Node> {
+        (!self.is_empty()).then(|| Node::List(self.iter().map(Value::to_node).collect()))
+    }
+
+    fn fill_from_node(&mut self, node: &Node) -> NodeResult<()> {
+        let items = node.list()?.iter().enumerate();
+        *self = items.map(|(i, item)| at(&i.to_string(), T::from_node(item))).collect::<NodeResult<_>>()?;
+        Ok(())
+    }
+}
+
+/// # Errors
+/// When the node is no table.
+pub fn entries_of(node: &Node) -> NodeResult<&[(String, Node)]> {
+    if let Node::Table(entries) = node { Ok(entries) } else { Err("a table is needed".into()) }
 }
 
 /// Declares streams: each field stands with its tag and, after `/`, the tag of its predecessor with single precision. Tags after `|`
@@ -93,6 +129,26 @@ macro_rules! streams {
                 use $crate::format::ttt::stream::Slot;
                 $(self.$field.write(*$tag, out);)*
             }
+
+            fn entries(&self) -> Vec<(String, $crate::format::ttt::node::Node)> {
+                use $crate::format::ttt::stream::Slot;
+                let all = [$((stringify!($field), self.$field.to_node())),*];
+                all.into_iter().filter_map(|(name, node)| Some((name.to_owned(), node?))).collect()
+            }
+
+            fn of_entries(
+                entries: &[(String, $crate::format::ttt::node::Node)],
+            ) -> $crate::format::ttt::node::NodeResult<Self> {
+                use $crate::format::ttt::{node::at, stream::Slot};
+                let mut stream = Self::default();
+                for (name, node) in entries {
+                    match name.as_str() {
+                        $(stringify!($field) => at(name, stream.$field.fill_from_node(node))?,)*
+                        _ => return Err(format!("`{name}` is unknown here")),
+                    }
+                }
+                Ok(stream)
+            }
         }
 
         impl $crate::format::ttt::value::Value for $name {
@@ -105,6 +161,14 @@ macro_rules! streams {
 
             fn write(&self, out: &mut $crate::format::ttt::write::Writer) {
                 $crate::format::ttt::stream::Stream::write_stream(self, out);
+            }
+
+            fn to_node(&self) -> $crate::format::ttt::node::Node {
+                $crate::format::ttt::node::Node::Table($crate::format::ttt::stream::Stream::entries(self))
+            }
+
+            fn from_node(node: &$crate::format::ttt::node::Node) -> $crate::format::ttt::node::NodeResult<Self> {
+                $crate::format::ttt::stream::Stream::of_entries($crate::format::ttt::stream::entries_of(node)?)
             }
         }
     )*};

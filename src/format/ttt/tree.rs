@@ -7,8 +7,9 @@ use super::chunks::{
     Script, ScriptObject, Shape, Simulation, Texture, Thumbnail, Views, VisionSensor,
 };
 use super::error::FileResult;
+use super::node::{Node, NodeResult, at};
 use super::read::{Reader, Real, Tag};
-use super::stream::{Stream, streams};
+use super::stream::{Stream, entries_of, streams};
 use super::value::{Rest, Value};
 use super::write::Writer;
 use crate::format::ttt::chunks::ButtonBlock;
@@ -28,6 +29,14 @@ impl Value for Mesh {
     fn write(&self, out: &mut Writer) {
         self.node.write_stream(out);
         self.data.write_stream(out);
+    }
+
+    fn to_node(&self) -> Node {
+        Node::table([("node", self.node.to_node()), ("mesh", self.data.to_node())])
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        Ok(Self { node: Value::from_node(node.need("node")?)?, data: Value::from_node(node.need("mesh")?)? })
     }
 }
 
@@ -58,6 +67,20 @@ impl Value for MeshTree {
             Self::Mesh(_) => *b"Geo",
             Self::Group(_) => *b"Wrp",
         }
+    }
+
+    fn to_node(&self) -> Node {
+        match self {
+            Self::Mesh(mesh) => mesh.to_node(),
+            Self::Group(group) => Node::table([("group", group.to_node())]),
+        }
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        Ok(match node.get("group") {
+            Some(group) => Self::Group(Box::new(Value::from_node(group)?)),
+            None => Self::Mesh(Box::new(Value::from_node(node)?)),
+        })
     }
 }
 
@@ -105,6 +128,22 @@ macro_rules! classes {
                     Self::Unknown(tag) => *tag,
                 }
             }
+
+            /// The name of the type, and what it has.
+            fn entry(&self) -> (&'static str, Node) {
+                match self {
+                    $(Self::$name(class) => (stringify!($name), class.to_node()),)*
+                    Self::Unknown(tag) => ("Unknown", Node::Bytes(tag.to_vec())),
+                }
+            }
+
+            fn of_entry(name: &str, node: &Node) -> NodeResult<Self> {
+                Ok(match name {
+                    $(stringify!($name) => Self::$name(Box::new(at(name, Value::from_node(node))?)),)*
+                    "Unknown" => Self::Unknown(node.bytes()?.try_into().map_err(|_| "a tag has three letters")?),
+                    _ => return Err(format!("`{name}` is no type of objects")),
+                })
+            }
         }
     };
 }
@@ -142,6 +181,17 @@ impl Value for Object {
 
     fn tag(&self, _: Tag) -> Tag {
         self.class.tag()
+    }
+
+    fn to_node(&self) -> Node {
+        Node::table([("Object", self.common.to_node()), self.class.entry()])
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        let common = at("Object", Value::from_node(node.need("Object")?))?;
+        let class =
+            entries_of(node)?.iter().find(|(name, _)| name != "Object").ok_or("the type of an object is missing")?;
+        Ok(Self { offset: 0, common, class: Class::of_entry(&class.0, &class.1)? })
     }
 }
 

@@ -3,6 +3,7 @@
 use nalgebra::{Quaternion, UnitQuaternion};
 
 use super::error::FileResult;
+use super::node::{Node, NodeResult, at};
 use super::read::{Reader, Real, Tag};
 use super::write::Writer;
 use crate::scene::Pose;
@@ -17,6 +18,9 @@ pub trait Value: Sized {
     fn tag(&self, of_field: Tag) -> Tag {
         of_field
     }
+
+    fn to_node(&self) -> Node;
+    fn from_node(node: &Node) -> NodeResult<Self>;
 }
 
 /// A value of fixed width.
@@ -25,10 +29,12 @@ pub trait Plain: Copy {
     /// From just as many bytes.
     fn get(bytes: &[u8], real: Real) -> Self;
     fn put(self, out: &mut Vec<u8>);
+    fn node(self) -> Node;
+    fn of_node(node: &Node) -> NodeResult<Self>;
 }
 
 macro_rules! plain {
-    ($($number:ty),*) => {$(
+    ($($number:ty = $kind:ident $get:ident),*) => {$(
         impl Plain for $number {
             fn size(_: Real) -> usize {
                 size_of::<Self>()
@@ -39,11 +45,26 @@ macro_rules! plain {
             fn put(self, out: &mut Vec<u8>) {
                 out.extend(self.to_le_bytes());
             }
+            fn node(self) -> Node {
+                Node::$kind(self as _)
+            }
+            fn of_node(node: &Node) -> NodeResult<Self> {
+                plain_of!($kind, node.$get()?)
+            }
         }
     )*};
 }
 
-plain!(u8, u16, i32, i64, u64, f32);
+macro_rules! plain_of {
+    (Int, $int:expr) => {
+        Self::try_from($int).map_err(|_| "a number is out of range".to_owned())
+    };
+    ($real:ident, $value:expr) => {
+        Ok($value as Self)
+    };
+}
+
+plain!(u8 = Int int, u16 = Int int, i32 = Int int, i64 = Int int, u64 = Int int, f32 = Single real);
 
 /// A real number: of single precision in files up to serialization 24. What is single for good is an `f32`.
 impl Plain for f64 {
@@ -61,6 +82,14 @@ impl Plain for f64 {
     fn put(self, out: &mut Vec<u8>) {
         out.extend(self.to_le_bytes());
     }
+
+    fn node(self) -> Node {
+        Node::Real(self)
+    }
+
+    fn of_node(node: &Node) -> NodeResult<Self> {
+        node.real()
+    }
 }
 
 impl<T: Plain> Value for T {
@@ -70,6 +99,14 @@ impl<T: Plain> Value for T {
 
     fn write(&self, out: &mut Writer) {
         self.put(&mut out.bytes);
+    }
+
+    fn to_node(&self) -> Node {
+        self.node()
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        T::of_node(node)
     }
 }
 
@@ -85,6 +122,18 @@ impl<T: Plain + Default, const N: usize> Value for [T; N] {
     fn write(&self, out: &mut Writer) {
         self.iter().for_each(|one| one.put(&mut out.bytes));
     }
+
+    fn to_node(&self) -> Node {
+        Node::List(self.iter().map(|one| one.node()).collect())
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        let mut all = [T::default(); N];
+        for (one, node) in all.iter_mut().zip(node.items::<N>()?) {
+            *one = T::of_node(node)?;
+        }
+        Ok(all)
+    }
 }
 
 macro_rules! tuple {
@@ -97,6 +146,16 @@ macro_rules! tuple {
             fn write(&self, out: &mut Writer) {
                 let ($($name,)*) = self;
                 $($name.write(out);)*
+            }
+            #[allow(non_snake_case)]
+            fn to_node(&self) -> Node {
+                let ($($name,)*) = self;
+                Node::List(vec![$($name.to_node()),*])
+            }
+            #[allow(non_snake_case)]
+            fn from_node(node: &Node) -> NodeResult<Self> {
+                let [$($name),*] = node.items()?;
+                Ok(($($name::from_node($name)?,)*))
             }
         }
     };
@@ -140,6 +199,17 @@ impl Value for Text {
         out.int(self.0.len() as i32);
         out.bytes.extend(&self.0);
     }
+
+    fn to_node(&self) -> Node {
+        match std::str::from_utf8(&self.0) {
+            Ok(text) => Node::Text(text.to_owned()),
+            Err(_) => Node::Bytes(self.0.clone()),
+        }
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        node.bytes().map(Self)
+    }
 }
 
 /// Things behind their number.
@@ -156,6 +226,15 @@ impl<T: Value> Value for Counted<T> {
     fn write(&self, out: &mut Writer) {
         out.int(self.0.len() as i32);
         self.0.iter().for_each(|one| one.write(out));
+    }
+
+    fn to_node(&self) -> Node {
+        Node::List(self.0.iter().map(Value::to_node).collect())
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        let items = node.list()?.iter().enumerate();
+        items.map(|(i, item)| at(&i.to_string(), T::from_node(item))).collect::<NodeResult<_>>().map(Self)
     }
 }
 
@@ -174,6 +253,23 @@ impl<T: Plain> Value for Rest<T> {
 
     fn write(&self, out: &mut Writer) {
         self.0.iter().for_each(|one| one.put(&mut out.bytes));
+    }
+
+    /// Single bytes as bytes, numbers as a list.
+    fn to_node(&self) -> Node {
+        if T::size(Real::Double) > 1 {
+            return Node::List(self.0.iter().map(|one| one.node()).collect());
+        }
+        let mut bytes = Vec::new();
+        self.0.iter().for_each(|one| one.put(&mut bytes));
+        Node::Bytes(bytes)
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        if T::size(Real::Double) > 1 {
+            return node.list()?.iter().map(T::of_node).collect::<NodeResult<_>>().map(Self);
+        }
+        Ok(Self(node.bytes()?.chunks_exact(1).map(|byte| T::get(byte, Real::Double)).collect()))
     }
 }
 
@@ -237,6 +333,12 @@ macro_rules! wrapped {
             fn write(&self, out: &mut Writer) {
                 self.0.write(out);
             }
+            fn to_node(&self) -> Node {
+                self.0.to_node()
+            }
+            fn from_node(node: &Node) -> NodeResult<Self> {
+                Value::from_node(node).map(Self)
+            }
         }
     )*};
 }
@@ -265,6 +367,22 @@ impl Value for EngineBlock {
         self.reals.iter().for_each(|real| real.write(out));
         self.ints.iter().for_each(|int| out.int(*int));
     }
+
+    fn to_node(&self) -> Node {
+        Node::table([("reals", list(&self.reals)), ("ints", list(&self.ints))])
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        Ok(Self { reals: of_list(node.need("reals")?)?, ints: of_list(node.need("ints")?)? })
+    }
+}
+
+fn list<T: Plain>(numbers: &[T]) -> Node {
+    Node::List(numbers.iter().map(|number| number.node()).collect())
+}
+
+fn of_list<T: Plain>(node: &Node) -> NodeResult<Vec<T>> {
+    node.list()?.iter().map(T::of_node).collect()
 }
 
 /// The heights of a terrain, row by row. Both counts are zero where a mesh is none.
@@ -292,6 +410,20 @@ impl Value for Heights {
         out.int(self.rows as i32);
         self.heights.iter().for_each(|height| height.write(out));
     }
+
+    fn to_node(&self) -> Node {
+        let count = |n: usize| Node::Int(n as i64);
+        Node::table([("columns", count(self.columns)), ("rows", count(self.rows)), ("heights", list(&self.heights))])
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        let count = |name| usize::try_from(node.need(name)?.int()?).map_err(|_| "a number is out of range".to_owned());
+        let (columns, rows, heights) = (count("columns")?, count("rows")?, of_list::<f64>(node.need("heights")?)?);
+        if columns.checked_mul(rows) != Some(heights.len()) {
+            return Err(format!("{} heights are not {columns} times {rows}", heights.len()));
+        }
+        Ok(Self { columns, rows, heights })
+    }
 }
 
 /// Triangle corners: plain numbers, or the packed differences of files before 4.5.
@@ -308,6 +440,14 @@ impl Value for Indices {
 
     fn write(&self, out: &mut Writer) {
         self.0.iter().for_each(|index| out.int(*index));
+    }
+
+    fn to_node(&self) -> Node {
+        list(&self.0)
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        of_list(node).map(Self)
     }
 }
 
@@ -343,6 +483,14 @@ impl Value for Normals {
     fn write(&self, out: &mut Writer) {
         self.0.iter().for_each(|number| number.put(&mut out.bytes));
     }
+
+    fn to_node(&self) -> Node {
+        list(&self.0)
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        of_list(node).map(Self)
+    }
 }
 
 fn unpack_normal(packed: u16) -> [f32; 3] {
@@ -372,6 +520,16 @@ impl Value for OriginalReference {
             id.write(out);
         }
     }
+
+    fn to_node(&self) -> Node {
+        let id = self.persistent_id.as_ref().map(|id| ("persistent_id", id.to_node()));
+        Node::table([("kind", self.kind.node()), ("handle", self.handle.node())].into_iter().chain(id))
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        let (kind, handle) = (i32::of_node(node.need("kind")?)?, i32::of_node(node.need("handle")?)?);
+        Ok(Self { kind, handle, persistent_id: node.get("persistent_id").map(Text::from_node).transpose()? })
+    }
 }
 
 /// The text of a script. Files hide it a little; here it is plain.
@@ -391,6 +549,14 @@ impl Value for ScriptText {
         let mut text = self.0.clone();
         shift_text(&mut text, u8::wrapping_sub);
         out.bytes.extend(text);
+    }
+
+    fn to_node(&self) -> Node {
+        Node::Script(self.0.clone())
+    }
+
+    fn from_node(node: &Node) -> NodeResult<Self> {
+        node.bytes().map(Self)
     }
 }
 

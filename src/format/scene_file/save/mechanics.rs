@@ -54,8 +54,8 @@ fn switches(joint: &Joint) -> u8 {
     let control = match joint.control {
         Control::Free | Control::Force => 0,
         Control::Velocity => MOTOR,
-        Control::Position | Control::Callback => MOTOR | CONTROL_LOOP,
-        Control::Spring => MOTOR | CONTROL_LOOP | SPRING,
+        Control::Position | Control::PositionOrCallback | Control::Callback => MOTOR | CONTROL_LOOP,
+        Control::Spring | Control::SpringOrCallback => MOTOR | CONTROL_LOOP | SPRING,
     };
     control | if joint.cyclic { CYCLIC } else { 0 }
 }
