@@ -48,7 +48,7 @@ fn load_model(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
     Ok(root.map_or(special::WORLD, Handle::raw))
 }
 
-/// Writes the scene to a file, which becomes the scene's, or returns its bytes. CoppeliaSim 4.6 and later read them.
+/// Writes the scene to a file, which becomes the scene's, or returns its bytes. CoppeliaSim reads them since 4.5.1.
 ///
 /// @param filename a `.ttt` file; nothing for the bytes
 /// @return result 1, or a buffer with the bytes

@@ -4,8 +4,11 @@
 #![allow(clippy::disallowed_methods, reason = "the outside world is this layer's business")]
 
 mod api;
+mod diff;
 mod doctor;
+mod files;
 mod init;
+mod inspect;
 mod interrupt;
 mod output;
 mod progress;
@@ -14,6 +17,7 @@ mod run;
 mod serve;
 mod session;
 mod setup;
+mod unpack;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -40,6 +44,10 @@ enum Command {
     Serve(serve::Args),
     Api(api::Args),
     Doctor(doctor::Args),
+    Inspect(inspect::Args),
+    Unpack(unpack::UnpackArgs),
+    Pack(unpack::PackArgs),
+    Diff(diff::Args),
     Init(init::Args),
     /// Print a completion script for a shell
     Completions {
@@ -65,6 +73,10 @@ impl Command {
             Self::Serve(args) => serve::serve(&args),
             Self::Api(args) => api::api(&args),
             Self::Doctor(args) => doctor::doctor(&args),
+            Self::Inspect(args) => inspect::inspect(&args),
+            Self::Unpack(args) => unpack::unpack(&args),
+            Self::Pack(args) => unpack::pack(&args),
+            Self::Diff(args) => diff::diff(&args),
             Self::Init(args) => init::init(&args),
             Self::Completions { shell } => {
                 let mut script = Vec::new();

@@ -166,8 +166,10 @@ fn read(path: impl AsRef<Path>) -> Result<Source, String> {
     Ok((name, code))
 }
 
-/// The folder a file lies in; scripts find their modules there.
 fn read_scene(path: &Path) -> Result<Scene, String> {
+    if path.is_dir() {
+        return Ok(Scene::File(Box::new(super::files::scene(path)?)));
+    }
     let (name, bytes) = read(path)?;
     if !ttt::is_binary(&bytes) {
         return Ok(Scene::Script((name, bytes)));
@@ -176,6 +178,7 @@ fn read_scene(path: &Path) -> Result<Scene, String> {
     Ok(Scene::File(Box::new(file)))
 }
 
+/// The folder a file lies in; scripts find their modules there.
 fn folder_of(file: &Path) -> PathBuf {
     match file.parent() {
         Some(folder) if folder != Path::new("") => folder.to_owned(),

@@ -3,4 +3,6 @@
 pub(crate) mod picture;
 
 pub(crate) mod scene_file;
+pub(crate) mod scene_folder;
+pub(crate) mod scene_outline;
 pub mod ttt;

@@ -9,6 +9,8 @@ pub mod save;
 mod write;
 
 #[cfg(test)]
+mod bad_input;
+#[cfg(test)]
 pub(crate) mod tests;
 
 pub use load::SceneFile;

@@ -18,6 +18,12 @@ pub(crate) fn real_files() -> Vec<PathBuf> {
     files
 }
 
+/// Small files written by the saver.
+pub(crate) fn own_files() -> [PathBuf; 2] {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scene_files");
+    ["robot.ttt", "robot.ttm"].map(|name| folder.join(name))
+}
+
 pub(crate) fn load(bytes: &[u8]) -> (Scene, Loaded) {
     let mut scene = Scene::new();
     let loaded = SceneFile::read(bytes).unwrap().add_to(&mut scene, true).unwrap();
@@ -120,7 +126,7 @@ fn assert_same(a: &Scene, b: &Scene, what: &str) {
 
 #[test]
 fn real_scenes_come_back_from_the_saver() {
-    for path in real_files() {
+    for path in own_files().into_iter().chain(real_files()) {
         let what = path.file_name().unwrap().to_string_lossy().into_owned();
         let (first, loaded) = load(&std::fs::read(&path).unwrap());
         let bytes = saved(&first, &loaded);

@@ -89,6 +89,11 @@ impl File {
     }
 }
 
+/// One object as a tree.
+pub fn object_node(object: &tree::Object) -> Node {
+    object.to_node()
+}
+
 fn contents(body: &mut Reader<'_>) -> FileResult<Contents> {
     let mut contents = Contents::default();
     while let Some(mut chunk) = body.chunk(Contents::END)? {

@@ -37,6 +37,12 @@ impl Node {
         entries.iter().find(|(key, _)| key == name).map(|(_, node)| node)
     }
 
+    /// The entry of a table, to be changed.
+    pub fn get_mut(&mut self, name: &str) -> Option<&mut Self> {
+        let Self::Table(entries) = self else { return None };
+        entries.iter_mut().find(|(key, _)| key == name).map(|(_, node)| node)
+    }
+
     /// The entry of a table.
     ///
     /// # Errors

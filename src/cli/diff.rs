@@ -1,0 +1,34 @@
+//! `swanilda diff`: what is different between two scenes.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use super::{files, refuse, say};
+use crate::format::scene_outline::{Outline, differences};
+
+/// Exit code when the scenes differ.
+const DIFFERENT: u8 = 1;
+
+/// Tell what is different between two scenes or models: objects added, removed, moved, changed, and scripts line by line
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// A .ttt or .ttm file, or a folder made by unpack
+    old: PathBuf,
+    new: PathBuf,
+}
+
+/// As `diff` does: 0 when they are the same, 1 when they differ.
+pub(super) fn diff(args: &Args) -> ExitCode {
+    let both = outline(&args.old).and_then(|old| Ok((old, outline(&args.new)?)));
+    let (old, new) = match both {
+        Ok(both) => both,
+        Err(reason) => return refuse(&reason),
+    };
+    let told = differences(&old, &new);
+    say(told.as_bytes());
+    if told.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(DIFFERENT) }
+}
+
+pub(super) fn outline(path: &Path) -> Result<Outline, String> {
+    Outline::new(files::scene(path)?).map_err(|error| format!("{}: {error}", path.display()))
+}

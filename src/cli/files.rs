@@ -1,0 +1,24 @@
+//! Scenes and models of the command line: files, and folders made by `unpack`.
+
+use std::path::Path;
+
+use crate::format::scene_file::SceneFile;
+use crate::format::scene_folder;
+use crate::format::ttt::File;
+
+/// # Errors
+/// When it cannot be read; in words, with the path.
+pub(super) fn file(path: &Path) -> Result<File, String> {
+    let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
+    if scene_folder::is_scene(path) {
+        return scene_folder::pack(path).map_err(unreadable);
+    }
+    let bytes = std::fs::read(path).map_err(|error| unreadable(error.to_string()))?;
+    File::read(&bytes).map_err(|error| unreadable(error.to_string()))
+}
+
+/// # Errors
+/// When it cannot be read, or its geometry is damaged.
+pub(super) fn scene(path: &Path) -> Result<SceneFile, String> {
+    SceneFile::new(file(path)?).map_err(|error| format!("cannot read {}: {error}", path.display()))
+}

@@ -1,0 +1,133 @@
+//! `swanilda inspect`: what is in a scene, and whether its scripts find here what they need.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use super::{files, refuse, say};
+use crate::docs::{self, Support};
+use crate::format::scene_file::{SceneFile, ScriptCode};
+use crate::format::scene_outline::{Item, Outline};
+
+/// Exit code when a script needs what is approximated or missing.
+const NOT_ALL_WORKS: u8 = 1;
+
+/// Tell what is in a scene or model: its tree, sizes, scripts, and what they need
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// A .ttt or .ttm file, or a folder made by unpack
+    file: PathBuf,
+    /// One JSON object on standard output
+    #[arg(long)]
+    json: bool,
+    /// All facts as lines of text, for git's textconv; nothing is judged
+    #[arg(long, conflicts_with = "json")]
+    textconv: bool,
+}
+
+/// The exit code tells whether all that scripts need works.
+pub(super) fn inspect(args: &Args) -> ExitCode {
+    let report = match Report::new(args) {
+        Ok(report) => report,
+        Err(reason) => return refuse(&reason),
+    };
+    if args.textconv {
+        say(report.outline.text().as_bytes());
+        return ExitCode::SUCCESS;
+    }
+    say(if args.json { report.json() } else { report.text() }.as_bytes());
+    if report.needs.values().all(|support| *support == Support::Works) {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(NOT_ALL_WORKS)
+    }
+}
+
+struct Report {
+    /// Kind, program and format of the file.
+    what: String,
+    skipped: Vec<String>,
+    scripts: Vec<ScriptCode>,
+    outline: Outline,
+    /// Modules and functions that scripts use.
+    needs: BTreeMap<String, Support>,
+}
+
+impl Report {
+    fn new(args: &Args) -> Result<Self, String> {
+        let file = files::scene(&args.file)?;
+        let scripts = file.scripts();
+        let uses = scripts.iter().filter(|script| script.language == "lua").flat_map(|script| docs::uses(&script.code));
+        let needs = uses.map(|found| (found.name, found.support)).collect();
+        let skipped = file.file().skipped.iter();
+        let skipped = skipped.map(|skip| format!("{} ({} bytes)", skip.path, skip.size)).collect();
+        let what = what(&file);
+        let outline = Outline::new(file).map_err(|error| format!("{}: {error}", args.file.display()))?;
+        Ok(Self { what, skipped, scripts, outline, needs })
+    }
+
+    fn triangles(&self) -> usize {
+        self.outline.objects.iter().map(|item| item.triangles).sum()
+    }
+
+    fn text(&self) -> String {
+        let mut out =
+            format!("{}: {} objects, {} triangles\n", self.what, self.outline.objects.len(), self.triangles());
+        self.outline.objects.iter().for_each(|item| out += &line(item));
+        for script in &self.scripts {
+            out += &format!("script {} ({}, {} lines)\n", script.name, script.language, lines(&script.code));
+        }
+        self.skipped.iter().for_each(|skipped| out += &format!("not understood: {skipped}\n"));
+        for (name, support) in self.needs.iter().filter(|(_, support)| **support != Support::Works) {
+            out += &format!("{:<12} {name}\n", word(*support));
+        }
+        let works = self.needs.values().filter(|support| **support == Support::Works).count();
+        out + &format!("{works} of {} functions and modules that scripts use work\n", self.needs.len())
+    }
+
+    fn json(&self) -> String {
+        let objects = self
+            .outline
+            .objects
+            .iter()
+            .map(|item| serde_json::json!({"path": item.path, "type": item.kind, "triangles": item.triangles}));
+        let scripts = self.scripts.iter().map(|script| {
+            serde_json::json!({"name": script.name, "language": script.language, "lines": lines(&script.code)})
+        });
+        let needs: serde_json::Map<_, _> =
+            self.needs.iter().map(|(name, support)| (name.clone(), word(*support).into())).collect();
+        let report = serde_json::json!({
+            "file": self.what,
+            "objects": objects.collect::<Vec<_>>(),
+            "triangles": self.triangles(),
+            "scripts": scripts.collect::<Vec<_>>(),
+            "notUnderstood": self.skipped,
+            "needs": needs,
+        });
+        format!("{report}\n")
+    }
+}
+
+fn what(file: &SceneFile) -> String {
+    let header = &file.file().header;
+    let kind = if file.is_model() { "model" } else { "scene" };
+    format!("{kind} of {} (format {})", header.version_text(), header.serialization)
+}
+
+fn line(item: &Item) -> String {
+    let name = item.path.rsplit('/').next().unwrap_or_default();
+    let triangles = if item.triangles > 0 { format!(", {} triangles", item.triangles) } else { String::new() };
+    format!("{}{name} ({}{triangles})\n", "  ".repeat(item.depth + 1), item.kind)
+}
+
+fn lines(code: &[u8]) -> usize {
+    code.split(|byte| *byte == b'\n').count()
+}
+
+fn word(support: Support) -> &'static str {
+    match support {
+        Support::Works => "works",
+        Support::Approximated(_) => "approximated",
+        Support::Missing => "missing",
+    }
+}

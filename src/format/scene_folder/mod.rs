@@ -1,0 +1,243 @@
+//! Scenes and models as folders that people and version control can read: `scene.json` with all chunks by name, scripts as `.lua` files,
+//! meshes as `.obj` files, other bytes as they are. A folder says all that its file said.
+//!
+//! JSON rather than TOML: trees of meshes within objects nest deeper than TOML's tables read well, and every language has a reader.
+
+mod names;
+mod obj;
+
+use std::path::{Component, Path};
+
+use crate::format::ttt::File;
+use crate::format::ttt::chunks::{MeshData, MeshNode};
+use crate::format::ttt::node::{Node, NodeResult, at};
+use crate::format::ttt::tree::{Class, MeshTree};
+use names::Names;
+
+/// The file with the tree.
+const TREE: &str = "scene.json";
+/// Folders that belong to a scene; what is in them is replaced.
+const PARTS: [&str; 3] = ["scripts", "meshes", "data"];
+/// Bytes up to this number stand in the tree.
+const SHORT: usize = 64;
+
+/// Whether a folder is an unpacked scene.
+pub fn is_scene(folder: &Path) -> bool {
+    folder.join(TREE).is_file()
+}
+
+/// Writes a file as a folder, in place of an earlier one.
+///
+/// # Errors
+/// When the folder holds something else, cannot be written, or the meshes of the file are damaged.
+pub fn unpack(file: &File, folder: &Path) -> NodeResult<()> {
+    let is_new = std::fs::read_dir(folder).map_or(true, |mut entries| entries.next().is_none());
+    if !is_new && !is_scene(folder) {
+        return Err(format!("{} is not empty, and no unpacked scene", folder.display()));
+    }
+    for part in PARTS.map(|part| folder.join(part)).iter().filter(|part| part.is_dir()) {
+        std::fs::remove_dir_all(part).map_err(|error| format!("{}: {error}", part.display()))?;
+    }
+    let mut outside = Outside { folder, names: Names::default(), blobs: 0 };
+    let mut file = file.clone();
+    let scripts = names::of_scripts(&file);
+    for (number, text) in take_meshes(&mut file)?.into_iter().enumerate() {
+        outside.write(&mesh_name(number as i32), text.as_bytes())?;
+    }
+    let mut tree = file.to_node();
+    if let Some(Node::List(objects)) = tree.get_mut("contents").and_then(|contents| contents.get_mut("objects")) {
+        objects.iter_mut().zip(&scripts.objects).try_for_each(|(object, name)| outside.put(object, name))?;
+    }
+    if let Some(Node::List(attached)) = tree.get_mut("contents").and_then(|contents| contents.get_mut("scripts")) {
+        attached.iter_mut().zip(&scripts.attached).try_for_each(|(script, name)| outside.put(script, name))?;
+    }
+    outside.put(&mut tree, "file")?;
+    outside.write(TREE, (tree.print() + "\n").as_bytes())
+}
+
+/// The file an unpacked scene says.
+///
+/// # Errors
+/// What is wrong, and where in the tree.
+pub fn pack(folder: &Path) -> NodeResult<File> {
+    let text = read(folder, TREE)?;
+    let mut tree =
+        at(TREE, String::from_utf8(text).map_err(|error| error.to_string()).and_then(|text| Node::parse(&text)))?;
+    bring_in(folder, &mut tree)?;
+    let mut file = at(TREE, File::from_node(&tree))?;
+    put_meshes(folder, &mut file)?;
+    Ok(file)
+}
+
+fn mesh_name(number: i32) -> String {
+    format!("meshes/{number}.obj")
+}
+
+/// What is written beside the tree.
+struct Outside<'a> {
+    folder: &'a Path,
+    names: Names,
+    blobs: usize,
+}
+
+impl Outside<'_> {
+    /// Writes scripts and long bytes of a tree to files, whose names take their places. Scripts are called `name`.
+    fn put(&mut self, node: &mut Node, name: &str) -> NodeResult<()> {
+        match node {
+            Node::Script(text) => {
+                let file = self.names.free(name, "lua");
+                self.write(&file, text)?;
+                *node = Node::table([("file", Node::Text(file))]);
+            }
+            Node::Bytes(bytes) if bytes.len() > SHORT => {
+                let file = format!("data/{}.bin", self.blobs);
+                self.blobs += 1;
+                self.write(&file, bytes)?;
+                *node = Node::table([("file", Node::Text(file))]);
+            }
+            Node::List(items) => items.iter_mut().try_for_each(|item| self.put(item, name))?,
+            Node::Table(entries) => entries.iter_mut().try_for_each(|(_, item)| self.put(item, name))?,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn write(&self, name: &str, bytes: &[u8]) -> NodeResult<()> {
+        let path = self.folder.join(name);
+        let folder = path.parent().unwrap_or(self.folder);
+        let written = std::fs::create_dir_all(folder).and_then(|()| std::fs::write(&path, bytes));
+        written.map_err(|error| format!("{}: {error}", path.display()))
+    }
+}
+
+/// A file of the folder; never one outside of it.
+fn read(folder: &Path, name: &str) -> NodeResult<Vec<u8>> {
+    if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
+        return Err(format!("`{name}` is not in the folder"));
+    }
+    let path = folder.join(name);
+    std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// Puts files in the places of their names.
+fn bring_in(folder: &Path, node: &mut Node) -> NodeResult<()> {
+    match node {
+        Node::Table(entries) => {
+            if let [(key, Node::Text(name))] = entries.as_slice()
+                && key == "file"
+            {
+                *node = Node::Bytes(read(folder, name)?);
+                return Ok(());
+            }
+            entries.iter_mut().try_for_each(|(_, item)| bring_in(folder, item))
+        }
+        Node::List(items) => items.iter_mut().try_for_each(|item| bring_in(folder, item)),
+        _ => Ok(()),
+    }
+}
+
+/// All meshes of a file, in its order.
+fn for_each_mesh(file: &mut File, visit: &mut impl FnMut(&mut MeshData) -> NodeResult<()>) -> NodeResult<()> {
+    fn of_group(group: &mut MeshNode, visit: &mut impl FnMut(&mut MeshData) -> NodeResult<()>) -> NodeResult<()> {
+        group.children.iter_mut().try_for_each(|child| match child {
+            MeshTree::Mesh(mesh) => visit(&mut mesh.data),
+            MeshTree::Group(group) => of_group(group, visit),
+        })
+    }
+    for object in &mut file.contents.objects {
+        let Class::Shape(shape) = &mut object.class else { continue };
+        let Some(geometry) = &mut shape.geometry else { continue };
+        geometry.mesh.iter_mut().try_for_each(|mesh| visit(&mut mesh.data))?;
+        geometry.group.iter_mut().try_for_each(|group| of_group(group, visit))?;
+    }
+    Ok(())
+}
+
+/// Takes the shared arrays out of a file. Each mesh then has the number of a text in OBJ format as that of its vertices.
+fn take_meshes(file: &mut File) -> NodeResult<Vec<String>> {
+    let Some(pool) = file.contents.mesh_pool.take() else { return Ok(Vec::new()) };
+    let (mut known, mut texts) = (std::collections::HashMap::new(), Vec::new());
+    for_each_mesh(file, &mut |data| {
+        let places = [data.vertices_at.take(), data.indices_at.take(), data.normals_at.take(), data.edges_at.take()];
+        let number = match known.get(&places) {
+            Some(number) => *number,
+            None => {
+                texts.push(obj::write(&pool, places)?);
+                *known.entry(places).or_insert(texts.len() as i32 - 1)
+            }
+        };
+        data.vertices_at = Some(number);
+        Ok(())
+    })?;
+    Ok(texts)
+}
+
+fn put_meshes(folder: &Path, file: &mut File) -> NodeResult<()> {
+    let mut arrays = obj::Arrays::default();
+    let mut known = std::collections::HashMap::new();
+    let mut any = false;
+    for_each_mesh(file, &mut |data| {
+        let Some(number) = data.vertices_at else { return Ok(()) };
+        any = true;
+        let places = match known.get(&number) {
+            Some(places) => *places,
+            None => {
+                let name = mesh_name(number);
+                let places = at(&name, read(folder, &name).and_then(|text| arrays.add(&text)))?;
+                *known.entry(number).or_insert(places)
+            }
+        };
+        [data.vertices_at, data.indices_at, data.normals_at, data.edges_at] = places;
+        Ok(())
+    })?;
+    file.contents.mesh_pool = any.then_some(arrays.pool);
+    Ok(())
+}
+
+/// Of the meshes of a pool, by places.
+type Places = [Option<i32>; 4];
+
+/// The array at a place.
+fn find<T>(list: &[T], place: Option<i32>) -> Option<&T> {
+    list.get(usize::try_from(place?).ok()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::scene_file::tests::{own_files, real_files};
+
+    #[test]
+    fn an_unpacked_scene_packs_to_the_same() {
+        for path in own_files().into_iter().chain(real_files()) {
+            let what = path.display().to_string();
+            let file = File::read(&std::fs::read(&path).unwrap()).unwrap();
+            let folder = tempfile::tempdir().unwrap();
+            unpack(&file, folder.path()).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let packed = pack(folder.path()).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let (mut a, mut b) = (file, packed.clone());
+            assert_eq!(take_meshes(&mut a).unwrap(), take_meshes(&mut b).unwrap(), "{what}: other meshes");
+            // As text, since numbers that are none differ from themselves.
+            assert!(a.to_node().print() == b.to_node().print(), "{what}: another tree");
+            let again = tempfile::tempdir().unwrap();
+            unpack(&packed, again.path()).unwrap();
+            assert_eq!(read(folder.path(), TREE).unwrap(), read(again.path(), TREE).unwrap(), "{what}");
+        }
+    }
+
+    #[test]
+    fn folders_of_others_are_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("mine.txt"), "x").unwrap();
+        let file = File::read(&std::fs::read(&own_files()[0]).unwrap()).unwrap();
+        assert!(unpack(&file, folder.path()).unwrap_err().contains("not empty"));
+        assert!(pack(folder.path()).is_err());
+    }
+
+    #[test]
+    fn nothing_outside_of_the_folder_is_read() {
+        for name in ["/etc/passwd", "../scene.json", "a/../../b", "."] {
+            assert!(read(Path::new("."), name).unwrap_err().contains("not in the folder"), "{name}");
+        }
+    }
+}

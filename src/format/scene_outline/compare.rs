@@ -1,0 +1,137 @@
+//! What is different between two scenes: objects added, removed, moved, changed; their scripts line by line.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::{Item, Outline, lines};
+
+/// Numbers that differ by less, relative to their size, are the same: saving rounds.
+const SAME: f64 = 1e-6;
+
+/// The differences in words, one per line, then those of scripts; empty when there are none.
+pub fn differences(a: &Outline, b: &Outline) -> String {
+    let mut out = String::new();
+    fields(&mut out, "scene", &a.settings, &b.settings);
+    let pairs = pairs(a, b);
+    let paired: BTreeSet<&str> = pairs.iter().map(|(old, _)| old.path.as_str()).collect();
+    let found: BTreeSet<&str> = pairs.iter().map(|(_, new)| new.path.as_str()).collect();
+    for item in a.objects.iter().filter(|item| !paired.contains(item.path.as_str())) {
+        out += &format!("removed {} ({})\n", item.path, item.kind);
+    }
+    for item in b.objects.iter().filter(|item| !found.contains(item.path.as_str())) {
+        out += &format!("added   {} ({})\n", item.path, item.kind);
+        scripts(&mut out, &item.path, &[], &item.scripts);
+    }
+    for (old, new) in pairs {
+        if old.path != new.path {
+            out += &format!("moved   {} -> {}\n", old.path, new.path);
+        }
+        if old.kind != new.kind {
+            out += &format!("changed {}: {} -> {}\n", new.path, old.kind, new.kind);
+        }
+        fields(&mut out, &new.path, &old.fields, &new.fields);
+        scripts(&mut out, &new.path, &old.scripts, &new.scripts);
+    }
+    out
+}
+
+/// The same object in both: of the same path, or else of the same identity.
+fn pairs<'a>(a: &'a Outline, b: &'a Outline) -> Vec<(&'a Item, &'a Item)> {
+    let new: BTreeMap<&str, &Item> = b.objects.iter().map(|item| (item.path.as_str(), item)).collect();
+    let old: BTreeSet<&str> = a.objects.iter().map(|item| item.path.as_str()).collect();
+    let strays = b.objects.iter().filter(|item| !old.contains(item.path.as_str()));
+    let mut strays: BTreeMap<&str, &Item> = strays.map(|item| (item.persistent_id.as_str(), item)).collect();
+    let pair = |item: &'a Item| {
+        let other = new.get(item.path.as_str()).copied().or_else(|| strays.remove(item.persistent_id.as_str()))?;
+        Some((item, other))
+    };
+    a.objects.iter().filter_map(pair).collect()
+}
+
+fn fields(out: &mut String, path: &str, a: &[(String, String)], b: &[(String, String)]) {
+    let new: BTreeMap<&str, &str> = b.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
+    let old: BTreeSet<&str> = a.iter().map(|(name, _)| name.as_str()).collect();
+    for (name, value) in a {
+        let word = if name == "pose" { "moved  " } else { "changed" };
+        match new.get(name.as_str()) {
+            Some(other) if !same(value, other) => out.push_str(&format!("{word} {path}: {name}: {value} -> {other}\n")),
+            Some(_) => {}
+            None => out.push_str(&format!("changed {path}: {name}: {value} -> nothing\n")),
+        }
+    }
+    for (name, value) in b.iter().filter(|(name, _)| !old.contains(name.as_str())) {
+        out.push_str(&format!("changed {path}: {name}: nothing -> {value}\n"));
+    }
+}
+
+/// The same but for rounding.
+fn same(a: &str, b: &str) -> bool {
+    let words = |text: &str| -> Vec<String> {
+        text.split(['[', ']', ',', ' ']).filter(|w| !w.is_empty()).map(str::to_owned).collect()
+    };
+    let near = |a: &String, b: &String| match (a.parse::<f64>(), b.parse::<f64>()) {
+        (Ok(a), Ok(b)) => (a - b).abs() <= SAME * (1.0 + a.abs()),
+        _ => a == b,
+    };
+    let (x, y) = (words(a), words(b));
+    a == b || (x.len() == y.len() && x.iter().zip(&y).all(|(a, b)| near(a, b)))
+}
+
+fn scripts(out: &mut String, path: &str, a: &[(String, String)], b: &[(String, String)]) {
+    let names: BTreeSet<&str> = a.iter().chain(b).map(|(name, _)| name.as_str()).collect();
+    let find = |list: &[(String, String)], name: &str| {
+        list.iter().find(|(own, _)| own == name).map(|(_, text)| text.clone()).unwrap_or_default()
+    };
+    for name in names {
+        let difference = lines::unified(&find(a, name), &find(b, name));
+        if !difference.is_empty() {
+            out.push_str(&format!("--- a{path} {name}\n+++ b{path} {name}\n{difference}"));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::scene_file::SceneFile;
+    use crate::format::scene_file::tests::{own_files, real_files};
+    use crate::format::ttt::File;
+    use crate::format::ttt::tree::Class;
+
+    fn outline(file: File) -> Outline {
+        Outline::new(SceneFile::new(file).unwrap()).unwrap()
+    }
+
+    fn robot() -> File {
+        File::read(&std::fs::read(&own_files()[0]).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_scene_is_the_same_as_itself() {
+        for path in own_files().into_iter().chain(real_files().into_iter().take(6)) {
+            let file = File::read(&std::fs::read(&path).unwrap()).unwrap();
+            assert_eq!(differences(&outline(file.clone()), &outline(file)), "", "{}", path.display());
+        }
+    }
+
+    #[test]
+    fn what_is_different_is_told() {
+        let mut other = robot();
+        for object in &mut other.contents.objects {
+            let alias = object.common.alias.as_ref().unwrap().decode();
+            match &mut object.class {
+                Class::Dummy(_) if alias == "tip" => object.common.alias = Some("end".into()),
+                Class::Joint(joint) => joint.motor = Some([0.5, 7.0]),
+                Class::ScriptObject(script) => {
+                    let text = script.script.as_mut().unwrap().text.as_mut().unwrap();
+                    text.0.extend(b"-- more\n");
+                }
+                _ => {}
+            }
+        }
+        let told = differences(&outline(robot()), &outline(other));
+        assert!(told.contains("moved   /robot/joint/arm/tip -> /robot/joint/arm/end\n"), "{told}");
+        assert!(told.contains("changed /robot/joint: Joint.motor: [0.0, 2.5] -> [0.5, 7.0]\n"), "{told}");
+        assert!(told.contains("+-- more\n"), "{told}");
+        assert_eq!(told.lines().filter(|line| line.starts_with("changed")).count(), 1, "{told}");
+    }
+}
