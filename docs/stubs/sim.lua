@@ -2440,7 +2440,7 @@ function sim.saveImage(image, resolution, options, filename, quality) end
 ---@return any result 1, or a buffer with the bytes
 function sim.saveModel(modelBaseHandle, filename) end
 
---- Writes the scene to a file, which becomes the scene's, or returns its bytes. CoppeliaSim 4.6 and later read them.
+--- Writes the scene to a file, which becomes the scene's, or returns its bytes. CoppeliaSim reads them since 4.5.1.
 ---@param filename? string a `.ttt` file; nothing for the bytes
 ---@return any result 1, or a buffer with the bytes
 function sim.saveScene(filename) end
