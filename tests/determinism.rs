@@ -1,9 +1,10 @@
 //! The same scene gives the same bytes: twice in one process, and twice in processes of their own (docs/ARCHITECTURE.md).
+//! So do a run of 10 000 steps with contacts, motors and chains, and the run after it.
 
 use std::cell::RefCell;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::rc::Rc;
 
 use swanilda::scene::pose::pose_to_array;
@@ -47,6 +48,45 @@ fn twice_in_processes_of_their_own() {
         };
         assert_same(&run(), &run(), &scene);
     }
+}
+
+/// The hashes of `long_run.lua`: of two processes at once, and of two runs of one simulator.
+#[test]
+fn ten_thousand_steps() {
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/determinism/long_run.lua");
+    let start = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+        command.arg("run").arg(&scene).args(["--quiet", "--json"]).stdout(Stdio::piped());
+        command.spawn().expect("the command starts")
+    };
+    let processes = [start(), start()];
+    let runs = on_a_large_stack(two_runs, scene.clone());
+    let hashes: Vec<_> = runs.lines().filter(|line| line.ends_with("after 50.0 s")).collect();
+    let [first, second] = hashes[..] else { panic!("each run prints a line: {runs}") };
+    assert_eq!(first, second, "a run differs from the one before it");
+    for process in processes {
+        let output = process.wait_with_output().expect("the command ends");
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(output.status.success() && said.contains(first), "a process differs from `{first}`: {said}");
+    }
+}
+
+/// What a scene prints that is started, ends, and is started again.
+fn two_runs(scene: PathBuf) -> String {
+    let transcript = Transcript::default();
+    let mut sim = Simulator::with_console(Options::default(), Box::new(transcript.clone()));
+    sim.scene_mut().add_default_objects().expect("an empty scene has room");
+    sim.add_script(ScriptKind::Customization, "scene", &fs::read(&scene).expect("a scene is readable"))
+        .expect("a scene loads");
+    for _ in 0..2 {
+        sim.start();
+        while sim.state().is_advancing() {
+            sim.pass();
+        }
+        sim.stop();
+    }
+    assert_eq!(sim.errors(), 0, "{}", transcript.text.borrow());
+    transcript.text.take()
 }
 
 fn assert_same(first: &str, second: &str, scene: &Path) {
