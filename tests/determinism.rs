@@ -50,7 +50,7 @@ fn twice_in_processes_of_their_own() {
     }
 }
 
-/// The hashes of `long_run.lua`: of two processes at once, and of two runs of one simulator.
+/// The hashes of `long_run.lua`: of two processes at once, and of two shorter runs of one simulator.
 #[test]
 fn ten_thousand_steps() {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/determinism/long_run.lua");
@@ -60,29 +60,29 @@ fn ten_thousand_steps() {
         command.spawn().expect("the command starts")
     };
     let processes = [start(), start()];
-    let runs = on_a_large_stack(two_runs, scene.clone());
-    let hashes: Vec<_> = runs.lines().filter(|line| line.ends_with("after 50.0 s")).collect();
+    let runs = on_a_large_stack(two_short_runs, scene.clone());
+    let hashes: Vec<_> = runs.lines().filter(|line| line.ends_with("after 10.0 s")).collect();
     let [first, second] = hashes[..] else { panic!("each run prints a line: {runs}") };
     assert_eq!(first, second, "a run differs from the one before it");
-    for process in processes {
+    let said = processes.map(|process| {
         let output = process.wait_with_output().expect("the command ends");
         let said = String::from_utf8_lossy(&output.stdout).into_owned();
         assert!(output.status.success() && said.contains(first), "a process differs from `{first}`: {said}");
-    }
+        let end = said.lines().find(|line| line.contains("after 50.0 s")).map(str::to_owned);
+        end.unwrap_or_else(|| panic!("10 000 steps end with a line: {said}"))
+    });
+    assert_eq!(said[0], said[1], "two processes differ");
 }
 
-/// What a scene prints that is started, ends, and is started again.
-fn two_runs(scene: PathBuf) -> String {
+/// What a scene prints in its first 2000 steps, is stopped, and prints when it is started again.
+fn two_short_runs(scene: PathBuf) -> String {
     let transcript = Transcript::default();
     let mut sim = Simulator::with_console(Options::default(), Box::new(transcript.clone()));
     sim.scene_mut().add_default_objects().expect("an empty scene has room");
     sim.add_script(ScriptKind::Customization, "scene", &fs::read(&scene).expect("a scene is readable"))
         .expect("a scene loads");
     for _ in 0..2 {
-        sim.start();
-        while sim.state().is_advancing() {
-            sim.pass();
-        }
+        sim.step(2001);
         sim.stop();
     }
     assert_eq!(sim.errors(), 0, "{}", transcript.text.borrow());
