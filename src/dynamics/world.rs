@@ -73,8 +73,12 @@ impl World {
             hooks,
             &(),
         );
-        for (_, rigid) in self.bodies.iter_mut() {
-            complete_turn(rigid, step);
+        // Only those are touched: rapier looks again at every body somebody may have changed.
+        let fast = self.bodies.iter().filter(|(_, rigid)| turns_fast(rigid, step)).map(|(handle, _)| handle);
+        for handle in fast.collect::<Vec<_>>() {
+            if let Some(rigid) = self.bodies.get_mut(handle) {
+                complete_turn(rigid, step);
+            }
         }
     }
 
@@ -92,13 +96,15 @@ impl World {
     }
 }
 
+fn turns_fast(rigid: &RigidBody, step: f64) -> bool {
+    let angle = rigid.angvel().length() * step;
+    rigid.is_dynamic() && angle >= EXACT_TURN && angle.is_finite()
+}
+
 /// rapier turns a body by the tangent of half the angle: what is missing is made up for, so that wheels turn as fast as they say.
 fn complete_turn(rigid: &mut RigidBody, step: f64) {
     let spin = rigid.angvel();
     let angle = spin.length() * step;
-    if !rigid.is_dynamic() || angle < EXACT_TURN || !angle.is_finite() {
-        return;
-    }
     let missing = Rotation::from_scaled_axis(spin * (step * (1.0 - 2.0 * (angle / 2.0).atan() / angle)));
     let com = rigid.center_of_mass();
     let mut pose = *rigid.position();

@@ -9,11 +9,12 @@ use crate::format::ttt::File;
 use crate::scene::engine_blocks::EngineValues;
 use crate::scene::{DynamicsSettings, Handle, Kept, Kind, Object, Scene, Settings};
 
-/// Scenes and models of other people, where they are at hand.
+/// The smaller ones of other people's scenes and models, where they are at hand.
 pub(crate) fn real_files() -> Vec<PathBuf> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/scenes/files");
     let entries = std::fs::read_dir(folder).into_iter().flatten();
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("a readable folder").path()).collect();
+    files.retain(|path| path.metadata().is_ok_and(|file| file.len() < 300_000));
     files.sort();
     files
 }

@@ -111,14 +111,7 @@ fn contents(body: &mut Reader<'_>) -> FileResult<Contents> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// The smaller ones of other people's scenes, where they are at hand.
-    fn real_files() -> Vec<std::path::PathBuf> {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/scenes/files");
-        let entries = std::fs::read_dir(folder).into_iter().flatten();
-        let paths = entries.map(|entry| entry.expect("a readable folder").path());
-        paths.filter(|path| path.metadata().is_ok_and(|file| file.len() < 300_000)).collect()
-    }
+    use crate::format::scene_file::tests::real_files;
 
     #[test]
     fn real_files_come_back_as_they_were() {
