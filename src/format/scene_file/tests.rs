@@ -14,7 +14,7 @@ pub(crate) fn real_files() -> Vec<PathBuf> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/scenes/files");
     let entries = std::fs::read_dir(folder).into_iter().flatten();
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("a readable folder").path()).collect();
-    files.retain(|path| path.metadata().is_ok_and(|file| file.len() < 300_000));
+    files.retain(|path| path.metadata().is_ok_and(|file| file.len() < 240_000));
     files.sort();
     files
 }
