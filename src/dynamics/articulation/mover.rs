@@ -28,6 +28,13 @@ pub(super) struct Mover {
     pub shift: Vector6<f64>,
 }
 
+/// Where a body is while the gaps are closed.
+pub(super) struct Place {
+    pose: Pose,
+    com: Vector3<f64>,
+    shift: Vector6<f64>,
+}
+
 impl Mover {
     pub(super) fn new(shape: Handle, body: &Body) -> Self {
         let mass = &body.build.mass;
@@ -83,6 +90,15 @@ impl Mover {
         self.com += by.fixed_rows::<3>(0);
         self.pose = Pose::from_parts((self.com - rotation * self.com_in_shape).into(), rotation);
         self.shift += by;
+    }
+
+    /// Where the body is, to be taken back there.
+    pub(super) fn place_now(&self) -> Place {
+        Place { pose: self.pose, com: self.com, shift: self.shift }
+    }
+
+    pub(super) fn take_back(&mut self, place: Place) {
+        (self.pose, self.com, self.shift) = (place.pose, place.com, place.shift);
     }
 
     /// Tells rapier where the body was shifted to, which makes its velocity another one; `most` bounds its spin, rad/s.

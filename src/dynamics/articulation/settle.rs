@@ -4,6 +4,7 @@ use nalgebra::Vector6;
 
 use super::Articulation;
 use super::block_cholesky::Segment;
+use super::mover::{Mover, Place};
 use super::node::Node;
 use crate::dynamics::links::Links;
 use crate::dynamics::world::World;
@@ -13,9 +14,11 @@ const CLOSED: f64 = 1e-9;
 /// Gaps that should have been closed at once, metres and radians.
 const WIDE: f64 = 1e-4;
 /// How often the bodies may be put back in a sub-step.
-const ROUNDS: usize = 6;
-/// Where forces along the links as they were do not close wide gaps, the motion is too fast for the step: bodies turn by no more than
-/// this in a sub-step then, radians, lest energy comes from nowhere.
+const ROUNDS: usize = 8;
+/// A step that closes less than this part of the gaps was made with forces that lead nowhere.
+const PROGRESS: f64 = 0.75;
+/// Where no forces close wide gaps, the motion is too fast for the step: bodies turn by no more than this in a sub-step then, radians,
+/// lest energy comes from nowhere.
 const RESOLVED_TURN: f64 = 0.1;
 
 impl Articulation {
@@ -26,26 +29,38 @@ impl Articulation {
             mover.place(world);
             mover.shift = Vector6::zeros();
         }
-        let (mut before, mut unresolved) = (f64::INFINITY, false);
+        let most = if self.close_gaps(links) { f64::MAX } else { RESOLVED_TURN / step };
+        self.movers.iter().for_each(|mover| mover.tell(world, step, most));
+    }
+
+    /// Forces act along the links as they were. Where that leads nowhere, as near a position in which a loop can fold two ways, the bodies
+    /// are taken back and pushed along the links as they are. False when wide gaps remain.
+    fn close_gaps(&mut self, links: &Links) -> bool {
+        let mut pushes = self.gaps(links);
+        let mut wide = widest(&pushes);
+        let mut is_current = false;
         for _ in 0..ROUNDS {
-            let mut pushes = self.gaps(links);
-            let widest = pushes.iter().map(|gap| gap.amax()).fold(0.0, f64::max);
-            if widest < CLOSED || !widest.is_finite() {
+            if wide < CLOSED || !wide.is_finite() {
                 break;
             }
-            // Forces act along the links as they were; only where that leads nowhere, as they are now.
-            if widest > before / 4.0 {
-                unresolved |= widest > WIDE;
-                if !self.renew(links) {
-                    break;
-                }
-            }
-            before = widest;
+            let places: Vec<Place> = self.movers.iter().map(Mover::place_now).collect();
+            let gaps = pushes.clone();
             self.matrix.solve(&self.pattern, &mut pushes);
             self.close(&pushes);
+            pushes = self.gaps(links);
+            let left = widest(&pushes);
+            if left <= wide * (1.0 - PROGRESS) || is_current {
+                (wide, is_current) = (left, false);
+                continue;
+            }
+            self.movers.iter_mut().zip(places).for_each(|(mover, place)| mover.take_back(place));
+            pushes = gaps;
+            if !self.renew(links) {
+                break;
+            }
+            is_current = true;
         }
-        let most = if unresolved { RESOLVED_TURN / step } else { f64::MAX };
-        self.movers.iter().for_each(|mover| mover.tell(world, step, most));
+        wide <= WIDE
     }
 
     fn gaps(&self, links: &Links) -> Vec<Segment> {
@@ -76,4 +91,8 @@ impl Articulation {
             mover.shift(&(mover.response * push));
         }
     }
+}
+
+fn widest(gaps: &[Segment]) -> f64 {
+    gaps.iter().map(|gap| gap.amax()).fold(0.0, f64::max)
 }
