@@ -2585,13 +2585,13 @@ function sim.setEngineBoolParam(paramId, objectHandle, boolParam) end
 ---@param boolParam boolean the value
 function sim.setEngineBoolParameter(paramId, objectHandle, boolParam) end
 
---- Sets a float parameter of a physics engine.
+--- Sets a float parameter of a physics engine. The step size changes only while the simulation is stopped.
 ---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
 ---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter
 ---@param floatParam number the value
 function sim.setEngineFloatParam(paramId, objectHandle, floatParam) end
 
---- Sets a float parameter of a physics engine.
+--- Sets a float parameter of a physics engine. The step size changes only while the simulation is stopped.
 ---@deprecated properties
 ---@param paramId integer sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
 ---@param objectHandle integer a shape, joint or dummy; -1 for a global parameter

@@ -3,6 +3,7 @@
 use api_macro::api;
 
 use super::{ApiFn, Cx, Result, functions};
+use crate::scene::engine_params::is_step_size;
 use crate::scene::{Handle, SceneError};
 use crate::script::Number;
 
@@ -23,6 +24,14 @@ fn target(handle: Number) -> Result<Option<Handle>> {
     }
 }
 
+fn set(cx: &mut Cx, number: i64, target: Option<Handle>, value: f64) -> Result<()> {
+    if is_step_size(number) && value.is_finite() {
+        cx.sim().set_physics_step(value);
+        return Ok(());
+    }
+    Ok(cx.scene_mut().set_engine_param(number, target, value)?)
+}
+
 /// A float parameter of a physics engine.
 ///
 /// @param paramId sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
@@ -33,7 +42,7 @@ fn get_engine_float_param(cx: &Cx, param_id: Number, object_handle: Number) -> R
     Ok(cx.scene().engine_param(param_id.0, target(object_handle)?)?)
 }
 
-/// Sets a float parameter of a physics engine.
+/// Sets a float parameter of a physics engine. The step size changes only while the simulation is stopped.
 ///
 /// @param paramId sim.bullet_*, sim.ode_*, sim.newton_*, sim.mujoco_*, ...
 /// @param objectHandle a shape, joint or dummy; -1 for a global parameter
@@ -41,7 +50,7 @@ fn get_engine_float_param(cx: &Cx, param_id: Number, object_handle: Number) -> R
 #[api("sim.setEngineFloatParam")]
 fn set_engine_float_param(cx: &mut Cx, param_id: Number, object_handle: Number, float_param: f64) -> Result<()> {
     let target = target(object_handle)?;
-    Ok(cx.scene_mut().set_engine_param(param_id.0, target, float_param)?)
+    set(cx, param_id.0, target, float_param)
 }
 
 /// An integer parameter of a physics engine.
@@ -62,7 +71,7 @@ fn get_engine_int32_param(cx: &Cx, param_id: Number, object_handle: Number) -> R
 #[api("sim.setEngineInt32Param")]
 fn set_engine_int32_param(cx: &mut Cx, param_id: Number, object_handle: Number, int32_param: Number) -> Result<()> {
     let target = target(object_handle)?;
-    Ok(cx.scene_mut().set_engine_param(param_id.0, target, int32_param.0 as f64)?)
+    set(cx, param_id.0, target, int32_param.0 as f64)
 }
 
 /// A switch of a physics engine.
@@ -83,5 +92,5 @@ fn get_engine_bool_param(cx: &Cx, param_id: Number, object_handle: Number) -> Re
 #[api("sim.setEngineBoolParam")]
 fn set_engine_bool_param(cx: &mut Cx, param_id: Number, object_handle: Number, bool_param: bool) -> Result<()> {
     let target = target(object_handle)?;
-    Ok(cx.scene_mut().set_engine_param(param_id.0, target, f64::from(u8::from(bool_param)))?)
+    set(cx, param_id.0, target, f64::from(u8::from(bool_param)))
 }

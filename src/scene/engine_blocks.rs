@@ -2,7 +2,7 @@
 //!
 //! What a row holds beyond the numbers known here is ignored; it has no counterpart.
 
-use super::engine_params::{EngineOwner, Numbered, numbered};
+use super::engine_params::{EngineOwner, Numbered, is_step_size, numbered};
 use super::engine_values::{element, value_in, with_element};
 use super::joint::Joint;
 use super::shape::Material;
@@ -44,9 +44,6 @@ const JOINT: [Rows; 5] = [
 /// Dummies have parameters of MuJoCo only.
 const DUMMY: Rows = rows(46_001, 21, 47_001, 2);
 
-/// The first real number of each engine is its step size, which is a setting of the scene.
-const STEP_SIZES: [i64; 5] = [1, 9001, 18_001, 27_001, 37_001];
-
 /// What has engine parameters of its own.
 pub trait EngineValues {
     fn rows(&self, engine: usize) -> Option<(i64, usize, i64, usize)>;
@@ -57,7 +54,7 @@ pub trait EngineValues {
     fn load_engine(&mut self, engine: usize, reals: &[f64], ints: &[i32]) {
         let Some((first_real, _, first_int, _)) = self.rows(engine) else { return };
         for (number, real) in (first_real..).zip(reals) {
-            if real.is_finite() && !STEP_SIZES.contains(&number) {
+            if real.is_finite() && !is_step_size(number) {
                 self.set_number(number, *real);
             }
         }

@@ -14,6 +14,9 @@ use super::{Data, ValueType};
 /// format and SPEC-dynamics 5 and 6; those of Vortex' switches, which neither tells, are our choice.
 const TABLE: &str = include_str!("engine_params.tsv");
 
+/// The first real number of each engine is its step size: one for all here, a setting of the scene.
+const STEP_SIZES: [i64; 5] = [1, 9001, 18_001, 27_001, 37_001];
+
 /// The engines by their number (`sim.physics_*`), as they stand in front of the names.
 pub const ENGINES: [&str; 5] = ["bullet", "ode", "vortex", "newton", "mujoco"];
 
@@ -120,6 +123,11 @@ fn numbers() -> BTreeMap<i64, Numbered> {
         }
     }
     all
+}
+
+/// Whether this old number is the step size of an engine.
+pub fn is_step_size(number: i64) -> bool {
+    STEP_SIZES.contains(&number)
 }
 
 #[cfg(test)]

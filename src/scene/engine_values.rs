@@ -1,16 +1,13 @@
 //! The values of engine parameters. Those the physics here uses are fields of materials and joints; all others are kept beside them as
 //! they were set.
 
-use super::engine_params::{ENGINES, EngineOwner, EngineParam, Numbered, engine_params, numbered};
+use super::engine_params::{ENGINES, EngineOwner, EngineParam, Numbered, engine_params, is_step_size, numbered};
 use super::joint::Joint;
 use super::shape::Material;
 use super::{Data, Field, Handle, Kept, Object, Scene, SceneError, SceneResult};
 
 /// The version of Bullet that has the newer friction; version 0 is Bullet 2.78.
 const BULLET_283: i64 = 283;
-/// The step size of each engine: one for all here.
-const STEP_SIZES: [i64; 4] = [1, 9001, 18001, 27001];
-
 impl Scene {
     /// The value of an engine parameter: of a shape, a joint or a dummy, or of the scene (`object` does not matter then).
     ///
@@ -46,7 +43,7 @@ impl Scene {
     /// # Errors
     /// When there is no such parameter, or the object is not of its type.
     pub fn engine_param(&self, number: i64, object: Option<Handle>) -> SceneResult<f64> {
-        if STEP_SIZES.contains(&number) {
+        if is_step_size(number) {
             return Ok(self.settings().dynamics.step);
         }
         match numbered(number).ok_or(SceneError::InvalidArgument)? {
@@ -63,17 +60,13 @@ impl Scene {
         }
     }
 
-    /// Sets an old parameter of an engine.
+    /// Sets an old parameter of an engine, but for its step size, which is a setting of the simulation.
     ///
     /// # Errors
     /// When there is no such parameter, the object is not of its type, or the value is not finite.
     pub fn set_engine_param(&mut self, number: i64, object: Option<Handle>, value: f64) -> SceneResult<()> {
         if !value.is_finite() {
             return Err(SceneError::InvalidData);
-        }
-        if STEP_SIZES.contains(&number) {
-            self.modify_settings(|settings| settings.dynamics.step = value.clamp(1e-5, settings.time_step.max(1e-5)));
-            return Ok(());
         }
         match numbered(number).ok_or(SceneError::InvalidArgument)? {
             Numbered::Element(param, at) => {

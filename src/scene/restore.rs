@@ -96,8 +96,10 @@ impl Scene {
             object.measured = super::Measured::default();
             (object.dynamic_flag, object.dynamics_reset) = (0, false);
             end_suspension(object);
-            if let Some(initial) = object.initial.take().filter(|_| !kept.contains(&handle)) {
-                restored.push((handle, initial));
+            match object.initial.take().filter(|_| !kept.contains(&handle)) {
+                Some(initial) => restored.push((handle, initial)),
+                // The handle was just read.
+                None => drop(self.modify(handle, Field::Other, |object| forget_run(&mut object.kind))),
             }
         }
         self.restore_parents(&restored);
@@ -162,21 +164,33 @@ impl InitialState {
     }
 
     fn restore_kind(&self, kind: &mut Kind) {
-        match (kind, &self.kind) {
+        match (&mut *kind, &self.kind) {
             (Kind::Joint(joint), InitialKind::Joint(initial)) => restore_joint(joint, initial),
-            (Kind::Shape(shape), InitialKind::Shape(initial)) => {
-                shape.dynamics.initial_velocity = *initial;
-                shape.velocity = Velocity::default();
-                (shape.force, shape.torque) = ([0.0; 3], [0.0; 3]);
-            }
-            (Kind::ForceSensor(sensor), _) => {
-                sensor.samples.clear();
-                (sensor.raw, sensor.filtered, sensor.error) = (None, None, None);
-                sensor.violations = 0;
-            }
-            (Kind::ProximitySensor(sensor), _) => sensor.detection = None,
+            (Kind::Shape(shape), InitialKind::Shape(initial)) => shape.dynamics.initial_velocity = *initial,
             _ => {}
         }
+        forget_run(kind);
+    }
+}
+
+/// Forgets what was measured, and what has no meaning beyond the run.
+fn forget_run(kind: &mut Kind) {
+    match kind {
+        Kind::Joint(joint) => {
+            (joint.velocity, joint.accel, joint.motion) = (0.0, 0.0, None);
+            (joint.error, joint.force, joint.raw_force) = (None, None, None);
+        }
+        Kind::Shape(shape) => {
+            shape.velocity = Velocity::default();
+            (shape.force, shape.torque) = ([0.0; 3], [0.0; 3]);
+        }
+        Kind::ForceSensor(sensor) => {
+            sensor.samples.clear();
+            (sensor.raw, sensor.filtered, sensor.error) = (None, None, None);
+            sensor.violations = 0;
+        }
+        Kind::ProximitySensor(sensor) => sensor.detection = None,
+        _ => {}
     }
 }
 
@@ -199,8 +213,6 @@ fn restore_joint(joint: &mut Joint, initial: &Joint) {
     joint.target_force = initial.target_force;
     joint.spring = initial.spring;
     (joint.max_vel, joint.max_accel, joint.max_jerk) = (initial.max_vel, initial.max_accel, initial.max_jerk);
-    (joint.velocity, joint.accel, joint.motion) = (0.0, 0.0, None);
-    (joint.error, joint.force, joint.raw_force) = (None, None, None);
 }
 
 #[cfg(test)]

@@ -1,4 +1,5 @@
-//! One dynamics call: sub-steps with the callbacks of scripts between them (SPEC-dynamics section 2).
+//! One dynamics call: sub-steps with the callbacks of scripts between them (SPEC-dynamics section 2). Callbacks have old names, by which
+//! scripts of V-REP's time know them; both are called.
 
 use std::rc::Rc;
 
@@ -9,6 +10,9 @@ use super::verbosity;
 use crate::dynamics::{Call, Dynamics, JointRequest, Trigger, Verdict};
 use crate::scene::joint::Joint;
 use crate::scene::{Data, Handle, Scene};
+
+/// What scripts are asked by about contacts: the old name first.
+const CONTACT: [SysCall; 2] = [SysCall::ContactCallback, SysCall::Contact];
 
 impl Sim {
     /// Advances the dynamics by `time_step` seconds; returns the number of sub-steps.
@@ -36,7 +40,7 @@ impl Sim {
     }
 
     fn dynamics_callback(self: &Rc<Self>, call: Call, pass: u32, after_step: bool) {
-        if self.nobody_responds(SysCall::Dyn) {
+        if self.nobody_responds(SysCall::Dyn) && self.nobody_responds(SysCall::DynCallback) {
             return;
         }
         let data = Data::map([
@@ -46,7 +50,9 @@ impl Sim {
             ("dynStepSize", call.step.into()),
             ("afterStep", after_step.into()),
         ]);
-        self.broadcast(SysCall::Dyn, &[data]);
+        for callback in [SysCall::DynCallback, SysCall::Dyn] {
+            self.broadcast(callback, std::slice::from_ref(&data));
+        }
     }
 
     /// Sets the motors; joints in callback control are driven as a script answers.
@@ -54,13 +60,23 @@ impl Sim {
         let requests = self.with_dynamics(|dynamics, scene| dynamics.prepare(scene, pass)).unwrap_or_default();
         for request in requests {
             let Some(data) = self.joint_data(&request, call, pass) else { continue };
-            let answer = self.ask(&self.joint_chain(request.joint), SysCall::Joint, &[data]);
+            let answer = self.ask_about_joint(request.joint, &[data]);
             let number = |names: [&str; 2]| names.into_iter().find_map(|name| answer.as_ref()?.field(name)?.as_f64());
             let (velocity, force) = (number(["velocity", "vel"]), number(["force", "ctrl"]));
             if velocity.is_some() || force.is_some() {
                 self.with_dynamics(|dynamics, _| dynamics.drive(request.joint, velocity, force));
             }
         }
+    }
+
+    /// The scripts of the joint are asked by the old name first.
+    fn ask_about_joint(self: &Rc<Self>, joint: Handle, data: &[Data]) -> Option<Data> {
+        if !self.nobody_responds(SysCall::JointCallback)
+            && let Some(answer) = self.ask(&self.scripts_of_object(joint), SysCall::JointCallback, data)
+        {
+            return Some(answer);
+        }
+        self.ask(&self.joint_chain(joint), SysCall::Joint, data)
     }
 
     fn joint_data(&self, request: &JointRequest, call: Call, pass: u32) -> Option<Data> {
@@ -71,7 +87,7 @@ impl Sim {
 
     /// One sub-step. The scene is nobody's while the engine works, because it may ask scripts about contacts.
     fn dynamics_pass(self: &Rc<Self>, number: u32) {
-        let asks = !self.nobody_responds(SysCall::Contact);
+        let asks = CONTACT.iter().any(|&callback| !self.nobody_responds(callback));
         let started = self.with_dynamics(|dynamics, scene| dynamics.start_pass(scene, asks));
         let Some(mut pass) = started.flatten() else { return };
         let judge = |first: Handle, second: Handle| self.judge_contact(first, second);
@@ -95,7 +111,8 @@ impl Sim {
         let engine = self.scene.borrow().settings().dynamics.engine[0];
         let data =
             Data::map([("handle1", first.raw().into()), ("handle2", second.raw().into()), ("engine", engine.into())]);
-        let answer = self.ask(&self.everyone_reversed(), SysCall::Contact, &[data]);
+        let everyone = self.everyone_reversed();
+        let answer = CONTACT.iter().find_map(|&callback| self.ask(&everyone, callback, std::slice::from_ref(&data)));
         answer.map_or(Verdict::Default, |answer| verdict(&answer, engine))
     }
 
