@@ -194,7 +194,7 @@ function sim.auxFunc(cmd, ...) end
 ---@return integer result 1, or 0 if there is no such console
 function sim.auxiliaryConsoleClose(consoleHandle) end
 
---- Opens a console. What is printed to it goes to the log, under its title.
+--- Opens a console. What is printed to it goes to the log under its title, at the level infos: `--verbosity infos` shows it.
 ---@param title string of the window
 ---@param MaxLines? integer
 ---@param mode? integer 1: it closes at the end of the simulation; other bits are the window's

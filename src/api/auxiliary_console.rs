@@ -1,6 +1,6 @@
 //! `sim.*`: what the original shows in windows of its own, and hears from its user: consoles, messages; and semaphores.
 //!
-//! There are no windows here: the text of a console goes to the log, and the user says nothing.
+//! There are no windows here: the text of a console goes to the log for those who ask for it, and the user says nothing.
 
 use api_macro::api;
 
@@ -20,7 +20,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// Bit of the mode of a console: it closes at the end of the simulation.
 const CLOSES_AT_END: i64 = 1;
 
-/// Opens a console. What is printed to it goes to the log, under its title.
+/// Opens a console. What is printed to it goes to the log under its title, at the level infos: `--verbosity infos` shows it.
 ///
 /// @param title of the window
 /// @param maxLines the window's, without effect
@@ -56,7 +56,7 @@ fn auxiliary_console_print(cx: &Cx, console_handle: i64, #[default(None)] text: 
     let Some(title) = cx.sim().app.borrow().consoles.title(console_handle) else { return Ok(0) };
     if let Some(Bytes(text)) = text {
         let text = String::from_utf8_lossy(&text);
-        cx.env().log(verbosity::SCRIPT_INFOS, &format!("{title}: {}", text.trim_end_matches('\n')));
+        cx.env().log(verbosity::INFOS, &format!("{title}: {}", text.trim_end_matches('\n')));
     }
     Ok(1)
 }

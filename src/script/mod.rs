@@ -46,6 +46,7 @@ mod tubes;
 pub mod verbosity;
 mod waiting;
 pub(crate) mod wall_clock;
+mod web_socket_log;
 pub(crate) mod web_sockets;
 
 pub use args::{

@@ -8,7 +8,6 @@ use super::cx::Cx;
 use super::handler::Handler;
 use super::instance::Script;
 use super::sim::Sim;
-use super::verbosity;
 use crate::io::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent};
 use crate::scene::Data;
 
@@ -166,7 +165,7 @@ impl Sim {
         };
         match event {
             WsEvent::Open(connection) => drop(call(Occasion::Open, connection, &[])),
-            WsEvent::Fail(connection, _) | WsEvent::Refused(connection, _) => {
+            WsEvent::Fail(connection, _) | WsEvent::Unreachable(connection, _) | WsEvent::Refused(connection, _) => {
                 drop(call(Occasion::Fail, connection, &[]))
             }
             WsEvent::Close(connection) => drop(call(Occasion::Close, connection, &[])),
@@ -176,26 +175,6 @@ impl Sim {
                 asker.answer(results.map_or_else(|| HttpReply::status(404), http_reply));
             }
         }
-    }
-
-    /// The access log, for those who ask for it.
-    fn log_web_socket(&self, endpoint: &Endpoint, event: &WsEvent) {
-        if let WsEvent::Refused(_, origin) = event {
-            let text =
-                format!("{}: a page of {origin} was refused; --allow-origin {origin} lets it in", endpoint.handle());
-            self.log(verbosity::SCRIPT_WARNINGS | verbosity::ONCE, &text);
-        }
-        let verbose = self.app.borrow().named_params.get("simWS.verbose").is_some_and(|value| value != b"0");
-        let text = match event {
-            _ if !verbose => return,
-            WsEvent::Open(connection) => format!("{connection:x} is open"),
-            WsEvent::Refused(..) => return,
-            WsEvent::Fail(connection, reason) => format!("{connection:x} has failed: {reason}"),
-            WsEvent::Close(connection) => format!("{connection:x} is closed"),
-            WsEvent::Message(..) => return,
-            WsEvent::Http { connection, resource, .. } => format!("{connection:x} asks for {resource}"),
-        };
-        self.log(verbosity::SCRIPT_INFOS, &format!("{}: connection {text}", endpoint.handle()));
     }
 }
 

@@ -2,7 +2,6 @@
 
 use tokio::net::TcpStream;
 use tokio::time::timeout;
-use tokio_tungstenite::tungstenite::Error;
 use tokio_tungstenite::tungstenite::client::{IntoClientRequest, uri_mode};
 use tokio_tungstenite::tungstenite::handshake::client::Request as Handshake;
 use tokio_tungstenite::tungstenite::http::header::USER_AGENT;
@@ -46,18 +45,20 @@ impl Request {
 /// Connects, and converses until the connection ends.
 pub(super) async fn connect(request: Request, reports: Reports) {
     let connection = request.connection;
-    let reason = match timeout(HANDSHAKE, open(request)).await {
+    let event = match timeout(HANDSHAKE, open(request)).await {
         Ok(Ok(socket)) => return connection::converse(socket, connection, &reports).await,
-        Ok(Err(error)) => error.to_string(),
-        Err(_) => "no answer in time".to_owned(),
+        Ok(Err(event)) => event,
+        Err(_) => WsEvent::Fail(connection, "no answer in time".to_owned()),
     };
-    reports.tell(WsEvent::Fail(connection, reason)).await;
+    reports.tell(event).await;
 }
 
-async fn open(request: Request) -> Result<WebSocketStream<TcpStream>, Error> {
-    let stream = TcpStream::connect((request.host.as_str(), request.port)).await?;
-    stream.set_nodelay(true)?;
-    let (socket, _response) = client_async_with_config(request.handshake, stream, Some(config())).await?;
+async fn open(request: Request) -> Result<WebSocketStream<TcpStream>, WsEvent> {
+    let unreachable = |error| WsEvent::Unreachable(request.connection, error);
+    let stream = TcpStream::connect((request.host.as_str(), request.port)).await.map_err(unreachable)?;
+    let _ = stream.set_nodelay(true);
+    let answer = client_async_with_config(request.handshake, stream, Some(config())).await;
+    let (socket, _response) = answer.map_err(|error| WsEvent::Fail(request.connection, error.to_string()))?;
     Ok(socket)
 }
 

@@ -61,6 +61,8 @@ pub(crate) enum WsEvent {
     Open(Connection),
     /// There will be no connection, and why.
     Fail(Connection, String),
+    /// The same for a client that has not reached a server.
+    Unreachable(Connection, std::io::Error),
     /// The same for a page of this origin, which is not welcome.
     Refused(Connection, String),
     Close(Connection),

@@ -1,0 +1,75 @@
+//! What the log says of WebSocket endpoints.
+
+use std::io;
+
+use super::sim::Sim;
+use super::web_sockets::Endpoint;
+use super::{verbosity, wall_clock};
+use crate::io::WsEvent;
+
+impl Sim {
+    pub(super) fn log_web_socket(&self, endpoint: &Endpoint, event: &WsEvent) {
+        match event {
+            WsEvent::Refused(_, origin) => self.log_refused_page(endpoint, origin),
+            WsEvent::Unreachable(_, error) => self.log_unreachable(error),
+            _ => self.log_access(endpoint, event),
+        }
+    }
+
+    fn log_refused_page(&self, endpoint: &Endpoint, origin: &str) {
+        let text = format!("{}: a page of {origin} was refused; --allow-origin {origin} lets it in", endpoint.handle());
+        self.log(verbosity::SCRIPT_WARNINGS | verbosity::ONCE, &text);
+    }
+
+    fn log_unreachable(&self, error: &io::Error) {
+        for line in unreachable(error) {
+            let line = format!("[{}] {line}", wall_clock::utc_date_and_time());
+            self.log(verbosity::SCRIPT_WARNINGS | verbosity::UNDECORATED, &line);
+        }
+    }
+
+    /// The access log, for those who ask for it.
+    fn log_access(&self, endpoint: &Endpoint, event: &WsEvent) {
+        let verbose = self.app.borrow().named_params.get("simWS.verbose").is_some_and(|value| value != b"0");
+        let text = match event {
+            _ if !verbose => return,
+            WsEvent::Open(connection) => format!("{connection:x} is open"),
+            WsEvent::Refused(..) | WsEvent::Unreachable(..) => return,
+            WsEvent::Fail(connection, reason) => format!("{connection:x} has failed: {reason}"),
+            WsEvent::Close(connection) => format!("{connection:x} is closed"),
+            WsEvent::Message(..) => return,
+            WsEvent::Http { connection, resource, .. } => format!("{connection:x} asks for {resource}"),
+        };
+        self.log(verbosity::SCRIPT_INFOS, &format!("{}: connection {text}", endpoint.handle()));
+    }
+}
+
+/// A failed connection in the words and the form of websocketpp, the original's library, which existing tools look for. It asks
+/// first who the peer is, in vain.
+fn unreachable(error: &io::Error) -> Vec<String> {
+    let text = error.to_string();
+    let reason = text.split(" (os error").next().unwrap_or_default();
+    let mut lines = Vec::new();
+    if let Some(code) = error.raw_os_error() {
+        lines.push(format!("[info] asio async_connect error: asio.system:{code} ({reason})"));
+        lines.push(
+            "[info] Error getting remote endpoint: asio.system:107 (Transport endpoint is not connected)".to_owned(),
+        );
+    }
+    lines.push(format!("[error] handle_connect error: {reason}"));
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn failed_connections() {
+        let refused = unreachable(&io::Error::from_raw_os_error(111));
+        assert_eq!(refused.len(), 3);
+        assert_eq!(refused[0], "[info] asio async_connect error: asio.system:111 (Connection refused)");
+        assert_eq!(refused[2], "[error] handle_connect error: Connection refused");
+        assert_eq!(unreachable(&io::Error::other("no such host")), ["[error] handle_connect error: no such host"]);
+    }
+}
