@@ -206,6 +206,7 @@ fn is_dynamic_mode(scene: &Scene, joint: &Joint) -> bool {
         let master = match joint.mode {
             JointMode::Dynamic => return true,
             JointMode::Dependent => joint.dependency.map(|law| law.master),
+            _ if joint.hybrid => return true,
             JointMode::Kinematic | JointMode::Motion | JointMode::InverseKinematics => None,
         };
         match master.and_then(|master| scene.object(master).ok()?.joint().ok()) {

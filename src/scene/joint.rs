@@ -44,6 +44,8 @@ pub enum Control {
 pub struct Joint {
     pub joint_type: JointType,
     pub mode: JointMode,
+    /// Moved by the physics whatever its mode, as old scenes have it for inverse kinematics: its motor seeks the target position.
+    pub hybrid: bool,
     pub control: Control,
     pub cyclic: bool,
     /// Lower limit and width of the interval.
@@ -113,6 +115,7 @@ impl Joint {
         Self {
             joint_type,
             mode,
+            hybrid: false,
             control: Control::Free,
             cyclic: revolute || joint_type == JointType::Spherical,
             min,

@@ -115,6 +115,7 @@ impl Joint {
             return;
         }
         self.mode = mode;
+        self.hybrid = false;
         self.motion = None;
         self.error = None;
         self.target_position = self.position;

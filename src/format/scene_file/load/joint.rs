@@ -22,6 +22,7 @@ pub(super) fn joint(context: &Context<'_>, chunk: &Chunk) -> Joint {
         _ => JointType::Revolute,
     };
     let mut joint = Joint::new(joint_type, mode(chunk));
+    joint.hybrid = chunk.switches.unwrap_or(0) & 0x40 != 0;
     limits(&mut joint, chunk);
     position(&mut joint, chunk);
     control(&mut joint, chunk);
@@ -53,7 +54,8 @@ fn limits(joint: &mut Joint, chunk: &Chunk) {
     let fast = [TAU; 3];
     [joint.max_vel, joint.max_accel, joint.max_jerk] = chunk.max_vel_accel_jerk.unwrap_or(fast);
     // Up to 4.3 joints that physics moved had a velocity limit of their own.
-    if let Some(limit) = chunk.upper_velocity_limit.filter(|limit| joint.mode == JointMode::Dynamic && *limit > 0.0) {
+    let physical = joint.hybrid || joint.mode == JointMode::Dynamic;
+    if let Some(limit) = chunk.upper_velocity_limit.filter(|limit| physical && *limit > 0.0) {
         joint.max_vel = limit.into();
     }
 }

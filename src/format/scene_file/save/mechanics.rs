@@ -13,6 +13,7 @@ use crate::scene::joint::{Control, Joint};
 const CYCLIC: u8 = 0x1;
 const MOTOR: u8 = 0x10;
 const CONTROL_LOOP: u8 = 0x20;
+const HYBRID: u8 = 0x40;
 const SPRING: u8 = 0x80;
 /// MuJoCo among the engines.
 const MUJOCO: usize = 4;
@@ -57,7 +58,7 @@ fn switches(joint: &Joint) -> u8 {
         Control::Position | Control::PositionOrCallback | Control::Callback => MOTOR | CONTROL_LOOP,
         Control::Spring | Control::SpringOrCallback => MOTOR | CONTROL_LOOP | SPRING,
     };
-    control | if joint.cyclic { CYCLIC } else { 0 }
+    control | if joint.cyclic { CYCLIC } else { 0 } | if joint.hybrid { HYBRID } else { 0 }
 }
 
 /// Master, coefficient, offset. A joint whose master is not saved depends on none.
