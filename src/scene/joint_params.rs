@@ -58,12 +58,12 @@ impl Joint {
             2005..=2011 => pose_to_array(&self.intrinsic_pose())[element(2005)],
             2012 => self.velocity,
             2013..=2016 => self.spherical.coords[element(2013)],
-            2017 => self.max(),
             2018 | 2019 => self.spring[element(2018)],
             2022..=2024 => self.error.map_or(0.0, |e| e.translation.vector[element(2022)]),
             2028 => self.error.map_or(0.0, |e| e.translation.vector.norm()),
             2029 => self.error.map_or(0.0, |e| e.rotation.angle()),
-            2036 => self.max_vel,
+            // The older name of the limit.
+            2017 | 2036 => self.max_vel,
             2037 => self.max_accel,
             2038 => self.max_jerk,
             2042 => self.screw_lead,
@@ -81,9 +81,8 @@ impl Joint {
             // From before engines had gains of their own.
             2002..=2004 => self.gains.iter_mut().for_each(|gains| gains[element(2002)] = value),
             2013..=2016 => self.set_spherical(element(2013), value),
-            2017 => self.set_interval(self.cyclic, self.min, value - self.min),
             2018 | 2019 => self.spring[element(2018)] = value,
-            2036 => self.max_vel = value,
+            2017 | 2036 => self.max_vel = value,
             2037 => self.max_accel = value,
             2038 => self.max_jerk = value,
             2042 => self.set_screw_lead(value),
@@ -105,6 +104,14 @@ impl Joint {
 mod tests {
     use super::*;
     use crate::scene::joint::{JointMode, JointType};
+
+    #[test]
+    fn upper_limit_is_that_of_the_velocity() {
+        let mut joint = Joint::new(JointType::Revolute, JointMode::Dynamic);
+        assert!(joint.set_float_param(2017, 0.5));
+        assert_eq!((joint.max_vel, joint.float_param(2017)), (0.5, Some(0.5)));
+        assert_eq!(joint.range, std::f64::consts::TAU);
+    }
 
     #[test]
     fn control_brings_its_target_velocity() {
