@@ -48,6 +48,8 @@ function sysCall_init()
     simWS.setOpenHandler(server, 'opened')
     simWS.setMessageHandler(server, 'received@lua')
     simWS.setCloseHandler(server, 'closed')
+    -- The log of the connection that fails has the time.
+    sim.setInt32Param(sim.intparam_verbosity, sim.verbosity_errors)
     local nobody = simWS.connect('ws://127.0.0.1:1/')
     simWS.setFailHandler(nobody, function(client, connection)
         say('client failed', client, connection)
