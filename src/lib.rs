@@ -12,5 +12,5 @@ mod simulator;
 pub(crate) mod wire;
 
 pub use format::scene_file::SceneFile;
-pub use script::{Console, LogLine, Options, Silent, SimulationState};
+pub use script::{Console, Limits, LogLine, Options, Silent, SimulationState};
 pub use simulator::{Error, ScriptKind, ScriptRef, Simulator};

@@ -31,6 +31,7 @@ pub(crate) struct Env {
     /// What a library keeps for the state, by the library's own type; it goes with the state.
     pub library_data: RefCell<HashMap<TypeId, Rc<dyn Any>>>,
     warned: RefCell<HashSet<&'static str>>,
+    watched: bool,
 }
 
 /// May code of this state yield, and when is it made to?
@@ -76,6 +77,7 @@ impl Env {
             events_wanted: Rc::clone(&sim.events.listening),
             library_data: RefCell::default(),
             warned: RefCell::default(),
+            watched: sim.options.limits.is_some(),
         }
     }
 
@@ -96,6 +98,16 @@ impl Env {
         if let Some(sim) = self.sim.upgrade() {
             sim.log_from(&self.script, level, text);
         }
+    }
+
+    /// Whether code of this state may be ended from outside at any time.
+    pub(crate) fn is_watched(&self) -> bool {
+        self.watched
+    }
+
+    /// Whether the user wants the program to end.
+    pub(crate) fn is_interrupted(&self) -> bool {
+        self.sim.upgrade().is_none_or(|sim| sim.is_interrupted())
     }
 
     /// Turns what a call has changed into events, if anybody listens.
@@ -129,7 +141,7 @@ impl Runtime {
     /// A state with the standard libraries only; `startup` fills it.
     pub(crate) fn new(sim: &Rc<Sim>, script: &Rc<Script>) -> Self {
         let env = Box::new(Env::new(sim, script));
-        let lua = State::new(&raw const *env);
+        let lua = State::new(&raw const *env, Rc::clone(&sim.lua_budget));
         Self { lua, env }
     }
 

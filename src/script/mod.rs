@@ -62,7 +62,7 @@ pub use error::{ApiError, ApiResult};
 pub use instance::Script;
 pub use property::{Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2, Vector3};
 pub use returns::{IntoScript, Nil, Results};
-pub use sim::Options;
+pub use sim::{Limits, Options};
 pub use threads::LevelChange;
 
 pub(crate) use app_storage::Section;
@@ -83,7 +83,7 @@ pub(crate) use threads::{auto_level, changed_level, set_auto_level, use_up_slice
 
 /// Compiles Lua text to bytecode.
 pub(crate) fn compile(code: &[u8], chunk_name: &str) -> Result<Vec<u8>, String> {
-    let state = lua::State::new(std::ptr::null());
+    let state = lua::State::new(std::ptr::null(), std::rc::Rc::default());
     let stack = state.stack();
     stack.load(code, chunk_name, false).map_err(|error| error.text)?;
     Ok(stack.dump())

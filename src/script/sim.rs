@@ -15,6 +15,7 @@ use super::clock::Clock;
 use super::console::{Console, LogLine};
 use super::events::EventStream;
 use super::instance::{Detached, Script};
+use super::lua::Budget;
 use super::order::OrderCache;
 use super::property::{AppData, SignalOwners};
 use super::random::Random;
@@ -51,6 +52,8 @@ pub struct Options {
     pub exec_unsafe_ext: bool,
     /// Set it to end calls that wait for the world outside: they raise an error.
     pub stop: Arc<AtomicBool>,
+    /// What scripts may use up; None: whatever they like.
+    pub limits: Option<Limits>,
     /// Where servers of scripts listen.
     pub listen_address: IpAddr,
     /// Origins of web pages that may use the remote API, besides those of this machine; `*` for all.
@@ -69,16 +72,27 @@ impl Default for Options {
             exec_unsafe: true,
             exec_unsafe_ext: true,
             stop: Arc::default(),
+            limits: None,
             listen_address: Ipv4Addr::LOCALHOST.into(),
             web_origins: Vec::new(),
         }
     }
 }
 
+/// What holds scripts that are not trusted to end. Lua code runs slower under them, since it is looked at every thousand instructions:
+/// by then `Options::stop` ends it too, wherever it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Bytes all scripts together may have.
+    pub memory: usize,
+}
+
 /// Everything a running simulator consists of. Borrows of the parts never outlive a statement that calls a script.
 pub(crate) struct Sim {
     pub options: Options,
     pub registry: &'static Registry,
+    /// The memory of all scripts.
+    pub lua_budget: Rc<Budget>,
     pub scene: RefCell<Scene>,
     pub clock: Clock,
     pub scripts: RefCell<BTreeMap<i64, Rc<Script>>>,
@@ -128,6 +142,7 @@ impl Sim {
         Rc::new(Self {
             verbosity: Cell::new(options.verbosity),
             app: RefCell::new(AppData::new(&options)),
+            lua_budget: Rc::new(Budget::new(options.limits.map_or(usize::MAX, |limits| limits.memory))),
             options,
             registry,
             scene: RefCell::new(Scene::new()),

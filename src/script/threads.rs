@@ -7,17 +7,27 @@
 use std::ffi::CStr;
 
 use super::env::Env;
-use super::lua::{HOOK_INTERVAL, Stack, Type, hasten_count_hook, set_count_hook};
+use super::lua::{HOOK_INTERVAL, Stack, Type, Verdict, hasten_count_hook, set_count_hook};
 
 /// Weak table from coroutine to its own pre-emption level.
 const LEVELS: &CStr = c"swanilda.levels";
 
-/// Asked by the count hook every `HOOK_INTERVAL` instructions: is the slice used up, and may it yield?
-pub(crate) fn on_count(stack: Stack<'_>) -> bool {
+/// Asked by the count hook every `HOOK_INTERVAL` instructions: may the code go on, and is the slice used up?
+pub(crate) fn on_count(stack: Stack<'_>, can_yield: bool) -> Verdict {
     let env = Env::of(stack);
+    if env.is_watched() && env.is_interrupted() {
+        return Verdict::Fail("interrupted.");
+    }
+    if can_yield && slice_is_used_up(stack, env) { Verdict::Yield } else { Verdict::GoOn }
+}
+
+fn slice_is_used_up(stack: Stack<'_>, env: &Env) -> bool {
     let yields = &env.yields;
     if yields.hastened.take() {
         set_count_hook(stack, true);
+    }
+    if env.is_watched() && auto_level(stack) != 0 {
+        return false;
     }
     yields.used.set(yields.used.get().saturating_add(HOOK_INTERVAL as u64));
     if yields.overall.get() != 0 || yields.used.get() < budget(env) || auto_level(stack) != 0 {

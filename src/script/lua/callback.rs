@@ -39,11 +39,15 @@ fn run(raw: *mut ffi::lua_State) -> c_int {
         let callback = ffi::lua_touserdata(raw, ffi::lua_upvalueindex(2));
         (Stack::from_raw(raw), std::mem::transmute::<*mut c_void, Callback>(callback), data)
     };
-    match catch_unwind(AssertUnwindSafe(|| callback(stack, data))) {
+    let budget = stack.budget();
+    let before = budget.enter(true);
+    let results = match catch_unwind(AssertUnwindSafe(|| callback(stack, data))) {
         Ok(Ok(results)) => results,
         Ok(Err(text)) => fail(stack, &text),
         Err(panic) => fail(stack, &panic_message(&*panic)),
-    }
+    };
+    budget.leave(before);
+    results
 }
 
 fn fail(stack: Stack<'_>, text: &str) -> c_int {

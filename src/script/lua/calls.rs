@@ -33,12 +33,15 @@ impl<'a> Stack<'a> {
     /// Calls the function below its `arguments` on the stack, replacing them by `results` values.
     pub(crate) fn protected_call(self, arguments: c_int, results: c_int) -> Result<(), LuaError> {
         let handler = self.top() - arguments;
+        let budget = self.budget();
+        let before = budget.enter(false);
         // SAFETY: the handler goes below the function; `lua_pcall` catches every error.
         let status = unsafe {
             ffi::lua_pushcclosure(self.raw(), message_handler, 0);
             ffi::lua_rotate(self.raw(), handler, 1);
             ffi::lua_pcall(self.raw(), arguments, results, handler)
         };
+        budget.leave(before);
         let outcome = if status == ffi::LUA_OK { Ok(()) } else { Err(self.pop_error()) };
         self.remove(handler);
         outcome

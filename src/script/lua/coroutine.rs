@@ -1,4 +1,4 @@
-//! Coroutines: the count hook that pre-empts them.
+//! The count hook: it pre-empts coroutines, and ends code that may not go on.
 
 use std::ffi::c_int;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,14 +13,14 @@ pub(crate) const HOOK_INTERVAL: c_int = 1000;
 /// How many pass before a slice that is used up ends.
 const SOON: c_int = 100;
 
-/// Told after every `HOOK_INTERVAL` instructions of a coroutine; true asks it to yield.
-pub(crate) type OnCount = fn(Stack<'_>) -> bool;
+/// Asked after every `HOOK_INTERVAL` instructions of code that has the hook; told whether it may yield.
+pub(crate) type OnCount = fn(Stack<'_>, bool) -> Verdict;
 
 /// Where the process-wide decision function is kept: there is one host implementation, so a static suffices.
 static ON_COUNT: std::sync::OnceLock<OnCount> = std::sync::OnceLock::new();
 
 /// Makes `coroutine.create` and `coroutine.wrap` give new coroutines the count hook. Code outside of coroutines runs without a hook,
-/// at full speed.
+/// at full speed, unless the state is watched.
 pub(crate) fn install_coroutine_hooks(stack: Stack<'_>, on_count: OnCount) {
     ON_COUNT.get_or_init(|| on_count);
     stack.push_global("coroutine");
@@ -31,11 +31,15 @@ pub(crate) fn install_coroutine_hooks(stack: Stack<'_>, on_count: OnCount) {
         stack.raw_set_field(-2, name);
     }
     stack.pop(1);
+    if stack.owner().is_watched() {
+        // SAFETY: the main coroutine of a living state.
+        unsafe { set_hook(stack.raw(), HOOK_INTERVAL) };
+    }
 }
 
-/// Switches the count hook of the running coroutine on or off. The main coroutine never has one.
+/// Switches the count hook of the running coroutine on or off. The main coroutine keeps what it has, and so does a watched state.
 pub(crate) fn set_count_hook(stack: Stack<'_>, on: bool) {
-    set_interval(stack, if on { HOOK_INTERVAL } else { 0 });
+    set_interval(stack, if on || stack.owner().is_watched() { HOOK_INTERVAL } else { 0 });
 }
 
 /// Makes the count hook of the running coroutine come in a few instructions, until it is set again.
@@ -98,37 +102,55 @@ unsafe fn call_original(raw: *mut ffi::lua_State) {
 
 /// What the hook does next.
 #[derive(Debug, PartialEq, Eq)]
-enum Verdict {
+pub(crate) enum Verdict {
     GoOn,
     Yield,
-    /// Raise the text on the stack.
-    Fail,
+    /// Raise this text.
+    Fail(&'static str),
 }
 
-/// The hook: yields, with no values, when the host says so and Lua can.
+/// The hook: yields, with no values, or raises when the host says so.
 unsafe extern "C-unwind" fn count(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
     // SAFETY: Lua calls the hook of a running coroutine. Yields and errors leave it by `longjmp`; nothing is owned here.
     unsafe {
-        if ffi::lua_isyieldable(raw) == 0 {
-            return;
-        }
-        let verdict = ON_COUNT.get().map_or(Verdict::GoOn, |&on_count| ask(Stack::from_raw(raw), on_count));
-        match verdict {
-            Verdict::GoOn => {}
-            Verdict::Yield => drop(ffi::lua_yield(raw, 0)),
-            Verdict::Fail => ffi::lua_error(raw),
+        match ask(Stack::from_raw(raw), ffi::lua_isyieldable(raw) != 0) {
+            Step::GoOn => {}
+            Step::Yield => drop(ffi::lua_yield(raw, 0)),
+            Step::Raise => ffi::lua_error(raw),
         }
     }
 }
 
+/// What is left to do when everything Rust owns is gone.
+#[derive(Debug, PartialEq, Eq)]
+enum Step {
+    GoOn,
+    Yield,
+    /// The text is on the stack.
+    Raise,
+}
+
+fn ask(stack: Stack<'_>, can_yield: bool) -> Step {
+    let Some(on_count) = ON_COUNT.get() else { return Step::GoOn };
+    let budget = stack.budget();
+    let before = budget.enter(true);
+    let step = follow(stack, || on_count(stack, can_yield));
+    budget.leave(before);
+    step
+}
+
 /// A panic must not unwind through Lua: it becomes an error of the script.
-fn ask(stack: Stack<'_>, on_count: OnCount) -> Verdict {
-    match catch_unwind(AssertUnwindSafe(|| on_count(stack))) {
-        Ok(false) => Verdict::GoOn,
-        Ok(true) => Verdict::Yield,
+fn follow(stack: Stack<'_>, verdict: impl FnOnce() -> Verdict) -> Step {
+    match catch_unwind(AssertUnwindSafe(verdict)) {
+        Ok(Verdict::GoOn) => Step::GoOn,
+        Ok(Verdict::Yield) => Step::Yield,
+        Ok(Verdict::Fail(text)) => {
+            stack.push_bytes(text.as_bytes());
+            Step::Raise
+        }
         Err(panic) => {
             stack.push_bytes(panic_message(&*panic).as_bytes());
-            Verdict::Fail
+            Step::Raise
         }
     }
 }
@@ -136,15 +158,15 @@ fn ask(stack: Stack<'_>, on_count: OnCount) -> Verdict {
 #[cfg(test)]
 mod tests {
     use super::super::State;
-    use super::{Verdict, ask};
+    use super::{Step, Verdict, follow};
 
     #[test]
     fn a_panic_of_the_host_is_an_error_of_the_script() {
         // Nothing here asks for the owner of the state.
-        let state = State::new(std::ptr::null());
-        assert_eq!(ask(state.stack(), |_| true), Verdict::Yield);
-        assert_eq!(ask(state.stack(), |_| false), Verdict::GoOn);
-        assert_eq!(ask(state.stack(), |_| panic!("out of order")), Verdict::Fail);
+        let state = State::new(std::ptr::null(), std::rc::Rc::default());
+        assert_eq!(follow(state.stack(), || Verdict::Yield), Step::Yield);
+        assert_eq!(follow(state.stack(), || Verdict::GoOn), Step::GoOn);
+        assert_eq!(follow(state.stack(), || panic!("out of order")), Step::Raise);
         let text = String::from_utf8_lossy(state.stack().bytes(-1).unwrap_or_default());
         assert!(text.ends_with("out of order"), "{text}");
     }

@@ -13,6 +13,7 @@
 //!   as long as what is pushed fits Lua's largest block: strings are cut to it, longer lists are refused before they are pushed
 //!   ([`LONGEST_LIST`], `Data::MAX_ITEMS`).
 
+mod budget;
 mod callback;
 mod calls;
 mod coroutine;
@@ -23,9 +24,10 @@ mod stack;
 mod state;
 mod tables;
 
+pub(crate) use budget::Budget;
 pub(crate) use callback::{Callback, push_callback};
 pub(crate) use calls::{LuaError, MULTIPLE};
-pub(crate) use coroutine::{HOOK_INTERVAL, hasten_count_hook, install_coroutine_hooks, set_count_hook};
+pub(crate) use coroutine::{HOOK_INTERVAL, Verdict, hasten_count_hook, install_coroutine_hooks, set_count_hook};
 pub(crate) use file::FileLock;
 pub(crate) use object::Object;
 pub(crate) use stack::{Stack, Type};

@@ -6,6 +6,9 @@
 
 use std::alloc::{Layout, alloc, dealloc, handle_alloc_error};
 use std::ptr::NonNull;
+use std::rc::Rc;
+
+use super::Budget;
 
 /// Sizes are rounded up to a multiple of this, which is also the alignment.
 const STEP: usize = 16;
@@ -20,6 +23,7 @@ const LARGEST_CHUNK: usize = 256 << 10;
 struct Free(Option<NonNull<Free>>);
 
 pub(super) struct Pool {
+    pub(super) budget: Rc<Budget>,
     free: [Option<NonNull<Free>>; CLASSES],
     chunks: Vec<(NonNull<u8>, Layout)>,
     /// What is left of the newest chunk.
@@ -28,8 +32,8 @@ pub(super) struct Pool {
 }
 
 impl Pool {
-    pub(super) fn new() -> Self {
-        Self { free: [None; CLASSES], chunks: Vec::new(), rest: NonNull::dangling(), rest_len: 0 }
+    pub(super) fn new(budget: Rc<Budget>) -> Self {
+        Self { budget, free: [None; CLASSES], chunks: Vec::new(), rest: NonNull::dangling(), rest_len: 0 }
     }
 
     /// A block of at least `size` bytes, 1 to [`LARGEST`].
@@ -95,11 +99,13 @@ fn class_of(size: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use std::rc::Rc;
+
     use super::{LARGEST, Pool};
 
     #[test]
     fn blocks_are_apart_aligned_and_used_again() {
-        let mut pool = Pool::new();
+        let mut pool = Pool::new(Rc::default());
         let blocks: Vec<_> = (1..=LARGEST).map(|size| (pool.take(size), size)).collect();
         for &(block, size) in &blocks {
             assert_eq!(block.as_ptr() as usize % 16, 0);

@@ -5,6 +5,8 @@ use std::marker::PhantomData;
 
 use mlua_sys as ffi;
 
+use super::Budget;
+use super::pool::Pool;
 use super::state::MAX_BLOCK;
 
 /// The stack of one coroutine of a living state. Indices are Lua's: 1 is the bottom, -1 the top.
@@ -39,6 +41,16 @@ impl<'a> Stack<'a> {
 
     pub(super) fn raw(self) -> *mut ffi::lua_State {
         self.raw
+    }
+
+    /// The memory the state belongs to.
+    pub(super) fn budget(self) -> &'a Budget {
+        let mut pool = std::ptr::null_mut();
+        // SAFETY: `State::new` gave the allocator its pool, which outlives the state.
+        unsafe {
+            ffi::lua_getallocf(self.raw, &raw mut pool);
+            &(*pool.cast::<Pool>().cast_const()).budget
+        }
     }
 
     pub(crate) fn top(self) -> c_int {

@@ -3,12 +3,13 @@
 use std::ffi::c_void;
 use std::marker::PhantomData;
 use std::ptr::NonNull;
+use std::rc::Rc;
 
 use mlua_sys as ffi;
 
 use super::super::env::Env;
-use super::Stack;
 use super::pool::{LARGEST, Pool, same_block};
+use super::{Budget, Stack};
 
 /// A Lua state with the standard libraries. Closed when dropped.
 pub(crate) struct State {
@@ -20,12 +21,12 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// A new state. `owner` can be had back from every coroutine of the state through [`Stack::owner`]; it must outlive the state.
-    pub(crate) fn new(owner: *const Env) -> Self {
+    /// A new state whose memory comes out of `budget`. `owner` can be had back from every coroutine of the state through [`Stack::owner`]; it must outlive the state.
+    pub(crate) fn new(owner: *const Env, budget: Rc<Budget>) -> Self {
         // SAFETY: `allocate` never returns null for the sizes asked for here and by pushes, so neither fails.
         // The extra space of a main thread is copied into each of its coroutines.
         unsafe {
-            let pool = NonNull::from(Box::leak(Box::new(Pool::new())));
+            let pool = NonNull::from(Box::leak(Box::new(Pool::new(budget))));
             let raw = ffi::lua_newstate(allocate, pool.as_ptr().cast());
             let raw = NonNull::new(raw).expect("the allocator aborts rather than fail");
             *ffi::lua_getextraspace(raw.as_ptr()).cast::<*const Env>() = owner;
@@ -62,6 +63,11 @@ unsafe extern "C" fn allocate(pool: *mut c_void, old: *mut c_void, old_size: usi
     // SAFETY: `new` gave a pool that outlives the state, which is used from one thread; Lua tells the size it asked for.
     unsafe {
         let pool = &mut *pool.cast::<Pool>();
+        // Without an old block, Lua tells what kind of value it makes in place of a size.
+        let counted = if old.is_null() { 0 } else { old_size };
+        if size > MAX_BLOCK || !pool.budget.resize(counted, size) {
+            return std::ptr::null_mut();
+        }
         let Some(block) = NonNull::new(old.cast::<u8>()) else { return new_block(pool, size) };
         match (old_size <= LARGEST, size) {
             (false, LARGE..) => resize_large(block, size),
@@ -72,10 +78,8 @@ unsafe extern "C" fn allocate(pool: *mut c_void, old: *mut c_void, old_size: usi
             }
             _ => {
                 let new = new_block(pool, size);
-                if !new.is_null() {
-                    std::ptr::copy_nonoverlapping(old, new, old_size.min(size));
-                    free_block(pool, block, old_size);
-                }
+                std::ptr::copy_nonoverlapping(old, new, old_size.min(size));
+                free_block(pool, block, old_size);
                 new
             }
         }
@@ -89,7 +93,7 @@ unsafe extern "C" {
     fn free(block: *mut c_void);
 }
 
-/// A new block; null for none of no size and for one that is too large.
+/// A new block; null for none of no size.
 unsafe fn new_block(pool: &mut Pool, size: usize) -> *mut c_void {
     match size {
         0 => std::ptr::null_mut(),
@@ -105,9 +109,6 @@ unsafe fn resize_large(block: NonNull<u8>, size: usize) -> *mut c_void {
 }
 
 unsafe fn resize(block: *mut c_void, size: usize) -> *mut c_void {
-    if size > MAX_BLOCK {
-        return std::ptr::null_mut();
-    }
     // SAFETY: null or a block of libc's.
     let block = unsafe { realloc(block, size) };
     if block.is_null() {
@@ -130,6 +131,7 @@ unsafe fn free_block(pool: &mut Pool, block: NonNull<u8>, size: usize) {
 mod tests {
     use std::ffi::c_void;
     use std::ptr::{NonNull, null_mut};
+    use std::rc::Rc;
 
     use super::{LARGEST, MAX_BLOCK, Pool, allocate};
 
@@ -153,7 +155,7 @@ mod tests {
 
     #[test]
     fn blocks_keep_their_bytes_when_they_grow_and_shrink() {
-        let mut pool = Pool::new();
+        let mut pool = Pool::new(Rc::default());
         let sizes = [1, 16, 17, LARGEST, LARGEST + 1, 70_000, 1 << 20, 600, 513, LARGEST, 40, 33, 3];
         for (old_size, size) in sizes.iter().flat_map(|&a| sizes.map(|b| (a, b))) {
             let old = resize(&mut pool, null_mut(), 0, old_size);
@@ -166,7 +168,7 @@ mod tests {
 
     #[test]
     fn a_block_that_may_not_grow_stays_as_it_was() {
-        let mut pool = Pool::new();
+        let mut pool = Pool::new(Rc::default());
         for size in [8, 1000] {
             let block = resize(&mut pool, null_mut(), 0, size);
             fill(block, size);
