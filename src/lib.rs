@@ -9,6 +9,7 @@ mod io;
 pub mod scene;
 pub mod script;
 mod simulator;
+pub mod testing;
 pub(crate) mod wire;
 
 pub use format::scene_file::SceneFile;

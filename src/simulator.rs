@@ -12,7 +12,9 @@ use crate::format::scene_file::SceneFile;
 use crate::io::ZmqServer;
 use crate::scene::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, Scene};
-use crate::script::{ApiError, Console, Detached, Options, SceneSource, Script, Silent, Sim, SimulationState, SysCall};
+use crate::script::{
+    ApiError, Console, Detached, Options, SceneSource, Script, Silent, Sim, SimulationState, SysCall, TestBench,
+};
 
 /// The add-on that serves clients by ZeroMQ.
 const ZMQ_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.zmq'";
@@ -79,6 +81,15 @@ impl Simulator {
         let sandbox = sim.add_detached(ScriptType::Sandbox, detached("sandboxScript", b"sim = require 'sim'"));
         sim.deliver(&sandbox, SysCall::Init, &[]);
         Self { sim }
+    }
+
+    /// A simulator with the default scene that runs tests: what they see of it and leave behind is on `bench`. They are chunks of the sandbox.
+    pub fn for_test(options: Options, bench: &Rc<TestBench>) -> Self {
+        let mut sim = Self::with_console(options, bench.console());
+        // Nothing else can be on the bench of a simulator that was just made, and an empty scene has room.
+        let _ = sim.sim.test_bench.set(Rc::clone(bench));
+        let _ = sim.scene_mut().add_default_objects();
+        sim
     }
 
     /// Lets the clients that connect to `listener` by ZeroMQ call functions: the remote API. Returns the address it listens at.

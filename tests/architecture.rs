@@ -11,7 +11,7 @@ const LAYERS: &[&[&str]] = &[
     &["script"],
     &["api", "modules"],
     &["simulator"],
-    &["docs"],
+    &["docs", "testing"],
     &["cli"],
 ];
 

@@ -142,7 +142,7 @@ struct Transcript {
 }
 
 impl Console for Transcript {
-    fn print(&mut self, line: &[u8]) {
+    fn print(&mut self, line: &[u8], _: f64) {
         *self.text.borrow_mut() += &format!("{}\n", String::from_utf8_lossy(line));
     }
 

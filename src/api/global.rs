@@ -179,7 +179,8 @@ fn quit_simulator(cx: &mut Cx) -> Result<()> {
 /// @param text the line
 #[api("_print")]
 fn print_line(cx: &Cx, text: crate::script::Bytes) -> Result<()> {
-    cx.sim().console.borrow_mut().print(&text.0);
+    let time = cx.sim().clock.time.get();
+    cx.sim().console.borrow_mut().print(&text.0, time);
     Ok(())
 }
 

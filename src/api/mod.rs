@@ -48,6 +48,7 @@ mod sim_ws;
 mod simulation;
 mod socket;
 mod subprocess;
+mod testing;
 mod thread;
 mod time;
 mod trajectory;
@@ -145,6 +146,7 @@ pub(crate) const LIBRARIES: &[(&str, &[ApiFn])] = &[
     ("ssl", socket::STREAM),
     ("mime.core", mime::FUNCTIONS),
     ("simWS", sim_ws::FUNCTIONS),
+    ("swanilda.test", testing::FUNCTIONS),
 ];
 
 /// `name<TAB>value` of every constant of `sim`.

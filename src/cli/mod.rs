@@ -17,6 +17,7 @@ mod run;
 mod serve;
 mod session;
 mod setup;
+mod test;
 mod unpack;
 
 use std::io::Write;
@@ -42,6 +43,7 @@ struct Cli {
 enum Command {
     Run(run::Args),
     Serve(serve::Args),
+    Test(test::Args),
     Api(api::Args),
     Doctor(doctor::Args),
     Inspect(inspect::Args),
@@ -71,6 +73,7 @@ impl Command {
         match self {
             Self::Run(args) => run::run(&args),
             Self::Serve(args) => serve::serve(&args),
+            Self::Test(args) => test::test(&args),
             Self::Api(args) => api::api(&args),
             Self::Doctor(args) => doctor::doctor(&args),
             Self::Inspect(args) => inspect::inspect(&args),

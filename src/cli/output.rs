@@ -88,7 +88,7 @@ impl Output {
 }
 
 impl Console for Output {
-    fn print(&mut self, line: &[u8]) {
+    fn print(&mut self, line: &[u8], _: f64) {
         match self.format {
             Format::Text => self.bar.suspend(|| write_stdout(line)),
             Format::Json => write_json(&json!({"type": "print", "text": String::from_utf8_lossy(line)})),

@@ -28,8 +28,8 @@ impl LogLine<'_> {
 
 /// Receives what a simulator and its scripts say. Lines below the verbosity asked for do not arrive here.
 pub trait Console {
-    /// One call of a script's `print`: the line without its end.
-    fn print(&mut self, line: &[u8]);
+    /// One call of a script's `print`: the line without its end, and the simulated time, seconds.
+    fn print(&mut self, line: &[u8], time: f64);
 
     fn log(&mut self, line: &LogLine<'_>);
 }
@@ -38,7 +38,7 @@ pub trait Console {
 pub struct Silent;
 
 impl Console for Silent {
-    fn print(&mut self, _: &[u8]) {}
+    fn print(&mut self, _: &[u8], _: f64) {}
 
     fn log(&mut self, _: &LogLine<'_>) {}
 }

@@ -192,6 +192,12 @@ impl Sim {
         self.close(script);
     }
 
+    /// Ends a script as a crash would: it is not asked to clean up.
+    pub(crate) fn drop_dead(&self, script: &Script) {
+        script.set_base_state(state::ENDED);
+        self.close(script);
+    }
+
     /// Ends a script so that it starts anew at its next eligible call.
     pub(crate) fn reset(self: &Rc<Self>, script: &Rc<Script>) {
         self.end(script);

@@ -41,6 +41,7 @@ mod sim;
 mod startup;
 mod step;
 mod system_semaphore;
+pub mod test_bench;
 mod threads;
 mod tubes;
 pub mod verbosity;
@@ -63,6 +64,7 @@ pub use instance::Script;
 pub use property::{Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2, Vector3};
 pub use returns::{IntoScript, Nil, Results};
 pub use sim::{Limits, Options};
+pub use test_bench::TestBench;
 pub use threads::LevelChange;
 
 pub(crate) use app_storage::Section;

@@ -20,6 +20,7 @@ use super::order::OrderCache;
 use super::property::{AppData, SignalOwners};
 use super::random::Random;
 use super::system_semaphore::SystemSemaphores;
+use super::test_bench::TestBench;
 use super::tubes::Tubes;
 use super::verbosity;
 use super::web_sockets::WebSockets;
@@ -132,6 +133,8 @@ pub(crate) struct Sim {
     pub zmq_context: OnceCell<Rc<zmq::Context>>,
     /// A share of it is held for each script that has ZeroMQ sockets.
     pub zmq_users: Rc<()>,
+    /// Where a test's runner waits.
+    pub test_bench: OnceCell<Rc<TestBench>>,
     next_detached: Cell<i64>,
     once: RefCell<HashSet<(String, i64, String)>>,
     started: std::time::Instant,
@@ -170,6 +173,7 @@ impl Sim {
             remote_listener: RefCell::default(),
             zmq_context: OnceCell::new(),
             zmq_users: Rc::default(),
+            test_bench: OnceCell::new(),
             next_detached: Cell::new(FIRST_DETACHED),
             once: RefCell::default(),
             started: super::wall_clock::now(),

@@ -27,6 +27,9 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
     stack.push_int(runtime.env.script.id);
     stack.set_global("sim_script_handle");
     load_module(stack, sim, "base").and_then(|()| stack.protected_call(0, 0))?;
+    if sim.options.limits.is_some() {
+        load_module(stack, sim, "no_exit").and_then(|()| stack.protected_call(0, 0))?;
+    }
     if sim.options.exec_unsafe {
         return Ok(());
     }

@@ -1,0 +1,421 @@
+--[[
+The fixture of tests of robots: `local t = require 'swanilda.test'`. It works in files that `swanilda test` runs, where each test has a
+fresh simulator with the default scene.
+
+Scene
+    t.load(file)                a scene (.lua, .ttt) or a model (.ttm), named from the folder of the test; returns what sim.loadScene or
+                                sim.loadModel does
+    t.object(path)              the handle of an object
+    t.script(path or handle)    a script of the scene, see below
+
+Time
+    t.step(n = 1)               simulation steps; starts the simulation if need be. Returns how many there were
+    t.run_for(seconds)          steps for that simulated time
+    t.run_until(condition, timeout = 10)    steps until the function returns true; fails after that simulated time. Returns the time
+    t.at(time, fn)              calls a function when the simulation reaches that time
+    t.start(), t.stop(), t.time()
+
+Scripts: s = t.script('/Robot/controller')
+    s:call(name, ...)           calls a function; s:get(expression), s:set(name, value), s:run(code)
+    s:wrap(name, fn)            every call of that function (`sim.getJointPosition`, or a global) becomes fn(call, ...) in the test;
+                                call(...) does what the function did. s:unwrap(name) ends it
+    s:stub(name, ...)           the function returns these values; s:spy(name) lets it be. Both return a spy of luassert
+    s:kill()                    ends the script as a crash would
+
+Messages and logs
+    t.signal(name[, value])     reads or sends a signal: a number, a whole number or a string; false clears it
+    t.message(data)             broadcasts a message (sysCall_msg)
+    t.lines(), t.prints(), t.logs(pattern)      what was printed and logged: text, level, time, origin
+    t.allow_script_errors()     errors of scripts do not end the test
+
+Faults, from the seed of the run
+    t.faults.noise(script, name, sigma[, result])       numbers a function returns become noisy; result: which one
+    t.faults.dropout(script, name, probability, ...)    calls fail now and then: they return the values given
+    t.faults.delay(script, name, seconds)               calls take effect later, such as sim.setFloatSignal; they return nothing
+    t.faults.friction(joint, force)                     friction in a joint, N or Nm
+    t.random(), t.gauss()
+
+Recordings
+    t.golden(name, quantities, tolerances)      records quantities at each step from now on; at the end of the test they are compared with
+                                                the file beside the test. See docs/TESTING.md
+]]
+
+local _, native = ...
+local sim = require('sim')
+
+local t = { faults = {} }
+
+local scheduled = {} -- { time, fn }, by time
+local recordings = {}
+local allowErrors = false
+local seenLines = 0
+
+if not native.isTest() then error("swanilda.test works in tests only: run the file with 'swanilda test'.", 2) end
+
+---------------------------------------------------------------- scene
+
+local folder = native.file():match('^(.*[/\\])') or ''
+
+local function located(file)
+    if file:find('^[/\\]') or file:find('^%a:[/\\]') then return file end
+    return folder .. file
+end
+
+local function loaded(result)
+    if not allowErrors then t._checkErrors() end
+    return result
+end
+
+function t.load(file)
+    local name = located(file)
+    if name:find('%.ttm$') or name:find('%.simmodel%.xml$') then return loaded(sim.loadModel(name)) end
+    return loaded(sim.loadScene(name))
+end
+
+function t.object(path) return sim.getObject(path) end
+
+---------------------------------------------------------------- time
+
+-- An error nobody caught ends the test, unless it said otherwise.
+local knownErrors = 0
+function t._checkErrors()
+    local errors = native.errors()
+    if errors == knownErrors then return end
+    knownErrors = errors
+    local lines = native.lines(seenLines)
+    seenLines = seenLines + #lines
+    if allowErrors then return end
+    for _, line in ipairs(lines) do
+        if line.level == 'error' and line.origin then
+            local message = ('script %s raised an error: %s'):format(line.origin, line.text)
+            error({ message = message, script = line.origin }, 0)
+        end
+    end
+    error('a script raised an error.', 0)
+end
+
+function t.allow_script_errors(allowed) allowErrors = allowed ~= false end
+
+function t.time() return sim.getSimulationTime() end
+
+local function isAdvancing() return sim.getSimulationState() & sim.simulation_advancing ~= 0 end
+
+function t.start()
+    if sim.getSimulationState() == sim.simulation_stopped then
+        sim.startSimulation()
+        native.pass()
+        t._checkErrors()
+    end
+end
+
+function t.stop()
+    if sim.getSimulationState() == sim.simulation_stopped then return end
+    sim.stopSimulation()
+    while sim.getSimulationState() ~= sim.simulation_stopped do
+        native.pass()
+        t._checkErrors()
+    end
+end
+
+local function runScheduled()
+    -- Time is a sum of steps, so it may fall short of a round number by its rounding errors.
+    while scheduled[1] and scheduled[1].time <= t.time() * (1 + 1e-12) do table.remove(scheduled, 1).fn() end
+end
+
+local function sample()
+    for _, recording in ipairs(recordings) do recording:sample() end
+end
+
+-- One step; false when the simulation has ended.
+local function step()
+    if sim.getSimulationState() == sim.simulation_stopped then
+        sim.startSimulation()
+        sample()
+    end
+    if not isAdvancing() then return false end
+    if t.time() > native.timeLimit() then
+        error(('the test has simulated for more than %g s (--sim-timeout).'):format(native.timeLimit()), 0)
+    end
+    runScheduled()
+    native.pass()
+    t._checkErrors()
+    sample()
+    return true
+end
+
+function t.step(count)
+    for made = 1, count or 1 do
+        if not step() then return made - 1 end
+    end
+    return count or 1
+end
+
+function t.run_for(seconds) return t.step(math.ceil(seconds / sim.getSimulationTimeStep() - 1e-9)) end
+
+function t.run_until(condition, timeout)
+    timeout = timeout or 10
+    local begin = t.time()
+    while not condition() do
+        if t.time() - begin >= timeout then
+            error({ message = ('the condition was not met within %g s.'):format(timeout), failed = true })
+        elseif not step() then
+            error({ message = 'the simulation ended before the condition was met.', failed = true })
+        end
+    end
+    return t.time()
+end
+
+function t.at(time, fn)
+    local place = #scheduled + 1
+    while place > 1 and scheduled[place - 1].time > time do place = place - 1 end
+    table.insert(scheduled, place, { time = time, fn = fn })
+end
+
+---------------------------------------------------------------- scripts
+
+local Script = {}
+Script.__index = Script
+
+-- What scripts call when a function of theirs is wrapped: by number, with the script that calls.
+local wrappers = {}
+function _swanilda_test_wrapper(number, ...) return wrappers[number](...) end
+
+function t.script(script)
+    local handle = type(script) == 'string' and sim.getObject(script) or script
+    return setmetatable({ handle = handle, wrapped = {} }, Script)
+end
+
+function Script:call(name, ...) return sim.callScriptFunction(name, self.handle, ...) end
+
+function Script:run(code)
+    local results = table.pack(sim.executeScriptString(code, self.handle))
+    t._checkErrors()
+    return table.unpack(results, 1, results.n)
+end
+
+function Script:get(expression) return self:run('return ' .. expression) end
+
+function Script:set(name, value)
+    self:run('function _swanilda_test_set(value) ' .. name .. ' = value end')
+    self:call('_swanilda_test_set', value)
+end
+
+local WRAP = [[
+    local number, test = %d, %d
+    local original = %s
+    _swanilda_test_originals = _swanilda_test_originals or {}
+    _swanilda_test_originals[number] = original
+    function _swanilda_test_call(number, ...) return _swanilda_test_originals[number](...) end
+    %s = function(...) return sim.callScriptFunction('_swanilda_test_wrapper', test, number, ...) end
+]]
+
+function Script:wrap(name, fn)
+    local number = #wrappers + 1
+    local function call(...) return self:call('_swanilda_test_call', number, ...) end
+    wrappers[number] = function(...) return fn(call, ...) end
+    self:run(WRAP:format(number, sim_script_handle, name, name))
+    self.wrapped[name] = number
+end
+
+function Script:unwrap(name)
+    local number = self.wrapped[name]
+    if not number then error(("'%s' is not wrapped."):format(name), 2) end
+    self:run(('%s = _swanilda_test_originals[%d]'):format(name, number))
+    self.wrapped[name] = nil
+end
+
+function Script:stub(name, ...)
+    local results = table.pack(...)
+    local watched = require('luassert.spy').new(function() return table.unpack(results, 1, results.n) end)
+    self:wrap(name, function(_, ...) return watched(...) end)
+    return watched
+end
+
+function Script:spy(name)
+    local original
+    local watched = require('luassert.spy').new(function(...) return original(...) end)
+    self:wrap(name, function(call, ...)
+        original = call
+        return watched(...)
+    end)
+    return watched
+end
+
+function Script:kill() native.kill(self.handle) end
+
+---------------------------------------------------------------- messages and logs
+
+function t.signal(name, ...)
+    if select('#', ...) == 0 then
+        return sim.getFloatSignal(name) or sim.getInt32Signal(name) or sim.getStringSignal(name)
+    end
+    local value = ...
+    if value == false or value == nil then
+        for _, kind in ipairs { 'Float', 'Int32', 'String' } do sim['clear' .. kind .. 'Signal'](name) end
+    elseif math.type(value) == 'integer' then
+        sim.setInt32Signal(name, value)
+    elseif math.type(value) == 'float' then
+        sim.setFloatSignal(name, value)
+    else
+        sim.setStringSignal(name, value)
+    end
+end
+
+function t.message(data, options) return sim.broadcastMsg(data, options) end
+
+function t.lines() return native.lines() end
+
+function t.prints()
+    local texts = {}
+    for _, line in ipairs(native.lines()) do
+        if line.level == 'print' then texts[#texts + 1] = line.text end
+    end
+    return texts
+end
+
+function t.logs(pattern)
+    local found = {}
+    for _, line in ipairs(native.lines()) do
+        if line.origin and (not pattern or line.text:find(pattern)) then found[#found + 1] = line end
+    end
+    return found
+end
+
+---------------------------------------------------------------- faults
+
+function t.random() return math.random() end
+
+-- A number of the standard normal distribution, by the method of Box and Muller.
+function t.gauss()
+    return math.sqrt(-2 * math.log(1 - math.random())) * math.cos(2 * math.pi * math.random())
+end
+
+local function asScript(script)
+    return getmetatable(script) == Script and script or t.script(script)
+end
+
+local function noisy(value, sigma)
+    if type(value) == 'number' then return value + sigma * t.gauss() end
+    if type(value) ~= 'table' then return value end
+    local values = {}
+    for key, entry in pairs(value) do values[key] = noisy(entry, sigma) end
+    return values
+end
+
+function t.faults.noise(script, name, sigma, result)
+    asScript(script):wrap(name, function(call, ...)
+        local results = table.pack(call(...))
+        for i = 1, results.n do
+            if not result or i == result then results[i] = noisy(results[i], sigma) end
+        end
+        return table.unpack(results, 1, results.n)
+    end)
+end
+
+function t.faults.dropout(script, name, probability, ...)
+    local instead = table.pack(...)
+    asScript(script):wrap(name, function(call, ...)
+        if math.random() < probability then return table.unpack(instead, 1, instead.n) end
+        return call(...)
+    end)
+end
+
+function t.faults.delay(script, name, seconds)
+    asScript(script):wrap(name, function(call, ...)
+        local arguments = table.pack(...)
+        t.at(t.time() + seconds, function() call(table.unpack(arguments, 1, arguments.n)) end)
+    end)
+end
+
+function t.faults.friction(joint, force)
+    -- A motor that holds still with the force of the friction; one that drives has that much less.
+    local handle = type(joint) == 'string' and sim.getObject(joint) or joint
+    if sim.getObjectInt32Param(handle, sim.jointintparam_dynctrlmode) == sim.jointdynctrl_free then
+        sim.setObjectInt32Param(handle, sim.jointintparam_dynctrlmode, sim.jointdynctrl_velocity)
+        sim.setJointTargetVelocity(handle, 0)
+        sim.setJointTargetForce(handle, force)
+    else
+        sim.setJointTargetForce(handle, math.max(0, sim.getJointTargetForce(handle) - force))
+    end
+end
+
+---------------------------------------------------------------- recordings
+
+local Recording = {}
+Recording.__index = Recording
+
+local POSE = { 'x', 'y', 'z', 'qx', 'qy', 'qz', 'qw' }
+
+local function addColumns(recording, label, suffixes, read)
+    for _, suffix in ipairs(suffixes) do table.insert(recording.columns, suffix == '' and label or label .. '.' .. suffix) end
+    table.insert(recording.sources, { read = read, count = #suffixes, label = label })
+end
+
+-- A path of a joint is its position, of another object its pose; signal:NAME a signal.
+local function addNamed(recording, text)
+    local signal = text:match('^signal:(.+)$')
+    if signal then return addColumns(recording, text, { '' }, function() return { t.signal(signal) } end) end
+    local handle = sim.getObject(text)
+    local kind = sim.getObjectType(handle)
+    if kind == sim.sceneobject_joint and sim.getJointType(handle) ~= sim.joint_spherical then
+        return addColumns(recording, text, { '' }, function() return { sim.getJointPosition(handle) } end)
+    end
+    addColumns(recording, text, POSE, function() return sim.getObjectPose(handle) end)
+end
+
+local function addFunction(recording, label, fn)
+    local first = fn()
+    if type(first) ~= 'table' then
+        return addColumns(recording, label, { '' }, function() return { fn() } end)
+    end
+    local suffixes = {}
+    for i = 1, #first do suffixes[i] = tostring(i) end
+    addColumns(recording, label, suffixes, fn)
+end
+
+function Recording:sample()
+    local time = t.time()
+    if self.stopped or self.next > time * (1 + 1e-12) + 1e-12 then return end
+    self.next = time + self.every
+    local row = { time + 0.0 }
+    for _, source in ipairs(self.sources) do
+        local values = source.read()
+        for i = 1, source.count do
+            if type(values[i]) ~= 'number' then
+                error(("golden '%s': %s is no number but %s."):format(self.name, source.label, tostring(values[i])), 0)
+            end
+            row[#row + 1] = values[i] + 0.0
+        end
+    end
+    self.rows[#self.rows + 1] = row
+end
+
+function Recording:stop() self.stopped = true end
+
+function t.golden(name, quantities, options)
+    options = options or {}
+    local recording = setmetatable(
+        { name = name, columns = {}, sources = {}, rows = {}, next = 0, every = options.every or 0, options = options },
+        Recording
+    )
+    for _, quantity in ipairs(quantities) do addNamed(recording, quantity) end
+    local labels = {}
+    for label in pairs(quantities) do
+        if type(label) == 'string' then labels[#labels + 1] = label end
+    end
+    table.sort(labels)
+    for _, label in ipairs(labels) do addFunction(recording, label, quantities[label]) end
+    if #recording.columns == 0 then error(("golden '%s' has nothing to record."):format(name), 2) end
+    recordings[#recordings + 1] = recording
+    if sim.getSimulationState() ~= sim.simulation_stopped then recording:sample() end
+    return recording
+end
+
+-- Called by the runner when the test is over.
+function t._finish()
+    for _, recording in ipairs(recordings) do
+        native.golden(recording.name, recording.columns, recording.rows, recording.options)
+    end
+end
+
+return t

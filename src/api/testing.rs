@@ -1,0 +1,146 @@
+//! The native part of `swanilda.test`: what a test may do to the simulator it runs in.
+
+use std::rc::Rc;
+
+use api_macro::api;
+
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::{Data, Key};
+use crate::script::test_bench::{ConsoleLine, Golden, TestBench, Tolerances, Trace};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![is_test, pass, errors, lines, kill, file, time_limit, golden];
+
+fn bench(cx: &Cx) -> Result<Rc<TestBench>> {
+    let bench = cx.sim().test_bench.get().cloned();
+    bench.ok_or_else(|| ApiError::Other("this works in tests only: run the file with 'swanilda test'.".into()))
+}
+
+/// Whether this is a test.
+///
+/// @return isTest
+#[api("swanilda.test.isTest")]
+fn is_test(cx: &Cx) -> Result<bool> {
+    Ok(cx.sim().test_bench.get().is_some())
+}
+
+/// One pass of the simulator's loop: a step when a simulation runs.
+#[api("swanilda.test.pass")]
+fn pass(cx: &mut Cx) -> Result<()> {
+    bench(cx)?;
+    if cx.sim().depth.get() > 1 {
+        return Err(ApiError::Other("a step cannot be made from within a step.".into()));
+    }
+    cx.sim().loop_pass();
+    Ok(())
+}
+
+/// How many errors scripts have raised that nobody caught.
+///
+/// @return count
+#[api("swanilda.test.errors")]
+fn errors(cx: &Cx) -> Result<i64> {
+    Ok(cx.sim().errors.get() as i64)
+}
+
+/// What has been printed and logged.
+///
+/// @param first lines to leave out
+/// @return lines each with text, level, time and, of the log, origin
+#[api("swanilda.test.lines")]
+fn lines(cx: &Cx, #[default(0)] first: i64) -> Result<Data> {
+    let lines = bench(cx)?.lines_from(usize::try_from(first).unwrap_or_default());
+    Ok(Data::Array(lines.into_iter().map(line_data).collect()))
+}
+
+fn line_data(line: ConsoleLine) -> Data {
+    Data::map([
+        ("text", Data::text(&line.text)),
+        ("level", Data::text(line.level)),
+        ("time", Data::Float(line.time)),
+        ("origin", line.origin.map_or(Data::Nil, |origin| Data::text(&origin))),
+    ])
+}
+
+/// Ends a script without its clean-up, as if it had crashed.
+///
+/// @param scriptHandle the script
+#[api("swanilda.test.kill")]
+fn kill(cx: &mut Cx, script_handle: i64) -> Result<()> {
+    bench(cx)?;
+    let script = cx.sim().script(script_handle).ok_or(ApiError::NoSuchScript)?;
+    cx.sim().drop_dead(&script);
+    Ok(())
+}
+
+/// The test's file, as the user named it.
+///
+/// @return path
+#[api("swanilda.test.file")]
+fn file(cx: &Cx) -> Result<String> {
+    Ok(bench(cx)?.file.clone())
+}
+
+/// How long a test may simulate, seconds.
+///
+/// @return seconds
+#[api("swanilda.test.timeLimit")]
+fn time_limit(cx: &Cx) -> Result<f64> {
+    Ok(bench(cx)?.time_limit)
+}
+
+/// Leaves a trace to be compared with the recorded one when the test is over.
+///
+/// @param name the recording
+/// @param columns names of the quantities
+/// @param rows time and the quantities, for each sample
+/// @param tolerances absolute, relative, time; columns: an absolute one for each named quantity
+#[api("swanilda.test.golden")]
+fn golden(cx: &mut Cx, name: String, columns: Data, rows: Data, tolerances: Data) -> Result<()> {
+    let trace = Trace { columns: names_of(&columns)?, rows: rows_of(&rows)? };
+    let golden = Golden { name, trace, tolerances: tolerances_of(&tolerances) };
+    bench(cx)?.goldens.borrow_mut().push(golden);
+    Ok(())
+}
+
+fn names_of(columns: &Data) -> Result<Vec<String>> {
+    let Data::Array(names) = columns else { return Err(not_a_trace()) };
+    let name =
+        |name: &Data| if let Data::Text(name) = name { Some(String::from_utf8_lossy(name).into_owned()) } else { None };
+    names.iter().map(name).collect::<Option<_>>().ok_or_else(not_a_trace)
+}
+
+fn rows_of(rows: &Data) -> Result<Vec<Vec<f64>>> {
+    let Data::Array(rows) = rows else { return Err(not_a_trace()) };
+    rows.iter().map(numbers).collect::<Option<_>>().ok_or_else(not_a_trace)
+}
+
+fn numbers(row: &Data) -> Option<Vec<f64>> {
+    let Data::Array(values) = row else { return None };
+    values.iter().map(Data::as_f64).collect()
+}
+
+fn not_a_trace() -> ApiError {
+    ApiError::Other("a trace is made of names and numbers.".into())
+}
+
+fn tolerances_of(data: &Data) -> Tolerances {
+    let standard = Tolerances::default();
+    let number = |name: &str| data.field(name).and_then(Data::as_f64);
+    let columns = match data.field("columns") {
+        Some(Data::Map(entries)) => entries.iter().filter_map(column_tolerance).collect(),
+        _ => standard.columns,
+    };
+    Tolerances {
+        absolute: number("absolute").unwrap_or(standard.absolute),
+        relative: number("relative").unwrap_or(standard.relative),
+        time: number("time").unwrap_or(standard.time),
+        columns,
+    }
+}
+
+fn column_tolerance((name, value): &(Key, Data)) -> Option<(String, f64)> {
+    match name {
+        Key::Text(name) => Some((String::from_utf8_lossy(name).into_owned(), value.as_f64()?)),
+        _ => None,
+    }
+}

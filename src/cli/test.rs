@@ -1,0 +1,141 @@
+//! `swanilda test`: runs the tests in Lua files.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use super::interrupt::Interrupt;
+use super::setup::seconds;
+use crate::Options;
+use crate::testing::{self, Allowance, Config, Summary};
+
+mod terminal;
+
+use terminal::Terminal;
+
+/// Exit codes as pytest has them.
+const FAILED: u8 = 1;
+const INTERRUPTED: u8 = 2;
+/// Exit code for a wrong command line.
+pub(super) const USAGE: u8 = 4;
+const NO_TESTS: u8 = 5;
+
+/// Run the tests in Lua files
+///
+/// Exit codes: 0 all passed, 1 some failed, 2 interrupted, 4 wrong usage, 5 no tests found.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Test files, and folders with files named *_test.lua or test_*.lua
+    #[arg(default_value = ".")]
+    paths: Vec<PathBuf>,
+    /// Tests at a time [default: as many as there are processors]
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Only tests whose `file::name` contains the text; may be repeated
+    #[arg(long, value_name = "TEXT")]
+    filter: Vec<String>,
+    /// Show the tests instead of running them
+    #[arg(long)]
+    list: bool,
+    /// Begin no further test after one has failed
+    #[arg(long)]
+    fail_fast: bool,
+    /// Only the i-th of n shares of the tests, for machines that divide the work
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    shard: Option<(usize, usize)>,
+    /// Run each test that often; the seed rises by one each time
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    repeat: u32,
+    /// Seed of random numbers and faults
+    #[arg(long)]
+    seed: Option<u32>,
+    /// Wall-clock time a test may take
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
+    timeout: f64,
+    /// Simulated time a test may take
+    #[arg(long, value_name = "SECONDS", default_value = "3600", value_parser = seconds)]
+    sim_timeout: f64,
+    /// Memory the Lua code of a test may take, MiB
+    #[arg(long, value_name = "MIB", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..))]
+    memory: u32,
+    /// Show what passed as well
+    #[arg(long, short)]
+    verbose: bool,
+}
+
+/// Runs the tests; the exit code tells how it went.
+pub(super) fn test(args: &Args) -> ExitCode {
+    let interrupt = Interrupt::install(INTERRUPTED);
+    let config = args.config(&interrupt);
+    if args.list {
+        return list(&config);
+    }
+    let mut terminal = Terminal::new(args.verbose);
+    match testing::run(&config, &mut terminal) {
+        Ok(summary) => {
+            terminal.summary(&summary);
+            end(exit_code(&config, &summary))
+        }
+        Err(error) => refuse(&error),
+    }
+}
+
+impl Args {
+    fn config(&self, interrupt: &Interrupt) -> Config {
+        Config {
+            paths: self.paths.clone(),
+            jobs: self.jobs.map_or_else(processors, usize::from),
+            filters: self.filter.clone(),
+            shard: self.shard,
+            repeat: self.repeat,
+            seed: self.seed.unwrap_or(Options::default().seed),
+            fail_fast: self.fail_fast,
+            allowance: Allowance {
+                wall: Duration::from_secs_f64(self.timeout),
+                simulated: self.sim_timeout,
+                memory: (self.memory as usize) << 20,
+            },
+            interrupted: interrupt.flag(),
+        }
+    }
+}
+
+fn processors() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+fn list(config: &Config) -> ExitCode {
+    match testing::list(config) {
+        Ok(tests) => {
+            let lines: String = tests.iter().map(|test| test.id() + "\n").collect();
+            super::say(lines.as_bytes());
+            ExitCode::from(if tests.is_empty() { NO_TESTS } else { 0 })
+        }
+        Err(error) => refuse(&error),
+    }
+}
+
+fn exit_code(config: &Config, summary: &Summary) -> u8 {
+    match summary {
+        _ if config.interrupted.load(Ordering::Relaxed) => INTERRUPTED,
+        summary if !summary.is_good() => FAILED,
+        summary if summary.outcomes.is_empty() => NO_TESTS,
+        _ => 0,
+    }
+}
+
+/// Ends the process at once: a test that could not be ended may still keep a thread.
+fn end(code: u8) -> ExitCode {
+    std::process::exit(i32::from(code))
+}
+
+fn refuse(error: &std::io::Error) -> ExitCode {
+    eprintln!("swanilda: {error}");
+    ExitCode::from(USAGE)
+}
+
+fn shard(text: &str) -> Result<(usize, usize), String> {
+    let parts = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+    parts.filter(|&(i, n)| 1 <= i && i <= n).ok_or_else(|| "I/N is needed, such as 1/3".into())
+}

@@ -1,0 +1,103 @@
+//! A test, and how it ended.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use crate::script::test_bench::{ConsoleLine, Golden};
+
+/// One test of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TestCase {
+    pub file: PathBuf,
+    /// Its number in the file, from 1; 0 stands for the file itself.
+    pub index: usize,
+    /// The names of its groups, then its own.
+    pub name: Vec<String>,
+    /// Where it begins, if known.
+    pub line: Option<u32>,
+    /// Which of its repetitions, from 0.
+    pub repetition: u32,
+    /// Seed of its simulator.
+    pub seed: u32,
+}
+
+impl TestCase {
+    /// What stands for a file itself.
+    pub(super) fn of_file(file: &Path) -> Self {
+        Self { file: file.to_owned(), index: 0, name: vec!["(file)".into()], line: None, repetition: 0, seed: 0 }
+    }
+
+    /// The names in one line.
+    pub fn title(&self) -> String {
+        let title = self.name.join(" ");
+        if self.repetition == 0 { title } else { format!("{title} (seed {})", self.seed) }
+    }
+
+    /// `file::title`, what filters look at.
+    pub fn id(&self) -> String {
+        format!("{}::{}", self.file.display(), self.title())
+    }
+
+    /// Orders tests as files have them.
+    pub fn key(&self) -> (PathBuf, usize, u32) {
+        (self.file.clone(), self.index, self.repetition)
+    }
+}
+
+/// How a test ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    Passed,
+    /// An assertion did not hold.
+    Failed,
+    /// Something else went wrong.
+    Error,
+    /// It is to be written, or not to be run.
+    Pending,
+}
+
+/// A test that is over.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    pub test: Arc<TestCase>,
+    pub status: Status,
+    /// What went wrong, or why it is pending.
+    pub message: String,
+    /// Lua's traceback.
+    pub trace: String,
+    /// The line of the test's file where it went wrong.
+    pub line: Option<u32>,
+    /// The path of the script of the scene that raised an error.
+    pub script: Option<String>,
+    /// Simulated time when it ended, seconds.
+    pub time: f64,
+    pub steps: u64,
+    pub wall: Duration,
+    pub console: Vec<ConsoleLine>,
+    pub goldens: Vec<Golden>,
+}
+
+impl Outcome {
+    /// A test that ended so, of which nothing else is known yet.
+    pub fn new(test: Arc<TestCase>, status: Status, message: impl Into<String>) -> Self {
+        Self {
+            test,
+            status,
+            message: message.into(),
+            trace: String::new(),
+            line: None,
+            script: None,
+            time: 0.0,
+            steps: 0,
+            wall: Duration::ZERO,
+            console: Vec::new(),
+            goldens: Vec::new(),
+        }
+    }
+
+    /// Whether it counts against the run.
+    pub fn is_bad(&self) -> bool {
+        matches!(self.status, Status::Failed | Status::Error)
+    }
+}

@@ -1,0 +1,146 @@
+//! The test runner: finds tests in Lua files, runs each in a simulator of its own, and says how they went.
+//!
+//! `discover` finds files, `session` is one simulator with a test file in it, `workers` spreads the work over threads, `plan` chooses
+//! tests. What is shown is up to a [`Reporter`]; reports that need all outcomes are made from the [`Summary`].
+
+mod case;
+mod discover;
+mod plan;
+mod session;
+mod workers;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+pub use case::{Outcome, Status, TestCase};
+pub use discover::find_files;
+
+use plan::Plan;
+use workers::{Message, Task, work};
+
+/// What is run, and how.
+#[derive(Debug, Clone)]
+pub struct Config {
+    /// Test files, and folders to look for them.
+    pub paths: Vec<PathBuf>,
+    /// How many tests run at a time.
+    pub jobs: usize,
+    /// Only tests whose identifier contains one of these; all when there are none.
+    pub filters: Vec<String>,
+    /// Part and number of parts, from 1: only this share of the tests.
+    pub shard: Option<(usize, usize)>,
+    /// How often each test runs; the seed rises by one each time.
+    pub repeat: u32,
+    pub seed: u32,
+    /// No further tests after one has failed.
+    pub fail_fast: bool,
+    /// What a test may use up.
+    pub allowance: Allowance,
+    /// Becomes true when the user wants an end.
+    pub interrupted: Arc<AtomicBool>,
+}
+
+/// What a test may use up.
+#[derive(Debug, Clone, Copy)]
+pub struct Allowance {
+    /// By the wall clock.
+    pub wall: Duration,
+    /// Simulated time, seconds.
+    pub simulated: f64,
+    /// Bytes all Lua code of the simulator together may have.
+    pub memory: usize,
+}
+
+/// Is told how the tests get on.
+pub trait Reporter {
+    /// All tests are known.
+    fn begin(&mut self, count: usize) {
+        let _ = count;
+    }
+
+    /// A test is over.
+    fn outcome(&mut self, outcome: &Outcome);
+}
+
+/// How it went.
+#[derive(Debug, Default)]
+pub struct Summary {
+    /// In the order of the files and their tests.
+    pub outcomes: Vec<Outcome>,
+    /// Tests that were not run, since one before had failed or the user wanted an end.
+    pub not_run: usize,
+    /// Tests that were not chosen.
+    pub deselected: usize,
+    pub wall: Duration,
+}
+
+impl Summary {
+    /// How many tests ended so.
+    pub fn count(&self, status: Status) -> usize {
+        self.outcomes.iter().filter(|outcome| outcome.status == status).count()
+    }
+
+    /// Whether no test failed.
+    pub fn is_good(&self) -> bool {
+        self.count(Status::Failed) + self.count(Status::Error) == 0
+    }
+}
+
+/// The tests there are, chosen by `config`.
+///
+/// # Errors
+/// When a path cannot be read.
+pub fn list(config: &Config) -> std::io::Result<Vec<Arc<TestCase>>> {
+    Ok(plan(config)?.tests)
+}
+
+/// Finds the tests and runs them.
+///
+/// # Errors
+/// When a path cannot be read.
+pub fn run(config: &Config, reporter: &mut dyn Reporter) -> std::io::Result<Summary> {
+    #[allow(clippy::disallowed_methods, reason = "how long tests take is what their user wants to know")]
+    let begun = std::time::Instant::now();
+    let plan = plan(config)?;
+    reporter.begin(plan.tests.len() + plan.broken.len());
+    let mut outcomes = plan.broken;
+    outcomes.iter().for_each(|outcome| reporter.outcome(outcome));
+    if !(config.fail_fast && !outcomes.is_empty()) {
+        run_tests(config, plan.jobs, reporter, &mut outcomes);
+    }
+    let ran = outcomes.iter().filter(|outcome| outcome.test.index > 0).count();
+    outcomes.sort_by_key(|outcome| outcome.test.key());
+    Ok(Summary {
+        not_run: plan.tests.len().saturating_sub(ran),
+        deselected: plan.deselected,
+        outcomes,
+        wall: begun.elapsed(),
+    })
+}
+
+/// Loads every file to learn what tests it has.
+fn plan(config: &Config) -> std::io::Result<Plan> {
+    let files = find_files(&config.paths)?;
+    let tasks = files.iter().cloned().map(Task::Collect).collect();
+    let mut collected = Vec::new();
+    work(config, tasks, &mut |message| {
+        if let Message::Collected(collection) = message {
+            collected.push(collection);
+        }
+        true
+    });
+    Ok(Plan::new(config, collected))
+}
+
+fn run_tests(config: &Config, jobs: Vec<plan::Job>, reporter: &mut dyn Reporter, outcomes: &mut Vec<Outcome>) {
+    let tasks = jobs.into_iter().map(Task::Run).collect();
+    work(config, tasks, &mut |message| {
+        let Message::Finished(outcome) = message else { return true };
+        reporter.outcome(&outcome);
+        let go_on = !(config.fail_fast && outcome.is_bad());
+        outcomes.push(*outcome);
+        go_on
+    });
+}

@@ -1,0 +1,99 @@
+//! Which tests run, and what runs together.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::Config;
+use super::case::{Outcome, TestCase};
+
+/// What is known of a file once it was loaded.
+pub(super) struct Collection {
+    pub file: PathBuf,
+    pub tests: Vec<Found>,
+    /// Whether it uses the simulator, so that each test needs one of its own.
+    pub simulates: bool,
+    /// Set when it could not be loaded.
+    pub broken: Option<Outcome>,
+}
+
+impl Collection {
+    /// A file that could not be loaded.
+    pub(super) fn broken(outcome: Outcome) -> Self {
+        let file = outcome.test.file.clone();
+        Self { file, tests: Vec::new(), simulates: true, broken: Some(outcome) }
+    }
+}
+
+/// A test as its file tells it.
+pub(super) struct Found {
+    pub name: Vec<String>,
+    pub line: Option<u32>,
+}
+
+/// Tests that share a simulator.
+#[derive(Debug, Clone)]
+pub(super) struct Job {
+    pub tests: Vec<Arc<TestCase>>,
+}
+
+/// The work to do.
+pub(super) struct Plan {
+    pub tests: Vec<Arc<TestCase>>,
+    pub jobs: Vec<Job>,
+    /// Files that could not be loaded.
+    pub broken: Vec<Outcome>,
+    pub deselected: usize,
+}
+
+impl Plan {
+    pub(super) fn new(config: &Config, mut collected: Vec<Collection>) -> Self {
+        collected.sort_by(|a, b| a.file.cmp(&b.file));
+        let mut plan = Self { tests: Vec::new(), jobs: Vec::new(), broken: Vec::new(), deselected: 0 };
+        let mut number = 0;
+        for collection in collected {
+            let mut chosen = Vec::new();
+            for test in cases(config, &collection) {
+                if is_chosen(config, &test, number) {
+                    chosen.push(Arc::new(test))
+                } else {
+                    plan.deselected += 1
+                }
+                number += 1;
+            }
+            plan.tests.extend(chosen.iter().cloned());
+            plan.jobs.extend(jobs(config, chosen, collection.simulates));
+            plan.broken.extend(collection.broken);
+        }
+        plan
+    }
+}
+
+/// Every test as often as it is repeated.
+fn cases(config: &Config, collection: &Collection) -> Vec<TestCase> {
+    let repeat = |(i, found): (usize, &Found)| {
+        let (file, name, line) = (collection.file.clone(), found.name.clone(), found.line);
+        let case = TestCase { file, index: i + 1, name, line, repetition: 0, seed: config.seed };
+        (0..config.repeat.max(1)).map(move |repetition| TestCase {
+            repetition,
+            seed: config.seed.wrapping_add(repetition),
+            ..case.clone()
+        })
+    };
+    collection.tests.iter().enumerate().flat_map(repeat).collect()
+}
+
+fn is_chosen(config: &Config, test: &TestCase, number: usize) -> bool {
+    let id = test.id();
+    let named = config.filters.is_empty() || config.filters.iter().any(|filter| id.contains(filter));
+    named && config.shard.is_none_or(|(part, parts)| number % parts + 1 == part)
+}
+
+/// Without a simulator, the tests of a file share their Lua state, each round one.
+fn jobs(config: &Config, tests: Vec<Arc<TestCase>>, simulates: bool) -> Vec<Job> {
+    if simulates {
+        return tests.into_iter().map(|test| Job { tests: vec![test] }).collect();
+    }
+    let round = |n| tests.iter().filter(|test| test.repetition == n).cloned().collect::<Vec<_>>();
+    let rounds = (0..config.repeat.max(1)).map(round).filter(|round| !round.is_empty());
+    rounds.map(|tests| Job { tests }).collect()
+}

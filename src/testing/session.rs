@@ -1,0 +1,130 @@
+//! One simulator with a test file in it.
+
+use std::path::Path;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use super::Config;
+use super::case::{Outcome, Status, TestCase};
+use super::plan::{Collection, Found};
+use crate::scene::Data;
+use crate::script::TestBench;
+use crate::{Limits, Options, ScriptKind, ScriptRef, Simulator};
+
+/// A simulator that has loaded a test file.
+pub(super) struct Session {
+    sim: Simulator,
+    sandbox: ScriptRef,
+    bench: Rc<TestBench>,
+}
+
+impl Session {
+    /// A fresh simulator for the tests of `file`. Setting `stop` ends whatever runs in it.
+    pub(super) fn new(config: &Config, file: &Path, seed: u32, stop: Arc<AtomicBool>) -> Self {
+        let bench = TestBench::new(file.to_string_lossy().into_owned(), config.allowance.simulated);
+        let folder = file.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+        let options = Options {
+            seed,
+            stop,
+            limits: Some(Limits { memory: config.allowance.memory }),
+            package_dirs: vec![folder.to_owned()],
+            ..Options::default()
+        };
+        let mut sim = Simulator::for_test(options, &bench);
+        let sandbox = sim.add_script(ScriptKind::Sandbox, "swanilda test", b"require('busted')");
+        let sandbox = sandbox.expect("the embedded library loads");
+        Self { sim, sandbox, bench }
+    }
+
+    /// Loads the file and tells its tests.
+    pub(super) fn collect(&mut self, file: &Path) -> Collection {
+        let name = Data::text(&file.to_string_lossy());
+        let answer = self.call("package.loaded.busted.collect", &[name]);
+        let mut collection = Collection { file: file.to_owned(), tests: Vec::new(), simulates: true, broken: None };
+        match (&answer, answer.as_ref().and_then(|answer| answer.field("tests"))) {
+            (Some(answer), Some(Data::Array(tests))) => {
+                collection.tests = tests.iter().map(found).collect();
+                collection.simulates = answer.field("simulates").is_some_and(Data::truthy);
+            }
+            _ => collection.broken = Some(self.broken(file, answer.as_ref())),
+        }
+        collection
+    }
+
+    fn broken(&self, file: &Path, answer: Option<&Data>) -> Outcome {
+        let test = Arc::new(TestCase::of_file(file));
+        let mut outcome = Outcome::new(test, Status::Error, "the file could not be loaded.");
+        if let Some(error) = answer.and_then(|answer| answer.field("error")) {
+            explain(&mut outcome, error);
+        }
+        outcome.console = self.bench.take_lines();
+        outcome
+    }
+
+    /// Runs a test of the file, which has been collected.
+    pub(super) fn run(&mut self, test: &Arc<TestCase>) -> Outcome {
+        let answer = self.call("package.loaded.busted.run", &[Data::Int(test.index as i64)]);
+        let mut outcome = Outcome::new(Arc::clone(test), Status::Error, "the test could not be run to its end.");
+        if let Some(answer) = answer {
+            outcome.status = status(&answer);
+            outcome.message.clear();
+            explain(&mut outcome, &answer);
+        } else if let Some(line) = self.bench.lines_from(0).iter().rev().find(|line| line.level == "error") {
+            outcome.message.clone_from(&line.text);
+        }
+        (outcome.time, outcome.steps) = (self.sim.time(), self.sim.steps());
+        outcome.goldens = self.bench.goldens.take();
+        outcome.console = self.bench.take_lines();
+        outcome
+    }
+
+    /// Runs what is left to tear down after the last test, which fails when that does.
+    pub(super) fn finish(&mut self, last: &mut Outcome) {
+        let Some(answer) = self.call("package.loaded.busted.finish", &[]) else { return };
+        if status(&answer) != Status::Passed && !last.is_bad() {
+            last.status = status(&answer);
+            explain(last, &answer);
+        }
+    }
+
+    fn call(&mut self, function: &str, args: &[Data]) -> Option<Data> {
+        self.sim.call(&self.sandbox, function, args).ok()?.into_iter().next()
+    }
+}
+
+fn found(test: &Data) -> Found {
+    let names = match test.field("name") {
+        Some(Data::Array(names)) => names.iter().map(as_text).collect(),
+        _ => Vec::new(),
+    };
+    Found { name: names, line: line(test) }
+}
+
+fn status(answer: &Data) -> Status {
+    match text(answer, "status").as_str() {
+        "passed" => Status::Passed,
+        "failed" => Status::Failed,
+        "pending" => Status::Pending,
+        _ => Status::Error,
+    }
+}
+
+fn explain(outcome: &mut Outcome, answer: &Data) {
+    outcome.message = text(answer, "message");
+    outcome.trace = text(answer, "trace");
+    outcome.line = line(answer);
+    outcome.script = answer.field("script").map(as_text);
+}
+
+fn text(answer: &Data, field: &str) -> String {
+    answer.field(field).map(as_text).unwrap_or_default()
+}
+
+fn as_text(data: &Data) -> String {
+    if let Data::Text(bytes) = data { String::from_utf8_lossy(bytes).into_owned() } else { String::new() }
+}
+
+fn line(answer: &Data) -> Option<u32> {
+    if let Some(Data::Int(line)) = answer.field("line") { u32::try_from(*line).ok() } else { None }
+}

@@ -1,0 +1,268 @@
+//! Threads that run tests, and the watch over them.
+//!
+//! A test that takes too long is told to stop, which ends Lua code wherever it is. One that does not, since it is inside a function written in
+//! C, is given up with its thread: another thread takes its place, and the process ends without it.
+#![allow(clippy::disallowed_methods, reason = "how long tests take is watched by the wall clock")]
+
+use std::collections::{HashMap, VecDeque};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Sender};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::Config;
+use super::case::{Outcome, Status, TestCase};
+use super::plan::{Collection, Job};
+use super::session::Session;
+use crate::Simulator;
+
+/// How often the clock is looked at.
+const TICK: Duration = Duration::from_millis(20);
+/// How long a test has to stop when it was told to.
+const GRACE: Duration = Duration::from_secs(2);
+
+/// A piece of work.
+#[derive(Debug, Clone)]
+pub(super) enum Task {
+    /// Learn what tests a file has.
+    Collect(PathBuf),
+    Run(Job),
+}
+
+/// What comes back.
+pub(super) enum Message {
+    Collected(Collection),
+    Finished(Box<Outcome>),
+}
+
+enum News {
+    /// A worker begins with something that takes time, and can be told to stop it.
+    Begun(Running),
+    Ready(Message),
+    /// A worker has nothing left to do.
+    Gone,
+}
+
+struct Running {
+    test: Arc<TestCase>,
+    /// What is left to another worker when this one is given up.
+    rest: Vec<Arc<TestCase>>,
+    stop: Arc<AtomicBool>,
+    begun: Instant,
+}
+
+/// What all threads know.
+struct Shared {
+    config: Config,
+    queue: Mutex<VecDeque<Task>>,
+    /// Nothing new is to be begun.
+    cancelled: AtomicBool,
+}
+
+impl Shared {
+    fn queue(&self) -> MutexGuard<'_, VecDeque<Task>> {
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn cancel(&self) {
+        self.cancelled.store(true, Ordering::Relaxed);
+    }
+
+    fn next_task(&self) -> Option<Task> {
+        if self.cancelled.load(Ordering::Relaxed) { None } else { self.queue().pop_front() }
+    }
+}
+
+/// The threads, by number, with what they are at.
+struct Watch<'a> {
+    shared: Arc<Shared>,
+    workers: HashMap<usize, Option<Running>>,
+    next: usize,
+    sender: Sender<(usize, News)>,
+    receive: &'a mut dyn FnMut(Message) -> bool,
+}
+
+/// Does the tasks on `config.jobs` threads and hands over what comes back, until all is done or `receive` wants no more to be begun.
+pub(super) fn work(config: &Config, tasks: Vec<Task>, receive: &mut dyn FnMut(Message) -> bool) {
+    let count = config.jobs.clamp(1, tasks.len().max(1));
+    let shared = Shared { config: config.clone(), queue: Mutex::new(tasks.into()), cancelled: AtomicBool::new(false) };
+    let (sender, news) = mpsc::channel();
+    let mut watch = Watch { shared: Arc::new(shared), workers: HashMap::new(), next: 0, sender, receive };
+    for _ in 0..count {
+        watch.spawn();
+    }
+    while !watch.workers.is_empty() {
+        match news.recv_timeout(TICK) {
+            Ok((worker, news)) => watch.hear(worker, news),
+            Err(_) => watch.look_after(),
+        }
+    }
+}
+
+impl Watch<'_> {
+    fn spawn(&mut self) {
+        let (id, shared, sender) = (self.next, Arc::clone(&self.shared), self.sender.clone());
+        self.next += 1;
+        let thread = std::thread::Builder::new().name(format!("tests {id}")).stack_size(Simulator::STACK_SIZE);
+        let worker = Worker { id, shared, sender };
+        thread.spawn(move || worker.work()).expect("the system has a thread for the tests");
+        self.workers.insert(id, None);
+    }
+
+    fn hear(&mut self, worker: usize, news: News) {
+        // Those that were given up may say what they like.
+        let Some(running) = self.workers.get_mut(&worker) else { return };
+        match news {
+            News::Begun(begun) => *running = Some(begun),
+            News::Ready(message) => {
+                let running = running.take();
+                self.take(message, running);
+            }
+            News::Gone => drop(self.workers.remove(&worker)),
+        }
+        self.look_after();
+    }
+
+    fn take(&mut self, mut message: Message, running: Option<Running>) {
+        if let (Message::Finished(outcome), Some(running)) = (&mut message, running) {
+            outcome.wall = running.begun.elapsed();
+            if running.stop.load(Ordering::Relaxed) {
+                outcome.status = Status::Error;
+                outcome.message = too_long(self.shared.config.allowance.wall);
+            }
+        }
+        // What the user interrupted has no outcome.
+        if self.is_interrupted() || !(self.receive)(message) {
+            self.shared.cancel();
+        }
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.shared.config.interrupted.load(Ordering::Relaxed)
+    }
+
+    /// Stops what takes too long, and everything when the user wants an end.
+    fn look_after(&mut self) {
+        let interrupted = self.is_interrupted();
+        if interrupted {
+            self.shared.cancel();
+        }
+        let limit = self.shared.config.allowance.wall;
+        let mut stuck = Vec::new();
+        for (&worker, running) in &self.workers {
+            let Some(running) = running else { continue };
+            let wall = running.begun.elapsed();
+            if interrupted || wall > limit {
+                running.stop.store(true, Ordering::Relaxed);
+            }
+            if wall > limit + GRACE {
+                stuck.push(worker);
+            }
+        }
+        stuck.into_iter().for_each(|worker| self.give_up(worker));
+    }
+
+    fn give_up(&mut self, worker: usize) {
+        let Some(Some(running)) = self.workers.remove(&worker) else { return };
+        let message = too_long(self.shared.config.allowance.wall)
+            + " It could not be ended: it is in a function that is not written in Lua.";
+        let mut outcome = Outcome::new(Arc::clone(&running.test), Status::Error, message);
+        outcome.wall = running.begun.elapsed();
+        let message = if running.test.index == 0 {
+            Message::Collected(Collection::broken(outcome))
+        } else {
+            Message::Finished(Box::new(outcome))
+        };
+        if !(self.receive)(message) {
+            self.shared.cancel();
+        }
+        if !running.rest.is_empty() {
+            self.shared.queue().push_front(Task::Run(Job { tests: running.rest }));
+        }
+        self.spawn();
+    }
+}
+
+fn too_long(limit: Duration) -> String {
+    format!("the test took longer than {} s (--timeout).", limit.as_secs_f64())
+}
+
+/// A thread with a simulator at a time.
+struct Worker {
+    id: usize,
+    shared: Arc<Shared>,
+    sender: Sender<(usize, News)>,
+}
+
+impl Worker {
+    fn work(self) {
+        while let Some(task) = self.shared.next_task() {
+            match task {
+                Task::Collect(file) => self.collect(&file),
+                Task::Run(job) => self.run(job.tests),
+            }
+        }
+        self.tell(News::Gone);
+    }
+
+    /// Without a receiver the run is over, and so is this thread's work.
+    fn tell(&self, news: News) {
+        let _ = self.sender.send((self.id, news));
+    }
+
+    fn begin(&self, test: &Arc<TestCase>, rest: &[Arc<TestCase>], stop: &Arc<AtomicBool>) {
+        let (test, rest, stop) = (Arc::clone(test), rest.to_vec(), Arc::clone(stop));
+        self.tell(News::Begun(Running { test, rest, stop, begun: Instant::now() }));
+    }
+
+    fn collect(&self, file: &Path) {
+        let test = Arc::new(TestCase::of_file(file));
+        let stop = Arc::new(AtomicBool::new(false));
+        self.begin(&test, &[], &stop);
+        let collect = || Session::new(&self.shared.config, file, self.shared.config.seed, stop).collect(file);
+        let collection = catch_unwind(AssertUnwindSafe(collect))
+            .unwrap_or_else(|_| Collection::broken(Outcome::new(test, Status::Error, CRASHED)));
+        self.tell(News::Ready(Message::Collected(collection)));
+    }
+
+    /// Runs tests in one simulator; those after one that had to be stopped get another.
+    fn run(&self, mut tests: Vec<Arc<TestCase>>) {
+        while !tests.is_empty() && !self.shared.cancelled.load(Ordering::Relaxed) {
+            let stop = Arc::new(AtomicBool::new(false));
+            let first = Arc::clone(&tests[0]);
+            self.begin(&first, &tests[1..], &stop);
+            let left = catch_unwind(AssertUnwindSafe(|| self.run_until_stopped(tests.clone(), &stop)));
+            tests = left.unwrap_or_else(|_| {
+                self.finished(Outcome::new(first, Status::Error, CRASHED));
+                tests.split_off(1)
+            });
+        }
+    }
+
+    /// Returns the tests that are left.
+    fn run_until_stopped(&self, mut tests: Vec<Arc<TestCase>>, stop: &Arc<AtomicBool>) -> Vec<Arc<TestCase>> {
+        let mut session = Session::new(&self.shared.config, &tests[0].file, tests[0].seed, Arc::clone(stop));
+        let collection = session.collect(&tests[0].file);
+        while !tests.is_empty() && !stop.load(Ordering::Relaxed) && !self.shared.cancelled.load(Ordering::Relaxed) {
+            let test = tests.remove(0);
+            self.begin(&test, &tests, stop);
+            let mut outcome = match &collection.broken {
+                Some(broken) => Outcome { test, ..broken.clone() },
+                None => session.run(&test),
+            };
+            if tests.is_empty() {
+                session.finish(&mut outcome);
+            }
+            self.finished(outcome);
+        }
+        tests
+    }
+
+    fn finished(&self, outcome: Outcome) {
+        self.tell(News::Ready(Message::Finished(Box::new(outcome))));
+    }
+}
+
+const CRASHED: &str = "internal error in Swanilda, please report it: the simulator has crashed.";
