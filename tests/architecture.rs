@@ -33,6 +33,8 @@ const OWNERS: &[(&str, &str)] = &[
     ("httparse", "src/io/ws"),
     ("futures", "src/io"),
     ("serialport", "src/io/serial.rs"),
+    ("plotters", "src/testing/golden/plot.rs"),
+    ("dejavu", "src/testing/golden/plot.rs"),
     ("clap", "src/cli"),
     ("indicatif", "src/cli"),
     ("ctrlc", "src/cli"),

@@ -59,6 +59,12 @@ pub(super) struct Args {
     /// Memory the Lua code of a test may take, MiB
     #[arg(long, value_name = "MIB", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..))]
     memory: u32,
+    /// Record golden traces instead of comparing with them
+    #[arg(long)]
+    update_golden: bool,
+    /// Where plots of golden traces go that differ
+    #[arg(long, value_name = "FOLDER", default_value = "test-results")]
+    artifacts: PathBuf,
     /// Show what passed as well
     #[arg(long, short)]
     verbose: bool,
@@ -91,6 +97,8 @@ impl Args {
             repeat: self.repeat,
             seed: self.seed.unwrap_or(Options::default().seed),
             fail_fast: self.fail_fast,
+            update_golden: self.update_golden,
+            artifacts: self.artifacts.clone(),
             allowance: Allowance {
                 wall: Duration::from_secs_f64(self.timeout),
                 simulated: self.sim_timeout,

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::golden::Comparison;
 use crate::script::test_bench::{ConsoleLine, Golden};
 
 /// One test of a file.
@@ -75,7 +76,9 @@ pub struct Outcome {
     pub steps: u64,
     pub wall: Duration,
     pub console: Vec<ConsoleLine>,
-    pub goldens: Vec<Golden>,
+    /// What the test recorded, until it is compared.
+    pub(super) goldens: Vec<Golden>,
+    pub comparisons: Vec<Comparison>,
 }
 
 impl Outcome {
@@ -93,7 +96,20 @@ impl Outcome {
             wall: Duration::ZERO,
             console: Vec::new(),
             goldens: Vec::new(),
+            comparisons: Vec::new(),
         }
+    }
+
+    /// Makes it a failure, besides what it is already.
+    pub(super) fn fail(&mut self, message: &str) {
+        if !self.is_bad() {
+            self.status = Status::Failed;
+            self.message.clear();
+        }
+        if !self.message.is_empty() {
+            self.message.push('\n');
+        }
+        self.message.push_str(message);
     }
 
     /// Whether it counts against the run.

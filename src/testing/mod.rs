@@ -5,6 +5,7 @@
 
 mod case;
 mod discover;
+mod golden;
 mod plan;
 mod session;
 mod workers;
@@ -16,7 +17,9 @@ use std::time::Duration;
 
 pub use case::{Outcome, Status, TestCase};
 pub use discover::find_files;
+pub use golden::{Comparison, Difference, Divergence, Verdict};
 
+use golden::Claims;
 use plan::Plan;
 use workers::{Message, Task, work};
 
@@ -36,6 +39,10 @@ pub struct Config {
     pub seed: u32,
     /// No further tests after one has failed.
     pub fail_fast: bool,
+    /// Record golden traces instead of comparing with them.
+    pub update_golden: bool,
+    /// Where pictures of golden traces go that differ.
+    pub artifacts: PathBuf,
     /// What a test may use up.
     pub allowance: Allowance,
     /// Becomes true when the user wants an end.
@@ -136,11 +143,30 @@ fn plan(config: &Config) -> std::io::Result<Plan> {
 
 fn run_tests(config: &Config, jobs: Vec<plan::Job>, reporter: &mut dyn Reporter, outcomes: &mut Vec<Outcome>) {
     let tasks = jobs.into_iter().map(Task::Run).collect();
+    let mut claims = Claims::default();
+    let mut recorded = Vec::new();
     work(config, tasks, &mut |message| {
-        let Message::Finished(outcome) = message else { return true };
-        reporter.outcome(&outcome);
+        let Message::Finished(mut outcome) = message else { return true };
+        golden::judge(&mut outcome, config.update_golden);
+        claims.note(&outcome);
         let go_on = !(config.fail_fast && outcome.is_bad());
-        outcomes.push(*outcome);
+        if outcome.comparisons.is_empty() {
+            reporter.outcome(&outcome);
+            outcomes.push(*outcome);
+        } else {
+            // Whether its recordings are its own is known when all tests have told theirs.
+            recorded.push(*outcome);
+        }
         go_on
     });
+    recorded.sort_by_key(|outcome| outcome.test.key());
+    for mut outcome in recorded {
+        claims.settle(&mut outcome);
+        if config.update_golden {
+            golden::record(&mut outcome);
+        }
+        golden::draw(&mut outcome, &config.artifacts);
+        reporter.outcome(&outcome);
+        outcomes.push(outcome);
+    }
 }

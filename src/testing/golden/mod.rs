@@ -1,0 +1,150 @@
+//! Golden traces: what a test recorded, against what was recorded when all was well.
+
+mod claims;
+mod compare;
+mod file;
+mod plot;
+
+use std::path::{Path, PathBuf};
+
+pub(super) use claims::Claims;
+pub use compare::{Difference, Divergence};
+
+use super::case::{Outcome, Status, TestCase};
+use crate::script::test_bench::{Golden, Trace};
+
+/// A trace of a test and its golden file.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    pub name: String,
+    pub path: PathBuf,
+    pub actual: Trace,
+    /// What the file holds.
+    pub expected: Option<Trace>,
+    pub verdict: Verdict,
+}
+
+/// What came out.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Verdict {
+    Alike,
+    Different(Difference),
+    /// There is no file.
+    Missing,
+    /// The file or the trace is of no use, for this reason.
+    Unusable(String),
+}
+
+impl Comparison {
+    /// Compares a trace with its file.
+    pub(super) fn new(test: &TestCase, golden: Golden) -> Self {
+        let path = path_of(&test.file, &golden.name);
+        let (expected, verdict) = match read(&path, &golden) {
+            Ok(Some(expected)) => {
+                let verdict = compare::compare(&expected, &golden.trace, &golden.tolerances);
+                (Some(expected), verdict.map_or(Verdict::Alike, Verdict::Different))
+            }
+            Ok(None) => (None, Verdict::Missing),
+            Err(reason) => (None, Verdict::Unusable(reason)),
+        };
+        Self { name: golden.name, path, actual: golden.trace, expected, verdict }
+    }
+
+    /// Whether it counts against the test.
+    pub fn is_bad(&self) -> bool {
+        self.verdict != Verdict::Alike
+    }
+
+    /// What is wrong; nothing when all is well.
+    pub fn message(&self) -> Option<String> {
+        let about = format!("golden '{}' ({})", self.name, self.path.display());
+        match &self.verdict {
+            Verdict::Alike => None,
+            Verdict::Missing => Some(format!("{about}: there is no such file. Record it with --update-golden.")),
+            Verdict::Unusable(reason) => Some(format!("{about}: {reason}")),
+            Verdict::Different(difference) => {
+                Some(format!("{about}: {difference}\nIf that is right, record it with --update-golden."))
+            }
+        }
+    }
+
+    /// A picture of what was expected and what came, for those quantities that differ; None when there is nothing to compare.
+    pub fn svg(&self) -> Option<String> {
+        plot::svg(self)
+    }
+
+    /// The same picture as PNG.
+    pub fn png(&self) -> Option<Vec<u8>> {
+        plot::png(self)
+    }
+
+    /// Records the trace, unless the file is right as it is.
+    pub(super) fn record(&mut self) -> std::io::Result<()> {
+        if matches!(self.verdict, Verdict::Alike) || !is_name(&self.name) {
+            return Ok(());
+        }
+        file::write(&self.path, &self.actual)?;
+        self.verdict = Verdict::Alike;
+        Ok(())
+    }
+}
+
+/// `drive_test.lua` and `lap` make `drive_test.lap.golden`, beside the test.
+fn path_of(test: &Path, name: &str) -> PathBuf {
+    let stem = test.file_stem().unwrap_or_default().to_string_lossy();
+    test.with_file_name(format!("{stem}.{name}.golden"))
+}
+
+fn is_name(name: &str) -> bool {
+    let fits = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | ' ');
+    !name.is_empty() && name.len() <= 100 && name.chars().all(fits)
+}
+
+fn read(path: &Path, golden: &Golden) -> Result<Option<Trace>, String> {
+    if !is_name(&golden.name) {
+        return Err("a name is made of letters, digits, '_', '-', '.' and blanks.".into());
+    }
+    if golden.trace.rows.is_empty() {
+        return Err("nothing was recorded: the test made no step after t.golden.".into());
+    }
+    file::read(path)
+}
+
+/// Compares the traces a test has left. One that is wrong fails the test; with `update` it is left for [`record`].
+pub(super) fn judge(outcome: &mut Outcome, update: bool) {
+    let goldens = std::mem::take(&mut outcome.goldens);
+    outcome.comparisons = goldens.into_iter().map(|golden| Comparison::new(&outcome.test, golden)).collect();
+    let usable = |comparison: &&Comparison| matches!(comparison.verdict, Verdict::Unusable(_)) || !update;
+    let messages: Vec<_> = outcome.comparisons.iter().filter(usable).filter_map(Comparison::message).collect();
+    if !messages.is_empty() && !outcome.is_bad() {
+        outcome.fail(&messages.join("\n"));
+    }
+}
+
+/// Writes the golden files of a test that passed. Of its repetitions, the first one counts.
+pub(super) fn record(outcome: &mut Outcome) {
+    if outcome.status != Status::Passed || outcome.test.repetition > 0 {
+        return;
+    }
+    let failed =
+        |c: &mut Comparison| c.record().err().map(|error| format!("cannot write {}: {error}", c.path.display()));
+    let problems: Vec<_> = outcome.comparisons.iter_mut().filter_map(failed).collect();
+    if !problems.is_empty() {
+        outcome.fail(&problems.join("\n"));
+    }
+}
+
+/// Writes pictures of what differs into `folder`; the message tells where they are.
+pub(super) fn draw(outcome: &mut Outcome, folder: &Path) {
+    let mut notes = String::new();
+    for comparison in outcome.comparisons.iter().filter(|comparison| comparison.is_bad()) {
+        let Some(png) = comparison.png() else { continue };
+        let stem = outcome.test.file.file_stem().unwrap_or_default().to_string_lossy();
+        let path = folder.join(format!("{stem}.{}.{}.png", comparison.name, outcome.test.seed));
+        match std::fs::create_dir_all(folder).and_then(|()| std::fs::write(&path, png)) {
+            Ok(()) => notes += &format!("\nplot: {}", path.display()),
+            Err(error) => notes += &format!("\ncannot write {}: {error}", path.display()),
+        }
+    }
+    outcome.message.push_str(&notes);
+}

@@ -1,0 +1,131 @@
+//! Pictures of traces: what was expected and what came.
+
+use std::error::Error;
+use std::sync::Once;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
+
+use super::compare::Difference;
+use super::{Comparison, Verdict};
+use crate::format::picture::{Layout, Picture};
+use crate::script::test_bench::Trace;
+
+/// Pixels.
+const WIDTH: u32 = 900;
+const HEIGHT: u32 = 220;
+/// Quantities in one picture; more would not be looked at.
+const MOST: usize = 8;
+
+const EXPECTED: RGBColor = RGBColor(120, 120, 120);
+const ACTUAL: RGBColor = RGBColor(200, 60, 30);
+
+type Drawn<T> = Result<T, Box<dyn Error>>;
+
+/// The picture as SVG; None when there is nothing to compare.
+pub(super) fn svg(comparison: &Comparison) -> Option<String> {
+    let (expected, columns) = shown(comparison)?;
+    let mut text = String::new();
+    let size = (WIDTH, HEIGHT * columns.len() as u32);
+    let drawn = draw(SVGBackend::with_string(&mut text, size).into_drawing_area(), comparison, expected, &columns);
+    drawn.is_ok().then_some(text)
+}
+
+/// The picture as PNG; None when there is nothing to compare.
+pub(super) fn png(comparison: &Comparison) -> Option<Vec<u8>> {
+    let (expected, columns) = shown(comparison)?;
+    let (width, height) = (WIDTH, HEIGHT * columns.len() as u32);
+    let mut pixels = vec![0; (width * height * 3) as usize];
+    load_font();
+    let area = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
+    draw(area, comparison, expected, &columns).ok()?;
+    let picture = Picture::new(pixels, [i64::from(width), i64::from(height)], Layout::Rgb).ok()?;
+    picture.encode("png", 100).ok()
+}
+
+/// The quantities that differ, as columns of both traces; all when they differ in length only.
+fn shown(comparison: &Comparison) -> Option<(&Trace, Vec<(usize, usize)>)> {
+    let expected = comparison.expected.as_ref()?;
+    let differs = |name: &String| match &comparison.verdict {
+        Verdict::Different(Difference::Values { columns, .. }) => columns.contains(name),
+        _ => true,
+    };
+    let place = |name: &String| comparison.actual.columns.iter().position(|other| other == name);
+    let columns = expected.columns.iter().enumerate().filter(|(_, name)| differs(name));
+    let columns: Vec<_> = columns.filter_map(|(i, name)| Some((i, place(name)?))).take(MOST).collect();
+    (!columns.is_empty()).then_some((expected, columns))
+}
+
+fn draw<B>(
+    area: DrawingArea<B, Shift>,
+    comparison: &Comparison,
+    expected: &Trace,
+    columns: &[(usize, usize)],
+) -> Drawn<()>
+where
+    B: DrawingBackend,
+    B::ErrorType: 'static,
+{
+    area.fill(&WHITE)?;
+    for (part, &(i, j)) in area.split_evenly((columns.len(), 1)).iter().zip(columns) {
+        let (was, is) = (points(expected, i), points(&comparison.actual, j));
+        draw_quantity(part, &expected.columns[i], &was, &is)?;
+    }
+    area.present()?;
+    Ok(())
+}
+
+/// What can be drawn of a column: time and value.
+fn points(trace: &Trace, column: usize) -> Vec<(f64, f64)> {
+    let points = trace.rows.iter().map(|row| (row[0], row[column + 1]));
+    // Larger values leave no room between two lines of a grid.
+    points.filter(|(_, value)| value.is_finite() && value.abs() < 1e100).collect()
+}
+
+fn draw_quantity<B>(area: &DrawingArea<B, Shift>, name: &str, was: &[(f64, f64)], is: &[(f64, f64)]) -> Drawn<()>
+where
+    B: DrawingBackend,
+    B::ErrorType: 'static,
+{
+    let all = || was.iter().chain(is);
+    let (times, values) = (range(all().map(|point| point.0)), range(all().map(|point| point.1)));
+    let mut chart = ChartBuilder::on(area)
+        .margin(8)
+        .caption(name, ("sans-serif", 15))
+        .x_label_area_size(24)
+        .y_label_area_size(70)
+        .build_cartesian_2d(times, values)?;
+    chart.configure_mesh().light_line_style(WHITE).x_labels(10).y_labels(5).y_label_formatter(&|y| label(*y)).draw()?;
+    let lines = [("expected", EXPECTED, was), ("this run", ACTUAL, is)];
+    for (label, colour, points) in lines {
+        let series = LineSeries::new(points.iter().copied(), colour.stroke_width(2));
+        chart
+            .draw_series(series)?
+            .label(label)
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour.stroke_width(2)));
+    }
+    chart.configure_series_labels().background_style(WHITE.mix(0.8)).border_style(EXPECTED).draw()?;
+    Ok(())
+}
+
+fn label(value: f64) -> String {
+    if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) { format!("{value:.2e}") } else { format!("{value:.4}") }
+}
+
+/// The range of some numbers with a little room; never empty.
+fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    if low > high {
+        return 0.0..1.0;
+    }
+    let room = ((high - low) * 0.05).max(high.abs().max(low.abs()) * 1e-9).max(1e-12);
+    low - room..high + room
+}
+
+/// The bitmap backend brings no font.
+fn load_font() {
+    static LOADED: Once = Once::new();
+    // A font that cannot be loaded leaves a picture without words.
+    LOADED.call_once(|| drop(register_font("sans-serif", FontStyle::Normal, dejavu::sans::regular())));
+}
