@@ -35,6 +35,7 @@ const OWNERS: &[(&str, &str)] = &[
     ("serialport", "src/io/serial.rs"),
     ("plotters", "src/testing/golden/plot.rs"),
     ("dejavu", "src/testing/golden/plot.rs"),
+    ("notify", "src/cli/test/watch.rs"),
     ("clap", "src/cli"),
     ("indicatif", "src/cli"),
     ("ctrlc", "src/cli"),

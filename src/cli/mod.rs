@@ -61,11 +61,26 @@ enum Command {
 pub fn main() -> ExitCode {
     // Scripts may recurse deeply, within Lua and across scripts.
     let thread = std::thread::Builder::new().name("simulator".into()).stack_size(crate::Simulator::STACK_SIZE);
-    let outcome = thread.spawn(|| Cli::parse().command.execute());
+    let outcome = thread.spawn(|| parse().map_or_else(|code| code, |cli| cli.command.execute()));
     match outcome.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,
         _ => ExitCode::from(INTERNAL),
     }
+}
+
+/// The command line; what is wrong with it has been said, and help been given.
+fn parse() -> Result<Cli, ExitCode> {
+    Cli::try_parse().map_err(|error| {
+        let _ = error.print();
+        let for_tests = std::env::args().nth(1).is_some_and(|command| command == "test");
+        ExitCode::from(if !error.use_stderr() {
+            0
+        } else if for_tests {
+            test::USAGE
+        } else {
+            USAGE
+        })
+    })
 }
 
 impl Command {

@@ -1,6 +1,6 @@
 //! `swanilda test`: runs the tests in Lua files.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -10,9 +10,12 @@ use super::setup::seconds;
 use crate::Options;
 use crate::testing::{self, Allowance, Config, Summary};
 
+mod init;
 mod terminal;
+mod watch;
 
 use terminal::Terminal;
+use watch::Watch;
 
 /// Exit codes as pytest has them.
 const FAILED: u8 = 1;
@@ -65,6 +68,12 @@ pub(super) struct Args {
     /// Where plots of golden traces go that differ
     #[arg(long, value_name = "FOLDER", default_value = "test-results")]
     artifacts: PathBuf,
+    /// Run the tests again whenever a file beside or below them changes
+    #[arg(long)]
+    watch: bool,
+    /// Write a first test and a workflow that runs it into the current folder
+    #[arg(long)]
+    init: bool,
     /// Show what passed as well
     #[arg(long, short)]
     verbose: bool,
@@ -72,18 +81,47 @@ pub(super) struct Args {
 
 /// Runs the tests; the exit code tells how it went.
 pub(super) fn test(args: &Args) -> ExitCode {
+    if args.init {
+        return init();
+    }
     let interrupt = Interrupt::install(INTERRUPTED);
     let config = args.config(&interrupt);
-    if args.list {
-        return list(&config);
+    let ran = match (args.list, args.watch) {
+        (true, _) => list(&config),
+        (_, true) => watch(args, &config, &interrupt),
+        _ => run(args, &config),
+    };
+    match ran {
+        // At once: a test that could not be ended may still keep a thread.
+        Ok(code) => std::process::exit(i32::from(code)),
+        Err(reason) => refuse(&reason),
     }
+}
+
+fn run(args: &Args, config: &Config) -> Result<u8, String> {
     let mut terminal = Terminal::new(args.verbose);
-    match testing::run(&config, &mut terminal) {
-        Ok(summary) => {
-            terminal.summary(&summary);
-            end(exit_code(&config, &summary))
+    let summary = testing::run(config, &mut terminal).map_err(|error| error.to_string())?;
+    terminal.summary(&summary);
+    Ok(exit_code(config, &summary))
+}
+
+fn watch(args: &Args, config: &Config, interrupt: &Interrupt) -> Result<u8, String> {
+    let watch = Watch::new(&config.paths).map_err(|error| error.to_string())?;
+    let mut code = run(args, config)?;
+    while let Some(changed) = watch.next(interrupt) {
+        println!("\n{} has changed", changed.display());
+        code = run(args, config)?;
+    }
+    Ok(code)
+}
+
+fn init() -> ExitCode {
+    match init::write(Path::new("")) {
+        Ok(written) => {
+            written.iter().for_each(|path| println!("wrote {}", path.display()));
+            ExitCode::SUCCESS
         }
-        Err(error) => refuse(&error),
+        Err(error) => refuse(&error.to_string()),
     }
 }
 
@@ -113,15 +151,11 @@ fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-fn list(config: &Config) -> ExitCode {
-    match testing::list(config) {
-        Ok(tests) => {
-            let lines: String = tests.iter().map(|test| test.id() + "\n").collect();
-            super::say(lines.as_bytes());
-            ExitCode::from(if tests.is_empty() { NO_TESTS } else { 0 })
-        }
-        Err(error) => refuse(&error),
-    }
+fn list(config: &Config) -> Result<u8, String> {
+    let tests = testing::list(config).map_err(|error| error.to_string())?;
+    let lines: String = tests.iter().map(|test| test.id() + "\n").collect();
+    super::say(lines.as_bytes());
+    Ok(if tests.is_empty() { NO_TESTS } else { 0 })
 }
 
 fn exit_code(config: &Config, summary: &Summary) -> u8 {
@@ -133,13 +167,8 @@ fn exit_code(config: &Config, summary: &Summary) -> u8 {
     }
 }
 
-/// Ends the process at once: a test that could not be ended may still keep a thread.
-fn end(code: u8) -> ExitCode {
-    std::process::exit(i32::from(code))
-}
-
-fn refuse(error: &std::io::Error) -> ExitCode {
-    eprintln!("swanilda: {error}");
+fn refuse(reason: &str) -> ExitCode {
+    eprintln!("swanilda: {reason}");
     ExitCode::from(USAGE)
 }
 
