@@ -15,10 +15,12 @@ A file that loads neither `sim` nor `swanilda.test` runs as in busted: in one Lu
 gets a simulator of its own, in which the file is loaded anew, so that setup and teardown run for each test.
 ]]
 
-local assert = require('luassert')
+local assert, failures = require('luassert'), require('luassert.failure')
 local spy, stub, mock, match = require('luassert.spy'), require('luassert.stub'), require('luassert.mock'), require('luassert.match')
 
 local M = {}
+
+failures.raise_objects(true)
 
 local PENDING = {} -- the metatable of the value that ends a pending test
 
@@ -171,7 +173,7 @@ function M.explain(problem)
     return {
         explained = true,
         message = tostring(text),
-        failed = assert.isFailure(problem) or type(problem) == 'table' and problem.failed,
+        failed = failures.is(problem) or type(problem) == 'table' and problem.failed,
         line = errorLine(),
         trace = debug.traceback('', 2),
         script = type(problem) == 'table' and problem.script or nil,

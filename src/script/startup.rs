@@ -46,7 +46,7 @@ fn seed_random(stack: Stack<'_>, seed: u32) {
 }
 
 /// Modules that CoppeliaSim has not, or no longer: a script's own file of that name goes first.
-const LAST: &[&str] = &["cbor", "class", "json"];
+const LAST: &[&str] = &["cbor", "class", "json", "say"];
 
 /// Puts the scene's folders first into `package.path` and `package.cpath`, and the embedded library into `package.searchers`.
 fn install_package(sim: &Sim, stack: Stack<'_>) {

@@ -1,0 +1,5 @@
+--[[
+Another name of `luassert`.
+]]
+
+return require 'luassert'

@@ -1,0 +1,49 @@
+--[[
+The messages of luassert's own assertions.
+]]
+
+local say = require 'luassert.say'
+
+local function text(name, positive, negative)
+    say:set(('assertion.%s.positive'):format(name), positive)
+    say:set(('assertion.%s.negative'):format(name), negative)
+end
+
+text('same', 'Expected objects to be the same.\nPassed in:\n%s\nExpected:\n%s',
+    'Expected objects to not be the same.\nPassed in:\n%s\nDid not expect:\n%s')
+text('equals', 'Expected objects to be equal.\nPassed in:\n%s\nExpected:\n%s',
+    'Expected objects to not be equal.\nPassed in:\n%s\nDid not expect:\n%s')
+text('near', 'Expected values to be near.\nPassed in:\n%s\nExpected:\n%s +/- %s',
+    'Expected values to not be near.\nPassed in:\n%s\nDid not expect:\n%s +/- %s')
+text('unique', 'Expected object to be unique:\n%s', 'Expected object to not be unique:\n%s')
+text('matches', 'Expected strings to match.\nPassed in:\n%s\nExpected:\n%s',
+    'Expected strings not to match.\nPassed in:\n%s\nDid not expect:\n%s')
+text('truthy', 'Expected to be truthy, but value was:\n%s', 'Expected to not be truthy, but value was:\n%s')
+text('falsy', 'Expected to be falsy, but value was:\n%s', 'Expected to not be falsy, but value was:\n%s')
+text('error', 'Expected a different error.\nCaught:\n%s\nExpected:\n%s', 'Expected no error, but caught:\n%s')
+text('returned_arguments', 'Expected to be called with %s argument(s), but was called with %s',
+    'Expected not to be called with %s argument(s), but was called with %s')
+text('array_holes', 'Expected array to have holes, but none was found.\n',
+    'Expected array to not have holes, hole found at position: %s\n')
+
+text('called', 'Expected to be called %s time(s), but was called %s time(s)',
+    'Expected not to be called exactly %s time(s), but it was.')
+text('called_at_least', 'Expected to be called at least %s time(s), but was called %s time(s)',
+    'Expected to be called less than %s time(s), but was called %s time(s)')
+text('called_at_most', 'Expected to be called at most %s time(s), but was called %s time(s)',
+    'Expected to be called more than %s time(s), but was called %s time(s)')
+text('called_more_than', 'Expected to be called more than %s time(s), but was called %s time(s)',
+    'Expected to be called at most %s time(s), but was called %s time(s)')
+text('called_less_than', 'Expected to be called less than %s time(s), but was called %s time(s)',
+    'Expected to be called at least %s time(s), but was called %s time(s)')
+text('called_with', 'Function was never called with matching arguments.\n'
+    .. 'Called with (last call if any):\n%s\nExpected:\n%s',
+    'Function was called with matching arguments at least once.\n'
+    .. 'Called with (last matching call):\n%s\nDid not expect:\n%s')
+text('returned_with', 'Function never returned matching arguments.\n'
+    .. 'Returned (last call if any):\n%s\nExpected:\n%s',
+    'Function returned matching arguments at least once.\n'
+    .. 'Returned (last matching call):\n%s\nDid not expect:\n%s')
+
+say:set('assertion.internal.argtolittle', "the '%s' function requires a minimum of %s arguments, got: %s")
+say:set('assertion.internal.badargtype', "bad argument #%s to '%s' (%s expected, got %s)")
