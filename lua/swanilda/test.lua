@@ -189,8 +189,8 @@ function Script:call(name, ...) return sim.callScriptFunction(name, self.handle,
 
 function Script:run(code)
     local results = table.pack(sim.executeScriptString(code, self.handle))
-    t._checkErrors()
-    return table.unpack(results, 1, results.n)
+    if results[1] ~= 0 then error(("script %d: %s"):format(self.handle, tostring(results[2])), 2) end
+    return table.unpack(results, 2, results.n)
 end
 
 function Script:get(expression) return self:run('return ' .. expression) end

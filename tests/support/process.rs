@@ -21,6 +21,14 @@ pub fn run_bounded(command: &mut Command) -> Result<String, String> {
 /// # Errors
 /// When it does not end in time, or by a signal.
 pub fn run_within(command: &mut Command, limit: Duration) -> Result<String, String> {
+    run_for_code(command, limit).map(|(_, text)| text)
+}
+
+/// The same with the exit code.
+///
+/// # Errors
+/// When it does not end in time, or by a signal.
+pub fn run_for_code(command: &mut Command, limit: Duration) -> Result<(i32, String), String> {
     let mut output = tempfile();
     let (out, err) =
         (output.try_clone().expect("files can be cloned"), output.try_clone().expect("files can be cloned"));
@@ -29,7 +37,7 @@ pub fn run_within(command: &mut Command, limit: Duration) -> Result<String, Stri
         return Err(format!("did not end within {limit:?}; it said last:\n{}", last_lines(&mut output)));
     };
     let text = read(&mut output);
-    if status.code().is_none() { Err(format!("ended by a signal: {status}\n{text}")) } else { Ok(text) }
+    status.code().map(|code| (code, text.clone())).ok_or_else(|| format!("ended by a signal: {status}\n{text}"))
 }
 
 /// Waits for the end of a child. One that goes on is killed: None.

@@ -80,6 +80,9 @@ impl Terminal {
     }
 
     pub(super) fn summary(&self, summary: &Summary) {
+        if summary.outcomes.is_empty() {
+            return say("no tests found\n");
+        }
         let mut parts = Vec::new();
         for (status, word) in [
             (Status::Passed, "passed"),

@@ -1,0 +1,358 @@
+//! `swanilda test` as its users run it.
+
+use std::path::Path;
+use std::process::Command;
+use std::time::Duration;
+
+#[allow(dead_code, reason = "other tests use other parts")]
+mod support;
+use support::process::run_for_code;
+
+/// Writes test files into a folder and runs them there; the exit code, and what was written to standard output and error.
+fn run(files: &[(&str, &str)], args: &[&str]) -> (i32, String) {
+    run_in(tempfile::tempdir().expect("a folder").path(), files, args)
+}
+
+fn run_in(folder: &Path, files: &[(&str, &str)], args: &[&str]) -> (i32, String) {
+    for (name, text) in files {
+        let path = folder.join(name);
+        std::fs::create_dir_all(path.parent().expect("below the folder")).expect("folders");
+        std::fs::write(path, text).expect("a file");
+    }
+    let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+    command.arg("test").args(args).current_dir(folder);
+    run_for_code(&mut command, Duration::from_secs(120)).expect("it ends")
+}
+
+/// A line of the output that begins so.
+fn has_line(output: &str, start: &str) -> bool {
+    output.lines().any(|line| line.starts_with(start))
+}
+
+const HEAD: &str = "local sim = require 'sim' local t = require 'swanilda.test'\n";
+
+fn simulating(code: &str) -> String {
+    HEAD.to_owned() + code
+}
+
+/// A box that falls from a height.
+const BOX: &str = "
+local function box(height)
+    local handle = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1})
+    sim.setObjectInt32Param(handle, sim.shapeintparam_static, 0)
+    sim.setObjectInt32Param(handle, sim.shapeintparam_respondable, 1)
+    sim.setObjectAlias(handle, 'box')
+    sim.setObjectPosition(handle, {0, 0, height})
+    return handle
+end
+";
+
+#[test]
+fn exit_codes_are_those_of_pytest() {
+    let pass = [("a_test.lua", "it('passes', function() end)")];
+    let fail = [("a_test.lua", "it('fails', function() assert.equal(1, 2) end)")];
+    assert_eq!(run(&pass, &[]).0, 0);
+    assert_eq!(run(&fail, &[]).0, 1);
+    assert_eq!(run(&[("a_test.lua", "it(")], &[]).0, 1);
+    assert_eq!(run(&pass, &["missing"]).0, 4);
+    assert_eq!(run(&pass, &["--nonsense"]).0, 4);
+    assert_eq!(run(&pass, &["--shard", "3/2"]).0, 4);
+    assert_eq!(run(&pass, &["--help"]).0, 0);
+    assert_eq!(run(&[("a.lua", "")], &[]).0, 5);
+    assert_eq!(run(&pass, &["--filter", "other"]).0, 5);
+}
+
+#[test]
+fn tests_are_found_listed_filtered_and_shared_out() {
+    let files = [
+        ("a/drive_test.lua", "describe('car', function() it('one', function() end) it('two', function() end) end)"),
+        ("test_plain.lua", "function test_b() end function test_a() end"),
+        ("other.lua", "error('not a test')"),
+    ];
+    let all = "a/drive_test.lua::car one\na/drive_test.lua::car two\ntest_plain.lua::test_a\ntest_plain.lua::test_b\n";
+    let listed = run(&files, &["--list"]).1;
+    let mut lines: Vec<&str> = listed.lines().collect();
+    lines.sort_unstable();
+    assert_eq!(lines.join("\n") + "\n", all, "both plain tests are in one line of the file");
+    assert_eq!(run(&files, &["--list", "--filter", "car t", "--filter", "plain"]).1.lines().count(), 3);
+    assert_eq!(run(&files, &["--list", "a"]).1.lines().count(), 2);
+    let shares = [run(&files, &["--list", "--shard", "1/2"]).1, run(&files, &["--list", "--shard", "2/2"]).1];
+    assert!(shares.iter().all(|share| share.lines().count() == 2) && shares[0] != shares[1]);
+    assert!(run(&files, &["--fail-fast", "-v", "--repeat", "2"]).1.contains("8 passed"));
+}
+
+#[test]
+fn a_suite_of_pure_lua_shares_its_state_as_in_busted() {
+    let suite = "
+        describe('shared', function()
+            local log = {}
+            setup(function() log[#log + 1] = 'setup' end)
+            before_each(function() log[#log + 1] = 'each' end)
+            after_each(function() log[#log + 1] = 'after' end)
+            it('one', function() assert.same({'setup', 'each'}, log) end)
+            describe('inner', function()
+                setup(function() log[#log + 1] = 'inner' end)
+                teardown(function() log[#log + 1] = 'down' end)
+                before_each(function() log[#log + 1] = 'more' end)
+                it('two', function()
+                    finally(function() log[#log + 1] = 'finally' end)
+                    assert.same({'setup', 'each', 'after', 'inner', 'each', 'more'}, log)
+                end)
+            end)
+            it('three', function()
+                assert.same({'setup', 'each', 'after', 'inner', 'each', 'more', 'finally', 'after', 'down', 'each'}, log)
+            end)
+            pending('four')
+            it('five')
+            it('six', function() pending('not today') error('is not reached') end)
+        end)
+        insulate('alone', function() it('sets', function() leaked = 1 end) end)
+        it('does not leak', function() assert.is_nil(leaked) end)";
+    let (code, output) = run(&[("suite_test.lua", suite)], &["-v"]);
+    assert_eq!(code, 0, "{output}");
+    assert!(output.contains("5 passed, 3 pending"), "{output}");
+}
+
+#[test]
+fn each_test_of_a_robot_has_a_fresh_simulator() {
+    let suite = simulating(
+        "local count = 0
+        for i = 1, 3 do
+            it('is alone ' .. i, function()
+                count = count + 1
+                assert.equal(1, count)
+                assert.equal(-1, sim.getObject('/mark', {noError = true}))
+                sim.setObjectAlias(sim.createDummy(0.1), 'mark')
+                t.step(5)
+                assert.near(0.25, t.time(), 1e-9)
+            end)
+        end",
+    );
+    let (code, output) = run(&[("fresh_test.lua", &suite)], &[]);
+    assert_eq!(code, 0, "{output}");
+}
+
+#[test]
+fn the_fixture_drives_simulation_and_scripts() {
+    let scene = "sim = require 'sim'
+        gain = 2
+        function sysCall_init() robot = sim.createDummy(0.1) sim.setObjectAlias(robot, 'robot') end
+        function sysCall_actuation()
+            local x = sim.getFloatSignal('goal') or 0
+            sim.setObjectPosition(robot, {x * gain, 0, 0})
+            print('goal ' .. x)
+        end
+        function double(x) return 2 * x end
+        function sysCall_msg(message) if message.id == 'hello' then heard = message.id end end";
+    let suite = simulating(
+        "local s
+        before_each(function() t.load('scenes/robot.lua') s = t.script('/Script') end)
+        local function x() return sim.getObjectPosition(t.object('/robot'))[1] end
+        it('reaches functions and globals', function()
+            assert.equal(8, s:call('double', 4))
+            assert.equal(2, s:get('gain'))
+            assert.has_error(function() s:run('nonsense(') end)
+            s:set('gain', 3)
+            t.signal('goal', 1.5)
+            t.step()
+            assert.near(4.5, x(), 1e-9)
+            assert.same({'goal 1.5'}, t.prints())
+        end)
+        it('runs things at their time', function()
+            local at
+            t.at(0.5, function() at = t.time() t.signal('goal', 1.0) end)
+            assert.near(0.55, t.run_until(function() return x() > 1 end), 1e-9)
+            assert.near(0.5, at, 1e-9)
+        end)
+        it('sends messages', function() t.message({id = 'hello'}) t.step() assert.equal('hello', s:get('heard')) end)
+        it('stubs and spies on functions of a script', function()
+            local stubbed = s:stub('sim.getFloatSignal', 7.0)
+            local seen = s:spy('sim.setObjectPosition')
+            t.step(2)
+            assert.spy(stubbed).was.called(2)
+            assert.spy(seen).was.called(2)
+            assert.near(14, x(), 1e-9)
+            s:unwrap('sim.getFloatSignal')
+            t.step()
+            assert.near(0, x(), 1e-9)
+        end)
+        it('kills a script', function()
+            t.signal('goal', 1.0) t.step() s:kill() t.signal('goal', 2.0) t.step(3)
+            assert.near(2, x(), 1e-9)
+        end)
+        it('makes faults that the seed repeats', function()
+            t.signal('goal', 1.0)
+            t.faults.noise(s, 'sim.getFloatSignal', 0.1)
+            t.step()
+            local noisy = x()
+            assert.is_true(noisy ~= 2 and math.abs(noisy - 2) < 2)
+            t.step()
+            assert.is_true(x() ~= noisy)
+            print('noise', noisy)
+        end)
+        it('drops and delays', function()
+            t.signal('goal', 1.0)
+            t.faults.dropout(s, 'sim.getFloatSignal', 1, 5.0)
+            t.faults.delay(s, 'sim.setObjectPosition', 0.2)
+            t.step(3)
+            assert.near(0, x(), 1e-9)
+            t.step(2)
+            assert.near(10, x(), 1e-9)
+        end)",
+    );
+    let files = [("scenes/robot.lua", scene), ("robot_test.lua", &suite)];
+    let (code, output) = run(&files, &["-v"]);
+    assert_eq!(code, 0, "{output}");
+    assert!(output.contains("7 passed"), "{output}");
+}
+
+#[test]
+fn errors_of_scripts_fail_the_test_and_tell_where() {
+    let suite = simulating(
+        "local function broken()
+            local s = sim.createScript(sim.scripttype_simulation, 'function sysCall_sensing() nothing.at = 1 end')
+            sim.setObjectAlias(s, 'broken')
+        end
+        it('is told', function() broken() t.step(3) end)
+        it('is allowed', function() broken() t.allow_script_errors() t.step(3) assert.equal(1, #t.logs('nothing')) end)",
+    );
+    let (code, output) = run(&[("a_test.lua", &suite)], &["-v"]);
+    assert_eq!(code, 1, "{output}");
+    assert!(
+        has_line(&output, "ERROR a_test.lua::is told") && has_line(&output, "PASS a_test.lua::is allowed"),
+        "{output}"
+    );
+    assert!(output.contains("script /broken raised an error") && output.contains("simulated time 0.050 s"), "{output}");
+}
+
+#[test]
+fn goldens_are_recorded_compared_and_drawn() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let suite = |height: &str, tolerances: &str| {
+        simulating(&format!(
+            "{BOX} it('falls', function()
+                local handle = box({height})
+                t.golden('fall', {{'/box', z = function() return sim.getObjectPosition(handle)[3] end}}, {tolerances})
+                t.run_for(0.3)
+            end)"
+        ))
+    };
+    let test = |height: &str, tolerances: &str, args: &[&str]| {
+        run_in(dir.path(), &[("fall_test.lua", &suite(height, tolerances))], args)
+    };
+    let (code, output) = test("1", "{}", &[]);
+    assert!(code == 1 && output.contains("there is no such file. Record it with --update-golden."), "{output}");
+    assert_eq!(test("1", "{}", &["--update-golden"]).0, 0);
+    let golden = dir.path().join("fall_test.fall.golden");
+    let text = std::fs::read_to_string(&golden).expect("it is recorded");
+    assert!(text.starts_with("# swanilda golden 1\ntime\t/box.x\t"), "{text}");
+    assert_eq!(test("1", "{}", &[]).0, 0);
+    let (code, output) = test("1.1", "{}", &[]);
+    assert!(code == 1 && output.contains("first: at 0.000 s /box.z is 1.1") && output.contains("worst: "), "{output}");
+    let png = std::fs::read(dir.path().join("test-results/fall_test.fall.123456.png")).expect("a plot");
+    assert!(png.starts_with(b"\x89PNG"));
+    assert_eq!(test("1.1", "{absolute = 0.11}", &[]).0, 0);
+    assert_eq!(test("1.1", "{columns = {['/box'] = 0.11, z = 0.11}}", &[]).0, 0);
+    assert_eq!(test("1.1", "{columns = {z = 0.11}}", &[]).0, 1);
+    assert_eq!(std::fs::read_to_string(&golden).expect("it is there"), text, "a comparison changes nothing");
+    std::fs::write(&golden, text.replace("0.1\t", "0.1\tx")).expect("a file");
+    let (code, output) = test("1", "{}", &[]);
+    assert!(code == 1 && output.contains("line 5: 9 numbers are expected."), "{output}");
+}
+
+#[test]
+fn two_tests_with_one_golden_are_one_failure() {
+    let code =
+        format!("{BOX} for i = 1, 3 do it('t' .. i, function() box(1) t.golden('same', {{'/box'}}) t.step(2) end) end");
+    let dir = tempfile::tempdir().expect("a folder");
+    let (code, output) = run_in(dir.path(), &[("a_test.lua", &simulating(&code))], &["--update-golden", "-v"]);
+    assert_eq!(code, 1);
+    assert!(has_line(&output, "PASS a_test.lua::t1"), "{output}");
+    assert_eq!(output.matches("is the name of another test's recording").count(), 2, "{output}");
+}
+
+/// What must be one clear failure each, while the rest goes on.
+#[test]
+fn bad_tests_fail_alone() {
+    let suite = simulating(
+        "it('loops', function() while true do end end)
+        it('loops in a thread', function() coroutine.wrap(function() while true do end end)() end)
+        it('catches all', function() while true do pcall(function() while true do end end) end end)
+        it('never ends a coroutine', function() local c = coroutine.wrap(function() while true do coroutine.yield() end end) while true do c() end end)
+        it('simulates forever', function() while true do t.step() end end)
+        it('eats memory', function() local all = {} while true do all[#all + 1] = {} end end)
+        it('eats memory at once', function() local s = 'x' while true do s = s .. s end end)
+        it('exits', function() os.exit(0) end)
+        it('recurses', function() local function f() return f() + 1 end f() end)
+        it('crashes', function() local nothing nothing.x = 1 end)
+        it('raises a table', function() error({}) end)
+        it('raises nothing', function() error() end)
+        it('prints forever', function() for i = 1, 100000 do print('again and again and again') end error('enough') end)
+        it('steps in a step', function()
+            local s = sim.createScript(sim.scripttype_simulation, 'sim = require \"sim\" function sysCall_sensing() sim.getSimulationTime() end')
+            sim.setObjectAlias(s, 's')
+            t.step()
+            t.script('/s'):wrap('sim.getSimulationTime', function() t.step() end)
+            t.step()
+        end)
+        it('goes on', function() t.step() end)",
+    );
+    let args = ["-v", "--timeout", "3", "--sim-timeout", "20", "--memory", "256", "-j", "4"];
+    let (code, output) = run(&[("bad_test.lua", &suite)], &args);
+    assert_eq!(code, 1, "{output}");
+    for (name, message) in [
+        ("loops", "longer than 3 s"),
+        ("loops in a thread", "longer than 3 s"),
+        ("catches all", "longer than 3 s"),
+        ("never ends a coroutine", "longer than 3 s"),
+        ("simulates forever", "simulated for more than 20 s"),
+        ("eats memory", "not enough memory"),
+        ("eats memory at once", "not enough memory"),
+        ("exits", "os.exit"),
+        ("recurses", "stack overflow"),
+        ("crashes", "attempt to index a nil value"),
+        ("raises a table", "table"),
+        ("raises nothing", "nil"),
+        ("prints forever", "enough"),
+        ("steps in a step", "a step cannot be made from within a step"),
+    ] {
+        let start = format!("ERROR bad_test.lua::{name}\n");
+        let told = output.split_once(&start).unwrap_or_else(|| panic!("{name} is no error:\n{output}")).1;
+        let block: Vec<&str> = told.lines().take_while(|line| line.starts_with(' ')).collect();
+        assert!(block.join("\n").contains(message), "{name}:\n{}", block.join("\n"));
+    }
+    assert!(output.contains("PASS bad_test.lua::goes on") && output.contains("1 passed, 14 errors"), "{output}");
+}
+
+#[test]
+fn a_test_that_hangs_outside_of_lua_is_given_up() {
+    let suite =
+        simulating("it('sleeps', function() os.execute('sleep 30') end) it('goes on', function() t.step() end)");
+    let (code, output) = run(&[("a_test.lua", &suite)], &["--timeout", "1", "-j", "1", "-v"]);
+    assert!(code == 1 && output.contains("It could not be ended") && output.contains("1 passed, 1 errors"), "{output}");
+}
+
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let code = format!(
+        "{BOX} for i = 1, 6 do it('t' .. i, function() t.run_for(0.2) print(i, math.random(), t.gauss()) error('show') end) end"
+    );
+    let run = |jobs: &str| {
+        let (_, output) = run(&[("a_test.lua", &simulating(&code))], &["-j", jobs, "--seed", "7"]);
+        let mut lines: Vec<String> = output.lines().filter(|line| line.contains(", 0.")).map(str::to_owned).collect();
+        lines.sort();
+        lines
+    };
+    assert_eq!(run("1"), run("4"));
+    assert_eq!(run("1").len(), 6);
+}
+
+#[test]
+fn the_first_test_that_init_writes_passes() {
+    let dir = tempfile::tempdir().expect("a folder");
+    assert_eq!(run_in(dir.path(), &[], &["--init"]).0, 0);
+    assert!(dir.path().join(".github/workflows/robot-tests.yml").exists());
+    let (code, output) = run_in(dir.path(), &[], &[]);
+    assert!(code == 0 && output.contains("3 passed"), "{output}");
+    assert_eq!(run_in(dir.path(), &[], &["--init"]).0, 4, "nothing is overwritten");
+}
