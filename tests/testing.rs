@@ -4,7 +4,6 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-#[allow(dead_code, reason = "other tests use other parts")]
 mod support;
 use support::process::run_for_code;
 
@@ -271,64 +270,72 @@ fn two_tests_with_one_golden_are_one_failure() {
     assert_eq!(output.matches("is the name of another test's recording").count(), 2, "{output}");
 }
 
-/// What must be one clear failure each, while the rest goes on.
-#[test]
-fn bad_tests_fail_alone() {
-    let suite = simulating(
-        "it('loops', function() while true do end end)
-        it('loops in a thread', function() coroutine.wrap(function() while true do end end)() end)
-        it('catches all', function() while true do pcall(function() while true do end end) end end)
-        it('never ends a coroutine', function() local c = coroutine.wrap(function() while true do coroutine.yield() end end) while true do c() end end)
-        it('simulates forever', function() while true do t.step() end end)
-        it('eats memory', function() local all = {} while true do all[#all + 1] = {} end end)
-        it('eats memory at once', function() local s = 'x' while true do s = s .. s end end)
-        it('exits', function() os.exit(0) end)
-        it('recurses', function() local function f() return f() + 1 end f() end)
-        it('crashes', function() local nothing nothing.x = 1 end)
-        it('raises a table', function() error({}) end)
-        it('raises nothing', function() error() end)
-        it('prints forever', function() for i = 1, 100000 do print('again and again and again') end error('enough') end)
-        it('steps in a step', function()
-            local s = sim.createScript(sim.scripttype_simulation, 'sim = require \"sim\" function sysCall_sensing() sim.getSimulationTime() end')
-            sim.setObjectAlias(s, 's')
-            t.step()
-            t.script('/s'):wrap('sim.getSimulationTime', function() t.step() end)
-            t.step()
-        end)
-        it('goes on', function() t.step() end)",
-    );
-    let args = ["-v", "--timeout", "3", "--sim-timeout", "20", "--memory", "256", "-j", "4"];
-    let (code, output) = run(&[("bad_test.lua", &suite)], &args);
+/// Each of `tests`, name and code, is one error with its message, while a test beside them passes.
+fn fail_alone(tests: &[(&str, &str, &str)], args: &[&str]) {
+    let code: String = tests.iter().map(|(name, code, _)| format!("it('{name}', function() {code} end)\n")).collect();
+    let suite = simulating(&(code + "it('goes on', function() t.step() end)"));
+    let (code, output) = run(&[("bad_test.lua", &suite)], &[&["-v", "-j", "2"], args].concat());
     assert_eq!(code, 1, "{output}");
-    for (name, message) in [
-        ("loops", "longer than 3 s"),
-        ("loops in a thread", "longer than 3 s"),
-        ("catches all", "longer than 3 s"),
-        ("never ends a coroutine", "longer than 3 s"),
-        ("simulates forever", "simulated for more than 20 s"),
-        ("eats memory", "not enough memory"),
-        ("eats memory at once", "not enough memory"),
-        ("exits", "os.exit"),
-        ("recurses", "stack overflow"),
-        ("crashes", "attempt to index a nil value"),
-        ("raises a table", "table"),
-        ("raises nothing", "nil"),
-        ("prints forever", "enough"),
-        ("steps in a step", "a step cannot be made from within a step"),
-    ] {
+    for (name, _, message) in tests {
         let start = format!("ERROR bad_test.lua::{name}\n");
         let told = output.split_once(&start).unwrap_or_else(|| panic!("{name} is no error:\n{output}")).1;
         let block: Vec<&str> = told.lines().take_while(|line| line.starts_with(' ')).collect();
         assert!(block.join("\n").contains(message), "{name}:\n{}", block.join("\n"));
     }
-    assert!(output.contains("PASS bad_test.lua::goes on") && output.contains("1 passed, 14 errors"), "{output}");
+    let total = format!("1 passed, {} errors", tests.len());
+    assert!(output.contains("PASS bad_test.lua::goes on") && output.contains(&total), "{output}");
 }
+
+#[test]
+fn tests_that_do_not_end_are_ended() {
+    let late = "longer than 3 s";
+    let tests = [
+        ("loops", "while true do end", late),
+        ("loops in a thread", "coroutine.wrap(function() while true do end end)()", late),
+        ("catches all", "while true do pcall(function() while true do end end) end", late),
+        (
+            "wakes up",
+            "local c = coroutine.wrap(function() while true do coroutine.yield() end end) while true do c() end",
+            late,
+        ),
+        ("waits", "while sim.getSimulationTime() < 1 do end", late),
+    ];
+    fail_alone(&tests, &["--timeout", "3"]);
+}
+
+#[test]
+fn tests_that_take_too_much_or_crash_fail_alone() {
+    let tests = [
+        ("simulates forever", "while true do t.step() end", "simulated for more than 20 s"),
+        ("eats memory", "local all = {} while true do all[#all + 1] = {} end", "not enough memory"),
+        ("eats it at once", "local s = 'x' while true do s = s .. s end", "not enough memory"),
+        ("exits", "os.exit(0)", "os.exit"),
+        ("recurses", "local function f() return f() + 1 end f()", "stack overflow"),
+        ("crashes", "local nothing nothing.x = 1", "attempt to index a nil value"),
+        ("raises a table", "error({})", "table"),
+        ("raises nothing", "error()", "nil"),
+        (
+            "prints a lot",
+            "for i = 1, 100000 do print('again and again and again') end error('enough')",
+            "more lines: a test may write",
+        ),
+        ("steps in a step", STEP_IN_STEP, "a step cannot be made from within a step"),
+    ];
+    fail_alone(&tests, &["--sim-timeout", "20", "--memory", "256"]);
+}
+
+const STEP_IN_STEP: &str = "
+    local code = 'sim = require \"sim\" function sysCall_sensing() sim.getSimulationTime() end'
+    local s = t.script(sim.createScript(sim.scripttype_simulation, code))
+    t.step()
+    s:wrap('sim.getSimulationTime', function() t.step() end)
+    t.step()";
 
 #[test]
 fn a_test_that_hangs_outside_of_lua_is_given_up() {
     let suite =
-        simulating("it('sleeps', function() os.execute('sleep 30') end) it('goes on', function() t.step() end)");
-    let (code, output) = run(&[("a_test.lua", &suite)], &["--timeout", "1", "-j", "1", "-v"]);
+        simulating("it('sleeps', function() os.execute('sleep 20') end) it('goes on', function() t.step() end)");
+    let (code, output) = run(&[("a_test.lua", &suite)], &["--timeout", "5", "-j", "1", "-v"]);
     assert!(code == 1 && output.contains("It could not be ended") && output.contains("1 passed, 1 errors"), "{output}");
 }
 

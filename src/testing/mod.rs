@@ -114,7 +114,7 @@ pub fn run(config: &Config, reporter: &mut dyn Reporter) -> std::io::Result<Summ
     reporter.begin(plan.tests.len() + plan.broken.len());
     let mut outcomes = plan.broken;
     outcomes.iter().for_each(|outcome| reporter.outcome(outcome));
-    if !(config.fail_fast && !outcomes.is_empty()) {
+    if !config.fail_fast || outcomes.is_empty() {
         run_tests(config, plan.jobs, reporter, &mut outcomes);
     }
     let ran = outcomes.iter().filter(|outcome| outcome.test.index > 0).count();
@@ -134,7 +134,7 @@ fn plan(config: &Config) -> std::io::Result<Plan> {
     let mut collected = Vec::new();
     work(config, tasks, &mut |message| {
         if let Message::Collected(collection) = message {
-            collected.push(collection);
+            collected.push(*collection);
         }
         true
     });

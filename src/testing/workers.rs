@@ -33,7 +33,7 @@ pub(super) enum Task {
 
 /// What comes back.
 pub(super) enum Message {
-    Collected(Collection),
+    Collected(Box<Collection>),
     Finished(Box<Outcome>),
 }
 
@@ -171,7 +171,7 @@ impl Watch<'_> {
         let mut outcome = Outcome::new(Arc::clone(&running.test), Status::Error, message);
         outcome.wall = running.begun.elapsed();
         let message = if running.test.index == 0 {
-            Message::Collected(Collection::broken(outcome))
+            Message::Collected(Box::new(Collection::broken(outcome)))
         } else {
             Message::Finished(Box::new(outcome))
         };
@@ -224,7 +224,7 @@ impl Worker {
         let collect = || Session::new(&self.shared.config, file, self.shared.config.seed, stop).collect(file);
         let collection = catch_unwind(AssertUnwindSafe(collect))
             .unwrap_or_else(|_| Collection::broken(Outcome::new(test, Status::Error, CRASHED)));
-        self.tell(News::Ready(Message::Collected(collection)));
+        self.tell(News::Ready(Message::Collected(Box::new(collection))));
     }
 
     /// Runs tests in one simulator; those after one that had to be stopped get another.

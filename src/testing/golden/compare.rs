@@ -70,10 +70,11 @@ impl fmt::Display for Difference {
 /// Compares `actual` with `expected` at the times of the latter, between samples along straight lines. With a tolerance of time, all of
 /// it may be early or late: the best shift counts. None when they are alike.
 pub(super) fn compare(expected: &Trace, actual: &Trace, tolerances: &Tolerances) -> Option<Difference> {
-    let columns = match matching_columns(expected, actual) {
-        Ok(columns) => columns,
-        Err(difference) => return Some(difference),
-    };
+    if let Some(difference) = other_columns(expected, actual) {
+        return Some(difference);
+    }
+    let place = |column| actual.columns.iter().position(|other| other == column);
+    let columns: Vec<usize> = expected.columns.iter().filter_map(place).collect();
     let (last_expected, last_actual) = (last_time(expected), last_time(actual));
     if (last_expected - last_actual).abs() > tolerances.time + interval(expected).max(interval(actual)) * 0.5 {
         return Some(Difference::Length { expected: last_expected, actual: last_actual });
@@ -83,17 +84,13 @@ pub(super) fn compare(expected: &Trace, actual: &Trace, tolerances: &Tolerances)
     difference(expected, best)
 }
 
-/// For each column of `expected` the one of `actual`.
-fn matching_columns(expected: &Trace, actual: &Trace) -> Result<Vec<usize>, Difference> {
+/// The difference of two traces of other quantities.
+fn other_columns(expected: &Trace, actual: &Trace) -> Option<Difference> {
     let absent = |from: &Trace, of: &Trace| -> Vec<String> {
         of.columns.iter().filter(|column| !from.columns.contains(column)).cloned().collect()
     };
     let (missing, new) = (absent(actual, expected), absent(expected, actual));
-    if !(missing.is_empty() && new.is_empty()) {
-        return Err(Difference::Columns { missing, new });
-    }
-    let place = |column| actual.columns.iter().position(|other| other == column);
-    Ok(expected.columns.iter().filter_map(place).collect())
+    (!missing.is_empty() || !new.is_empty()).then_some(Difference::Columns { missing, new })
 }
 
 fn last_time(trace: &Trace) -> f64 {
