@@ -363,3 +363,11 @@ fn the_first_test_that_init_writes_passes() {
     assert!(code == 0 && output.contains("3 passed"), "{output}");
     assert_eq!(run_in(dir.path(), &[], &["--init"]).0, 4, "nothing is overwritten");
 }
+
+/// Suites that pass in busted pass here, and assertions that do not hold say the same as there.
+#[test]
+fn suites_of_busted_run_unchanged() {
+    let suites = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/busted");
+    let (code, output) = run(&[], &[suites.to_str().expect("a path in UTF-8")]);
+    assert_eq!(code, 0, "{output}");
+}

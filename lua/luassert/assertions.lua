@@ -10,7 +10,7 @@ local function register(name, callback, key)
     assert:register('assertion', name, callback, ('assertion.%s.positive'):format(key), ('assertion.%s.negative'):format(key))
 end
 
---- Callers name first what they expect, messages what was passed. Gives the arguments as they were.
+-- Callers name first what they expect, messages what was passed. Gives the arguments as they were.
 local function swap(arguments)
     local given = table.move(arguments, 1, arguments.n, 1, {n = arguments.n})
     arguments[1], arguments[2] = given[2], given[1]
@@ -83,7 +83,7 @@ register('falsy', function(state, arguments, level)
     return not arguments[1]
 end, 'falsy')
 
---- An assertion about the first argument alone, which says what it expects.
+-- An assertion about the first argument alone, which says what it expects.
 local function about(name, expected, isText, holds)
     register(name, function(state, arguments)
         check.message(state, arguments[2])
@@ -97,7 +97,7 @@ end
 about('true', true, false, function(value) return value == true end)
 about('false', false, false, function(value) return value == false end)
 
---- How many values a call gave: the expected number, then the values.
+-- How many values a call gave: the expected number, then the values.
 register('returned_arguments', function(_, arguments)
     local given = table.move(arguments, 1, arguments.n, 1, {n = arguments.n})
     local expected, count = arguments[1], arguments.n - 1

@@ -12,7 +12,7 @@ function chain.register(kind, name, entry)
     entries[kind][name:lower()] = entry
 end
 
---- The longest name that ends with word number `last`, and the number of words before it.
+-- The longest name that ends with word number `last`, and the number of words before it.
 local function nameEndingAt(kind, words, last)
     local names = entries[kind] or {}
     for first = 1, last do
@@ -37,7 +37,7 @@ function chain.parse(kind, words)
     return modifiers, entry
 end
 
---- A copy of a state; what modifiers left in it goes with it.
+-- A copy of a state; what modifiers left in it goes with it.
 local function copy(state, words)
     local new = {}
     for key, value in next, state do new[key] = value end

@@ -10,7 +10,7 @@ local shared = require 'luassert.state'
 
 local luassert = {}
 
---- What `assert:level` makes.
+-- What `assert:level` makes.
 local Level = {}
 
 function luassert:level(level)
@@ -38,7 +38,7 @@ function luassert:add_spy(spy) shared.add_spy(spy) end
 function luassert:snapshot() return shared.snapshot() end
 function luassert:format(list) return formatters.format(list) end
 
---- The text of a key: ours, or that of another `say` a suite may have brought.
+-- The text of a key: ours, or that of another `say` a suite may have brought.
 local function translate(key, values)
     local text = say(key, values)
     local other = package.loaded.say
@@ -60,7 +60,7 @@ local function failureText(state, entry, arguments)
     return customText(message) .. (text and '\n' .. text or '')
 end
 
---- Takes the level from the end of the arguments, if it is there.
+-- Takes the level from the end of the arguments, if it is there.
 local function takeLevel(arguments)
     local level = luassert:get_level(arguments[arguments.n])
     if level == nil then return 1 end
@@ -69,7 +69,7 @@ local function takeLevel(arguments)
     return level
 end
 
---- What a chain gives for its arguments: the results, or nil, a message and the level of the function to blame.
+-- What a chain gives for its arguments: the results, or nil, a message and the level of the function to blame.
 local function evaluate(state, arguments)
     local level = takeLevel(arguments)
     local modifiers, entry = chain.parse('assertion', state.tokens)

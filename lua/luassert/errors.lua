@@ -6,14 +6,14 @@ local assert = require 'luassert.core'
 local check = require 'luassert.arguments'
 local util = require 'luassert.util'
 
---- Calls the function. Gives whether it raised, and the error, a text without its position, or the first result.
+-- Calls the function. Gives whether it raised, and the error, a text without its position, or the first result.
 local function run(f)
     local succeeded, value = pcall(f)
     if not succeeded and type(value) == 'string' then value = value:match('^.-:%d+: (.*)$') or value end
     return not succeeded, value
 end
 
---- Puts what was caught, for the message, and what is to be returned in place of the function.
+-- Puts what was caught, for the message, and what is to be returned in place of the function.
 local function report(arguments, hasRaised, value)
     local given = table.move(arguments, 1, arguments.n, 1, {n = arguments.n})
     given[1] = value

@@ -22,7 +22,7 @@ function failure.raise_objects(yes) objects = yes end
 
 function failure.is(value) return type(value) == 'table' and getmetatable(value) == METATABLE end
 
---- Where the function at that level stands, as errors begin.
+-- Where the function at that level stands, as errors begin.
 local function position(level)
     local info = debug.getinfo(level + 1, 'Sl')
     if not info or info.currentline <= 0 then return '' end

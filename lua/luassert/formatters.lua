@@ -13,7 +13,7 @@ local COLORS = {
 
 local function address(value) return ('%s: %p'):format(type(value), value) end
 
---- With all digits that tell it from its neighbours; a float is never written as an integer.
+-- With all digits that tell it from its neighbours; a float is never written as an integer.
 local function number(value)
     if math.type(value) == 'integer' then return tostring(value) end
     if value ~= value then return 'NaN' end
@@ -24,7 +24,7 @@ local function number(value)
     return (text:gsub('^-?%d+', '%0.0'))
 end
 
---- The mark before a key that leads to the difference, at the end of its indentation.
+-- The mark before a key that leads to the difference, at the end of its indentation.
 local function indentation(depth, isMarked)
     local width = 2 * depth
     if not isMarked then return (' '):rep(width) end
@@ -38,7 +38,7 @@ end
 
 local element
 
---- The part of a table between braces. `dump.path` are the keys to mark, the innermost first.
+-- The part of a table between braces. `dump.path` are the keys to mark, the innermost first.
 local function braces(t, depth, onPath, dump)
     if next(t) == nil then return '{ }' end
     if dump.open[t] and dump.hidesRecursion then return '{ ... recursive }' end
@@ -85,7 +85,7 @@ local function plainText(value)
     return (isOpaque and "(%s) '%s'" or '(%s) %s'):format(kind, element(value))
 end
 
---- The values of a call, made by `formatters.values`.
+-- The values of a call, made by `formatters.values`.
 local ValuesList = {}
 
 function formatters.values(list) return setmetatable({list = list}, ValuesList) end
@@ -97,7 +97,7 @@ local function matcherText(matcher)
     return ('(matcher) %s.%s(%s)'):format(matcher.mod and 'is' or 'no', matcher.name, commaSeparated(matcher.arguments))
 end
 
---- The metatable of matchers.
+-- The metatable of matchers.
 formatters.Matcher = {}
 
 local function text(value, options)

@@ -4,7 +4,7 @@ The keys of a table in the order in which messages show them: the sequence, then
 
 local RANK = {number = 1, boolean = 2, string = 3, table = 4, ['function'] = 5, userdata = 6, thread = 7}
 
---- Whether `a` goes before `b`; keys that have no order keep that of `found`.
+-- Whether `a` goes before `b`; keys that have no order keep that of `found`.
 local function precedes(a, b, found)
     local kind = type(a)
     if kind ~= type(b) then return RANK[kind] < RANK[type(b)] end
@@ -13,7 +13,7 @@ local function precedes(a, b, found)
     return found[a] < found[b]
 end
 
---- The keys of `t` in order.
+-- The keys of `t` in order.
 local function sortedKeys(t)
     local length = rawlen(t)
     local keys, others, found = {}, {}, {}

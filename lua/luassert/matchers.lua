@@ -9,7 +9,7 @@ local util = require 'luassert.util'
 
 local function register(name, callback) assert:register('matcher', name, callback) end
 
---- A matcher without arguments.
+-- A matcher without arguments.
 local function about(name, holds)
     register(name, function() return holds end)
 end
@@ -72,7 +72,7 @@ register('unique', function(_, arguments)
     return function(value) return type(value) == 'table' and util.unique(value, arguments[1] == true) end
 end)
 
---- A matcher made of others: `decide` gets their number, and of how many the value is.
+-- A matcher made of others: `decide` gets their number, and of how many the value is.
 local function compose(name, decide)
     register(name, function(_, arguments, level)
         check.atLeast(1, arguments, name, level)

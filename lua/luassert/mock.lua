@@ -13,7 +13,7 @@ local stub = require 'luassert.stub'
 
 local mock = {}
 
---- Calls `visit(t, key, value)` for each element of a table and of the tables in it. Spies count as elements.
+-- Calls `visit(t, key, value)` for each element of a table and of the tables in it. Spies count as elements.
 local function walk(t, visit, met)
     if type(t) ~= 'table' or spy.is_spy(t) or met[t] then return end
     met[t] = true

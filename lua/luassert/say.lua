@@ -18,7 +18,7 @@ function say:set_namespace(name) namespace = language(name) end
 function say:set_fallback(name) fallback = language(name) end
 function say:set(key, text) texts[namespace][key] = text end
 
---- The text of a key with its values, or nil.
+-- The text of a key with its values, or nil.
 local function lookUp(_, key, values)
     if key == nil then return nil end
     local text = texts[namespace][key]

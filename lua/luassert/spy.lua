@@ -26,7 +26,7 @@ local spy = {}
 local Spy = {}
 Spy.__index = Spy
 
---- Arguments or results as they are now, and by reference.
+-- Arguments or results as they are now, and by reference.
 local function record(values)
     local copies = {n = values.n}
     for i = 1, values.n do copies[i] = util.deepcopy(values[i]) end
@@ -49,7 +49,7 @@ local function hasValue(expected, recorded, index)
     return (util.deepcompare(value, expected))
 end
 
---- Whether recorded values are what a list of values and matchers says.
+-- Whether recorded values are what a list of values and matchers says.
 function spy.matches(recorded, expected)
     local count = expected.n or #expected
     if recorded.vals.n ~= count then return false end
@@ -59,7 +59,7 @@ function spy.matches(recorded, expected)
     return true
 end
 
---- Whether some record matches, and the last that does; else the last of all.
+-- Whether some record matches, and the last that does; else the last of all.
 local function find(records, expected)
     for i = #records, 1, -1 do
         if spy.matches(records[i], expected) then return true, records[i].vals end
@@ -71,7 +71,7 @@ end
 local function areEqual(count, times) return count == times end
 local function isPositive(count) return count > 0 end
 
---- Whether it was called that often, or at all; and how often it was.
+-- Whether it was called that often, or at all; and how often it was.
 function Spy:called(times, compare)
     local count = #self.calls
     compare = compare or (times and areEqual or isPositive)
@@ -86,7 +86,7 @@ function Spy:clear()
     return self
 end
 
---- Puts back what the spy stands in for.
+-- Puts back what the spy stands in for.
 function Spy:revert()
     local t, key = self.target_table, self.target_key
     if t ~= nil and not self.is_reverted then
@@ -97,7 +97,7 @@ end
 
 local function nothing() end
 
---- A spy outside of any table. `level` is that of the caller to blame.
+-- A spy outside of any table. `level` is that of the caller to blame.
 local function new(callback, level)
     if callback ~= nil and not util.callable(callback) then
         error(("Cannot spy on type '%s', only on functions or callable elements"):format(type(callback)), level + 1)
@@ -109,7 +109,7 @@ function spy.new(callback) return (new(callback, 2)) end
 
 function spy.is_spy(value) return type(value) == 'table' and getmetatable(value) == Spy end
 
---- Puts the spy in place of an element. What the table had only through its metatable is not left in it by `revert`.
+-- Puts the spy in place of an element. What the table had only through its metatable is not left in it by `revert`.
 function spy.install(new, t, key)
     local original = t[key]
     local isInherited = type(t) == 'table' and rawget(t, key) == nil
@@ -147,7 +147,7 @@ local function chosen(state, name, level)
     return found
 end
 
---- Registers an assertion about the chosen spy.
+-- Registers an assertion about the chosen spy.
 local function register(name, holds)
     local function callback(state, arguments, level)
         local given = table.move(arguments, 1, arguments.n, 1, {n = arguments.n})

@@ -16,7 +16,7 @@ local util = require 'luassert.util'
 
 local stub = {}
 
---- The two ways to say what a stub does, each of which gives the stub.
+-- The two ways to say what a stub does, each of which gives the stub.
 local function answers(set, object)
     return {
         returns = function(...)
@@ -34,7 +34,7 @@ local function answers(set, object)
     }
 end
 
---- Makes a spy without a table do what it is told.
+-- Makes a spy without a table do what it is told.
 local function instruct(object)
     local default, cases = object.callback, {}
     function object.callback(...)
@@ -56,7 +56,7 @@ end
 
 local function isElement(t, key) return (type(t) == 'table' or type(t) == 'userdata') and key ~= nil end
 
---- Without a table a stub of its own.
+-- Without a table a stub of its own.
 local function new(t, key, ...)
     local object = instruct(spy.new())
     if t ~= nil or key ~= nil then

@@ -5,8 +5,8 @@ Comparing and copying tables, as the assertions do.
     util.deepcompare(a, b, ignore_mt)   whether two values are alike; if not, also the keys that lead to the first difference,
                                         the innermost first. Equality by metatables counts unless `ignore_mt` is true
     util.deepcopy(t)                    a copy of a table and of those in it, with their metatables
-    util.deepcopy(t, true)              the same without metatables
-    util.shallowcopy(t, deepmt)         a copy of one table; with `deepmt` without its metatable
+    util.deepcopy(t, true)              the same with copies of their metatables
+    util.shallowcopy(t, deepmt)         a copy of one table; with `deepmt` also of its metatable
     util.callable(x), util.hastostring(x)
     util.pack(...), util.unpack(list, first, last)      lists with their length in `n`
     util.tinsert(list [, index], value), util.tremove(list [, index])       for such lists
@@ -51,7 +51,7 @@ function util.hastostring(value)
     return metatable ~= nil and type(rawget(metatable, '__tostring')) == 'function'
 end
 
---- The metamethod that says whether two tables are equal, if both have the same.
+-- The metamethod that says whether two tables are equal, if both have the same.
 local function equality(a, b)
     local metatable, other = metatableOf(a), metatableOf(b)
     if not (metatable and other) then return nil end
@@ -59,7 +59,7 @@ local function equality(a, b)
     return method == rawget(other, '__eq') and method or nil
 end
 
---- Notes that two tables are being compared; whether that was noted before.
+-- Notes that two tables are being compared; whether that was noted before.
 local function meet(met, a, b)
     met[a] = met[a] or {}
     local before = met[a][b]
@@ -111,7 +111,7 @@ function util.deepcompare(a, b, ignore_mt)
     return false, path
 end
 
---- Whether two of the values are the same, or alike when `deep`.
+-- Whether two of the values are the same, or alike when `deep`.
 local function isAmong(value, others, deep)
     for _, other in ipairs(others) do
         if value == other or deep and util.deepcompare(value, other, true) then return true end
@@ -138,10 +138,11 @@ function util.shallowcopy(t, deepmt)
     if type(t) ~= 'table' then return t end
     local copy = {}
     for key, value in next, t do copy[key] = value end
-    return setmetatable(copy, not deepmt and metatableOf(t) or nil)
+    local metatable = metatableOf(t)
+    return setmetatable(copy, deepmt and util.shallowcopy(metatable) or metatable)
 end
 
---- Objects with a finalizer stay themselves: it must not run once more for a copy.
+-- Objects with a finalizer stay themselves: it must not run once more for a copy.
 local function isFinalized(t)
     local metatable = metatableOf(t)
     return metatable ~= nil and rawget(metatable, '__gc') ~= nil
@@ -150,10 +151,10 @@ end
 local function copyDeep(value, deepmt, copies)
     if type(value) ~= 'table' or isFinalized(value) then return value end
     if copies[value] then return copies[value] end
-    local copy = util.shallowcopy(value, deepmt)
+    local copy, metatable = {}, metatableOf(value)
     copies[value] = copy
-    for key, element in next, value do rawset(copy, key, copyDeep(element, deepmt, copies)) end
-    return copy
+    for key, element in next, value do copy[key] = copyDeep(element, deepmt, copies) end
+    return setmetatable(copy, deepmt and copyDeep(metatable, deepmt, copies) or metatable)
 end
 
 function util.deepcopy(t, deepmt) return copyDeep(t, deepmt, {}) end

@@ -8,8 +8,8 @@
 ---     util.deepcompare(a, b, ignore_mt)   whether two values are alike; if not, also the keys that lead to the first difference,
 ---                                         the innermost first. Equality by metatables counts unless `ignore_mt` is true
 ---     util.deepcopy(t)                    a copy of a table and of those in it, with their metatables
----     util.deepcopy(t, true)              the same without metatables
----     util.shallowcopy(t, deepmt)         a copy of one table; with `deepmt` without its metatable
+---     util.deepcopy(t, true)              the same with copies of their metatables
+---     util.shallowcopy(t, deepmt)         a copy of one table; with `deepmt` also of its metatable
 ---     util.callable(x), util.hastostring(x)
 ---     util.pack(...), util.unpack(list, first, last)      lists with their length in `n`
 ---     util.tinsert(list [, index], value), util.tremove(list [, index])       for such lists

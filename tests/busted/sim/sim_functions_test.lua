@@ -1,0 +1,58 @@
+-- Spies and stubs on functions of `sim`, which the table `sim` has only from their first use on.
+local sim = require 'sim'
+
+describe('functions of sim', function()
+    it('can be spied on', function()
+        local original = sim.createDummy
+        local s = spy.on(sim, 'createDummy')
+        local dummy = sim.createDummy(0.02)
+        assert.is_true(sim.isHandle(dummy))
+        assert.spy(sim.createDummy).was.called_with(0.02)
+        assert.spy(s).has.returned_with(dummy)
+        s:revert()
+        assert.are.equal(original, sim.createDummy)
+    end)
+
+    it('can be stubbed before their first use', function()
+        stub(sim, 'getJointPosition').returns(0.5).on_call_with(7).returns(0.7)
+        assert.are.equal(0.5, sim.getJointPosition(-1))
+        assert.are.equal(0.7, sim.getJointPosition(7))
+        sim.getJointPosition:revert()
+        assert.is_function(sim.getJointPosition)
+        assert.has_error(function() sim.getJointPosition(-77) end)
+    end)
+
+    it('can be stubbed where they are written in Lua', function()
+        stub(sim, 'getObjectAlias', function(handle) return 'object ' .. handle end)
+        assert.are.equal('object 3', sim.getObjectAlias(3))
+        sim.getObjectAlias:revert()
+        assert.are.equal('Floor', sim.getObjectAlias(sim.getObject('/Floor')))
+    end)
+
+    it('come back with a snapshot', function()
+        local snapshot = assert:snapshot()
+        stub(sim, 'getSimulationTime').returns(99)
+        assert.are.equal(99, sim.getSimulationTime())
+        snapshot:revert()
+        assert.are_not.equal(99, sim.getSimulationTime())
+    end)
+
+    it('raise errors of their own', function()
+        assert.error_matches(function() sim.getObject('/no such object') end, 'object does not exist')
+        assert.has_error(function() sim.getObjectPosition('x') end)
+    end)
+
+    it('raise out of a spy', function()
+        spy.on(sim, 'getObject')
+        assert.has_error(function() sim.getObject('/no such object') end)
+        assert.spy(sim.getObject).was.called(1)
+        sim.getObject:revert()
+    end)
+end)
+
+describe('buffers', function()
+    it('are compared by their bytes', function()
+        assert.are.equal(sim.packFloatTable({1, 2}), sim.packFloatTable({1, 2}))
+        assert.matches('^abc', tobuffer('abcdef'))
+    end)
+end)
