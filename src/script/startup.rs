@@ -190,6 +190,8 @@ fn push_metatable_with_index(stack: Stack<'_>, index: lua::Callback) {
 fn install_sim(stack: Stack<'_>) {
     stack.new_table(0, 0);
     push_metatable_with_index(stack, index_sim);
+    push_callback(stack, pairs_sim, std::ptr::null());
+    stack.raw_set_field(-2, "__pairs");
     stack.set_metatable(-2);
     stack.set_registry(SIM);
     stack.new_table(0, 0);
@@ -205,6 +207,24 @@ fn index_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
         stack.raw_set_field(1, name);
     }
     Ok(1)
+}
+
+/// `pairs(sim)`: who iterates gets all names, used before or not.
+fn pairs_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+    let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
+    let mut names: Vec<&str> = sim.registry.members.keys().copied().collect();
+    names.sort_unstable();
+    stack.push_global("next");
+    stack.push_registry(SIM);
+    for name in names {
+        let is_known = stack.raw_get_field(-1, name) != Type::Nil;
+        stack.pop(1);
+        if !is_known {
+            push_member(stack, name)?;
+            stack.raw_set_field(-2, name);
+        }
+    }
+    Ok(2)
 }
 
 /// Old global names: `simGetObjectHandle` is `sim.getObjectHandle`, `sim_handle_all` is `sim.handle_all`.
