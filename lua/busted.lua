@@ -11,6 +11,8 @@ The vocabulary of busted: describe, it and what belongs to them. `swanilda test`
     function test_name()       a global function of such a name is a test as well
     assert, spy, stub, mock, match      see luassert
 
+These names belong to the test file. What it requires has Lua's own assert; what it calls global is global for all.
+
 A file that loads neither `sim` nor `swanilda.test` runs as in busted: in one Lua state, one test after the other. Of any other file each test
 gets a simulator of its own, in which the file is loaded anew, so that setup and teardown run for each test.
 ]]
@@ -110,7 +112,7 @@ local VOCABULARY = {
 }
 
 -- The global functions test_* in the order of their lines; setup and the like may be functions of the file then.
-local function addPlainTests(known)
+local function addPlainTests(known, environment)
     local found = {}
     for name, value in pairs(_G) do
         if type(name) == 'string' and name:find('^test_') and type(value) == 'function' and known[name] ~= value then
@@ -121,7 +123,7 @@ local function addPlainTests(known)
     for _, test in ipairs(found) do addTest(test.name, test.body, test.line) end
     if #found == 0 then return end
     for plain, kind in pairs { setup = 'before_each', teardown = 'after_each', before_each = 'before_each', after_each = 'after_each' } do
-        local own = rawget(_G, plain)
+        local own = rawget(environment, plain)
         if type(own) == 'function' and own ~= VOCABULARY[plain] then table.insert(root[kind], own) end
     end
 end
@@ -139,13 +141,14 @@ function M.collect(file)
     group = root
     -- The sandbox has loaded it; whether the file wants it is what counts.
     _G.sim, package.loaded.sim, package.loaded['sim-1'] = nil, nil, nil
-    for name, value in pairs(VOCABULARY) do _G[name] = value end
+    -- The vocabulary is that of the test file; what it tests has Lua's own assert.
+    local environment = setmetatable(copy(VOCABULARY), { __index = _G, __newindex = _G })
     local known = copy(_G)
-    local chunk, message = loadfile(file)
+    local chunk, message = loadfile(file, 'bt', environment)
     if not chunk then return { error = { message = message } } end
     local ok, failure = xpcall(chunk, M.explain)
     if not ok then return { error = failure } end
-    addPlainTests(known)
+    addPlainTests(known, environment)
     local list = {}
     for i, test in ipairs(tests) do
         list[i] = { name = names(test.group, test.name), line = test.line, pending = test.pending }

@@ -14,6 +14,8 @@
 ---     function test_name()       a global function of such a name is a test as well
 ---     assert, spy, stub, mock, match      see luassert
 ---
+--- These names belong to the test file. What it requires has Lua's own assert; what it calls global is global for all.
+---
 --- A file that loads neither `sim` nor `swanilda.test` runs as in busted: in one Lua state, one test after the other. Of any other file each test
 --- gets a simulator of its own, in which the file is loaded anew, so that setup and teardown run for each test.
 local M = {}
