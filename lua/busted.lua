@@ -167,6 +167,13 @@ local function errorLine()
     end
 end
 
+-- Tables without a text of their own are shown with their elements.
+local function shown(problem)
+    local metatable = debug.getmetatable(problem)
+    local isBare = type(problem) == 'table' and not (metatable and metatable.__tostring)
+    return isBare and assert:format({ problem, n = 1 })[1] or tostring(problem)
+end
+
 --- A message handler: what went wrong, as a table of texts.
 function M.explain(problem)
     if getmetatable(problem) == PENDING then return { pending = problem.reason } end
@@ -175,7 +182,7 @@ function M.explain(problem)
     if type(problem) == 'table' and type(problem.message) == 'string' then text = problem.message end
     return {
         explained = true,
-        message = tostring(text),
+        message = shown(text),
         failed = failures.is(problem) or type(problem) == 'table' and problem.failed,
         line = errorLine(),
         trace = debug.traceback('', 2),
@@ -255,7 +262,6 @@ function M.run(index)
     local test = tests[index]
     if test.pending then return { status = 'pending', message = test.pending } end
     local chain = chainOf(test.group)
-    local snapshot = assert:snapshot()
     final = {}
     local problem = moveTo(chain) or beforeEach(chain)
     if not problem then problem = attempt({ test.body }) end
@@ -263,7 +269,6 @@ function M.run(index)
     problem = afterEach(chain, problem)
     local fixture = package.loaded['swanilda.test']
     if fixture then problem = attempt({ fixture._finish }, problem) end
-    snapshot:revert()
     return outcome(problem)
 end
 

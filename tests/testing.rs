@@ -371,3 +371,10 @@ fn suites_of_busted_run_unchanged() {
     let (code, output) = run(&[], &[suites.to_str().expect("a path in UTF-8")]);
     assert_eq!(code, 0, "{output}");
 }
+
+#[test]
+fn a_table_raised_as_an_error_is_shown_with_its_elements() {
+    let (code, output) = run(&[("a_test.lua", "it('raises', function() error({code = 7}) end)")], &[]);
+    assert_eq!(code, 1);
+    assert!(output.contains("[code] = 7"), "{output}");
+}

@@ -18,3 +18,20 @@ describe('a module', function()
         _G.saidGlobal = nil
     end)
 end)
+
+describe('stubs', function()
+    local t = {f = function() return 'original' end, g = function() return 'original' end}
+
+    setup(function() stub(t, 'f').returns('stub') end)
+    teardown(function() t.f:revert() end)
+
+    it('of a setup are there in a first test', function() assert.are.equal('stub', t.f()) end)
+    it('and in a second one', function()
+        assert.are.equal('stub', t.f())
+        stub(t, 'g')
+    end)
+    it('stay until they are reverted', function()
+        assert.is_nil(t.g())
+        t.g:revert()
+    end)
+end)
