@@ -378,3 +378,11 @@ fn a_table_raised_as_an_error_is_shown_with_its_elements() {
     assert_eq!(code, 1);
     assert!(output.contains("[code] = 7"), "{output}");
 }
+
+#[test]
+fn the_scenes_of_the_project_pass_their_tests() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+    command.args(["test", "scenes", "--timeout", "500"]).current_dir(env!("CARGO_MANIFEST_DIR"));
+    let (code, output) = run_for_code(&mut command, Duration::from_secs(500)).expect("it ends");
+    assert_eq!(code, 0, "{output}");
+}

@@ -9,8 +9,10 @@ Scene
     t.script(path or handle)    a script of the scene, see below
 
 Time
-    t.step(n = 1)               simulation steps; starts the simulation if need be. Returns how many there were
+    t.step(n = 1)               simulation steps; starts the simulation if need be. Returns how many there were: fewer when the scene ends
+                                it, which t.start() and t.stop() make forgotten
     t.run_for(seconds)          steps for that simulated time
+    t.run_to_end(timeout = 60)  steps until the scene ends the simulation. Returns the time of the end
     t.run_until(condition, timeout = 10)    steps until the function returns true; fails after that simulated time. Returns the time
     t.at(time, fn)              calls a function when the simulation reaches that time
     t.start(), t.stop(), t.time()
@@ -61,7 +63,10 @@ local function located(file)
     return folder .. file
 end
 
+local hasRun = false -- the simulation was started; when it stands still, somebody has ended it
+
 local function loaded(result)
+    hasRun = false
     if not allowErrors then t._checkErrors() end
     return result
 end
@@ -101,6 +106,7 @@ function t.time() return sim.getSimulationTime() end
 local function isAdvancing() return sim.getSimulationState() & sim.simulation_advancing ~= 0 end
 
 function t.start()
+    hasRun = true
     if sim.getSimulationState() == sim.simulation_stopped then
         sim.startSimulation()
         native.pass()
@@ -109,6 +115,7 @@ function t.start()
 end
 
 function t.stop()
+    hasRun = false
     if sim.getSimulationState() == sim.simulation_stopped then return end
     sim.stopSimulation()
     while sim.getSimulationState() ~= sim.simulation_stopped do
@@ -128,7 +135,8 @@ end
 
 -- One step; false when the simulation has ended.
 local function step()
-    if sim.getSimulationState() == sim.simulation_stopped then
+    if sim.getSimulationState() == sim.simulation_stopped and not hasRun then
+        hasRun = true
         sim.startSimulation()
         sample()
     end
@@ -163,6 +171,18 @@ function t.run_until(condition, timeout)
         end
     end
     return t.time()
+end
+
+function t.run_to_end(timeout)
+    timeout = timeout or 60
+    local last = t.time()
+    while step() do
+        if t.time() > last then last = t.time() end
+        if last > timeout then
+            error({ message = ('the scene has not ended the simulation within %g s.'):format(timeout), failed = true })
+        end
+    end
+    return last
 end
 
 function t.at(time, fn)

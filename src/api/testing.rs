@@ -31,7 +31,8 @@ fn pass(cx: &mut Cx) -> Result<()> {
         return Err(ApiError::Other("a step cannot be made from within a step.".into()));
     }
     cx.sim().loop_pass();
-    Ok(())
+    // Long passes make few Lua instructions, between which nobody would look.
+    if cx.sim().is_interrupted() { Err(ApiError::Other("interrupted.".into())) } else { Ok(()) }
 }
 
 /// How many errors scripts have raised that nobody caught.

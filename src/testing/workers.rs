@@ -4,11 +4,11 @@
 //! C, is given up with its thread: another thread takes its place, and the process ends without it.
 #![allow(clippy::disallowed_methods, reason = "how long tests take is watched by the wall clock")]
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::{HashMap, HashSet, VecDeque};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{self, Sender};
+use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -53,16 +53,23 @@ struct Running {
     begun: Instant,
 }
 
+/// What is left to do.
+struct Queue {
+    tasks: VecDeque<Task>,
+    /// Workers that get nothing any more.
+    given_up: HashSet<usize>,
+}
+
 /// What all threads know.
 struct Shared {
     config: Config,
-    queue: Mutex<VecDeque<Task>>,
+    queue: Mutex<Queue>,
     /// Nothing new is to be begun.
     cancelled: AtomicBool,
 }
 
 impl Shared {
-    fn queue(&self) -> MutexGuard<'_, VecDeque<Task>> {
+    fn queue(&self) -> MutexGuard<'_, Queue> {
         self.queue.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -70,8 +77,10 @@ impl Shared {
         self.cancelled.store(true, Ordering::Relaxed);
     }
 
-    fn next_task(&self) -> Option<Task> {
-        if self.cancelled.load(Ordering::Relaxed) { None } else { self.queue().pop_front() }
+    fn next_task(&self, worker: usize) -> Option<Task> {
+        let mut queue = self.queue();
+        let ends = self.cancelled.load(Ordering::Relaxed) || queue.given_up.contains(&worker);
+        if ends { None } else { queue.tasks.pop_front() }
     }
 }
 
@@ -81,23 +90,25 @@ struct Watch<'a> {
     workers: HashMap<usize, Option<Running>>,
     next: usize,
     sender: Sender<(usize, News)>,
+    news: Receiver<(usize, News)>,
     receive: &'a mut dyn FnMut(Message) -> bool,
 }
 
 /// Does the tasks on `config.jobs` threads and hands over what comes back, until all is done or `receive` wants no more to be begun.
 pub(super) fn work(config: &Config, tasks: Vec<Task>, receive: &mut dyn FnMut(Message) -> bool) {
     let count = config.jobs.clamp(1, tasks.len().max(1));
-    let shared = Shared { config: config.clone(), queue: Mutex::new(tasks.into()), cancelled: AtomicBool::new(false) };
+    let queue = Mutex::new(Queue { tasks: tasks.into(), given_up: HashSet::new() });
+    let shared = Arc::new(Shared { config: config.clone(), queue, cancelled: AtomicBool::new(false) });
     let (sender, news) = mpsc::channel();
-    let mut watch = Watch { shared: Arc::new(shared), workers: HashMap::new(), next: 0, sender, receive };
+    let mut watch = Watch { shared, workers: HashMap::new(), next: 0, sender, news, receive };
     for _ in 0..count {
         watch.spawn();
     }
     while !watch.workers.is_empty() {
-        match news.recv_timeout(TICK) {
-            Ok((worker, news)) => watch.hear(worker, news),
-            Err(_) => watch.look_after(),
+        if let Ok((worker, news)) = watch.news.recv_timeout(TICK) {
+            watch.hear(worker, news);
         }
+        watch.look_after();
     }
 }
 
@@ -122,7 +133,6 @@ impl Watch<'_> {
             }
             News::Gone => drop(self.workers.remove(&worker)),
         }
-        self.look_after();
     }
 
     fn take(&mut self, mut message: Message, running: Option<Running>) {
@@ -165,6 +175,14 @@ impl Watch<'_> {
     }
 
     fn give_up(&mut self, worker: usize) {
+        let mut queue = self.shared.queue();
+        // A worker tells of a test before it takes the next: with the queue locked and no news, it is still at this one.
+        if let Ok((teller, news)) = self.news.try_recv() {
+            drop(queue);
+            return self.hear(teller, news);
+        }
+        queue.given_up.insert(worker);
+        drop(queue);
         let Some(Some(running)) = self.workers.remove(&worker) else { return };
         let message = too_long(self.shared.config.allowance.wall)
             + " It could not be ended: it is in a function that is not written in Lua.";
@@ -179,7 +197,7 @@ impl Watch<'_> {
             self.shared.cancel();
         }
         if !running.rest.is_empty() {
-            self.shared.queue().push_front(Task::Run(Job { tests: running.rest }));
+            self.shared.queue().tasks.push_front(Task::Run(Job { tests: running.rest }));
         }
         self.spawn();
     }
@@ -198,7 +216,7 @@ struct Worker {
 
 impl Worker {
     fn work(self) {
-        while let Some(task) = self.shared.next_task() {
+        while let Some(task) = self.shared.next_task(self.id) {
             match task {
                 Task::Collect(file) => self.collect(&file),
                 Task::Run(job) => self.run(job.tests),
@@ -210,6 +228,11 @@ impl Worker {
     /// Without a receiver the run is over, and so is this thread's work.
     fn tell(&self, news: News) {
         let _ = self.sender.send((self.id, news));
+    }
+
+    /// What is left of a job is for others, or for nobody.
+    fn is_to_end(&self) -> bool {
+        self.shared.cancelled.load(Ordering::Relaxed) || self.shared.queue().given_up.contains(&self.id)
     }
 
     fn begin(&self, test: &Arc<TestCase>, rest: &[Arc<TestCase>], stop: &Arc<AtomicBool>) {
@@ -229,7 +252,7 @@ impl Worker {
 
     /// Runs tests in one simulator; those after one that had to be stopped get another.
     fn run(&self, mut tests: Vec<Arc<TestCase>>) {
-        while !tests.is_empty() && !self.shared.cancelled.load(Ordering::Relaxed) {
+        while !tests.is_empty() && !self.is_to_end() {
             let stop = Arc::new(AtomicBool::new(false));
             let first = Arc::clone(&tests[0]);
             self.begin(&first, &tests[1..], &stop);
@@ -245,7 +268,7 @@ impl Worker {
     fn run_until_stopped(&self, mut tests: Vec<Arc<TestCase>>, stop: &Arc<AtomicBool>) -> Vec<Arc<TestCase>> {
         let mut session = Session::new(&self.shared.config, &tests[0].file, tests[0].seed, Arc::clone(stop));
         let collection = session.collect(&tests[0].file);
-        while !tests.is_empty() && !stop.load(Ordering::Relaxed) && !self.shared.cancelled.load(Ordering::Relaxed) {
+        while !tests.is_empty() && !stop.load(Ordering::Relaxed) && !self.is_to_end() {
             let test = tests.remove(0);
             self.begin(&test, &tests, stop);
             let mut outcome = match &collection.broken {

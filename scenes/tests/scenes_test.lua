@@ -1,0 +1,40 @@
+-- Every scene of the folder that ends by itself does what it says.
+local t = require 'swanilda.test'
+
+local function lastLine()
+    local lines = t.prints()
+    return lines[#lines]
+end
+
+local function runToEnd(scene, limit)
+    t.load('../' .. scene)
+    t.run_to_end(limit)
+end
+
+describe('the scene', function()
+    it('hello says hello, and all is where it began', function()
+        runToEnd('hello.lua', 5)
+        assert.equal('The simulation has ended, and all is where it began: (0.00, 0.00)', lastLine())
+    end)
+
+    it('falling_boxes comes to rest', function()
+        runToEnd('falling_boxes.lua', 5)
+        assert.equal('8 of 8 boxes lie still.', lastLine())
+    end)
+
+    it('conveyor delivers its parcels', function()
+        runToEnd('conveyor.lua', 40)
+        assert.equal('5 parcels delivered.', lastLine())
+    end)
+
+    it('arm_7dof follows its motion', function()
+        runToEnd('arm_7dof.lua', 10)
+        local worst = tonumber(lastLine():match('Worst tracking error: ([%d.]+) deg'))
+        assert.is_true(worst < 15)
+    end)
+
+    it('inverted_pendulum keeps the pole up', function()
+        runToEnd('inverted_pendulum.lua', 12)
+        assert.equal('The pole stands.', lastLine())
+    end)
+end)
