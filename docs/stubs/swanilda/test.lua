@@ -12,8 +12,10 @@
 ---     t.script(path or handle)    a script of the scene, see below
 ---
 --- Time
----     t.step(n = 1)               simulation steps; starts the simulation if need be. Returns how many there were
+---     t.step(n = 1)               simulation steps; starts the simulation if need be. Returns how many there were: fewer when the scene ends
+---                                 it, which t.start() and t.stop() make forgotten
 ---     t.run_for(seconds)          steps for that simulated time
+---     t.run_to_end(timeout = 60)  steps until the scene ends the simulation. Returns the time of the end
 ---     t.run_until(condition, timeout = 10)    steps until the function returns true; fails after that simulated time. Returns the time
 ---     t.at(time, fn)              calls a function when the simulation reaches that time
 ---     t.start(), t.stop(), t.time()
@@ -71,6 +73,8 @@ function t.prints() end
 function t.random() end
 
 function t.run_for(seconds) end
+
+function t.run_to_end(timeout) end
 
 function t.run_until(condition, timeout) end
 
