@@ -145,7 +145,7 @@ function M.collect(file)
     local environment = setmetatable(copy(VOCABULARY), { __index = _G, __newindex = _G })
     local known = copy(_G)
     local chunk, message = loadfile(file, 'bt', environment)
-    if not chunk then return { error = { message = message } } end
+    if not chunk then return { error = { message = message, line = tonumber(message:match(':(%d+): ')) } } end
     local ok, failure = xpcall(chunk, M.explain)
     if not ok then return { error = failure } end
     addPlainTests(known, environment)
@@ -260,7 +260,7 @@ end
 --- Runs a test with all that belongs to it. Returns status (passed, failed, error, pending) and what went wrong.
 function M.run(index)
     local test = tests[index]
-    if test.pending then return { status = 'pending', message = test.pending } end
+    if test.pending then return { status = 'pending', message = test.pending, todo = true } end
     local chain = chainOf(test.group)
     final = {}
     local problem = moveTo(chain) or beforeEach(chain)

@@ -185,6 +185,11 @@ impl Simulator {
         Ok(ScriptRef(self.sim.script(handle.raw()).ok_or(ApiError::NoSuchScript)?))
     }
 
+    /// Path and text of the script whose errors read `[string "name"]:line:`.
+    pub fn source_shown_as(&self, name: &str) -> Option<(String, Vec<u8>)> {
+        self.sim.code_shown_as(name)
+    }
+
     /// Starts the simulation, or resumes a paused one. Its first step runs with the next [`pass`](Self::pass).
     pub fn start(&mut self) {
         self.sim.start();

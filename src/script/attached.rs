@@ -58,6 +58,15 @@ impl Sim {
         (code, self.log_name(script))
     }
 
+    /// The script that Lua calls `name` in positions, under its full name, and its text. Lua cuts long names and ends them with dots.
+    pub(crate) fn code_shown_as(&self, name: &str) -> Option<(String, Vec<u8>)> {
+        let start = name.strip_suffix("...").filter(|start| !start.is_empty());
+        let scripts: Vec<_> = self.scripts.borrow().values().cloned().collect();
+        let found = scripts.iter().map(|script| self.code_of(script));
+        let mut named = found.filter(|(_, full)| full == name || start.is_some_and(|start| full.starts_with(start)));
+        named.next().map(|(code, full)| (full, code))
+    }
+
     /// `lua` or `python`.
     pub(super) fn language_of(&self, script: &Script) -> String {
         match script.object {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::excerpt::Excerpt;
 use super::golden::Comparison;
 use crate::script::test_bench::{ConsoleLine, Golden};
 
@@ -65,12 +66,16 @@ pub struct Outcome {
     pub status: Status,
     /// What went wrong, or why it is pending.
     pub message: String,
+    /// Pending since it is yet to be written; else since it ended itself.
+    pub todo: bool,
     /// Lua's traceback.
     pub trace: String,
     /// The line of the test's file where it went wrong.
     pub line: Option<u32>,
     /// The path of the script of the scene that raised an error.
     pub script: Option<String>,
+    /// The source where it went wrong: of the script, then of the test.
+    pub excerpts: Vec<Excerpt>,
     /// Simulated time when it ended, seconds.
     pub time: f64,
     pub steps: u64,
@@ -88,9 +93,11 @@ impl Outcome {
             test,
             status,
             message: message.into(),
+            todo: false,
             trace: String::new(),
             line: None,
             script: None,
+            excerpts: Vec::new(),
             time: 0.0,
             steps: 0,
             wall: Duration::ZERO,

@@ -1,22 +1,25 @@
 //! The test runner: finds tests in Lua files, runs each in a simulator of its own, and says how they went.
 //!
 //! `discover` finds files, `session` is one simulator with a test file in it, `workers` spreads the work over threads, `plan` chooses
-//! tests. What is shown is up to a [`Reporter`]; reports that need all outcomes are made from the [`Summary`].
+//! tests. What is shown is up to a [`Reporter`]; `report` has the texts of reports, most of which are made from the [`Summary`].
 
 mod case;
 mod discover;
+mod excerpt;
 mod golden;
 mod plan;
+pub mod report;
 mod session;
 mod workers;
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 pub use case::{Outcome, Status, TestCase};
 pub use discover::find_files;
+pub use excerpt::Excerpt;
 pub use golden::{Comparison, Difference, Divergence, Verdict};
 
 use golden::Claims;
@@ -62,13 +65,18 @@ pub struct Allowance {
 
 /// Is told how the tests get on.
 pub trait Reporter {
-    /// All tests are known.
-    fn begin(&mut self, count: usize) {
-        let _ = count;
+    /// All tests are known. A file that could not be loaded stands among them as a test of its own.
+    fn begin(&mut self, tests: &[Arc<TestCase>]) {
+        let _ = tests;
     }
 
     /// A test is over.
     fn outcome(&mut self, outcome: &Outcome);
+
+    /// All is over.
+    fn end(&mut self, summary: &Summary) {
+        let _ = summary;
+    }
 }
 
 /// How it went.
@@ -80,6 +88,8 @@ pub struct Summary {
     pub not_run: usize,
     /// Tests that were not chosen.
     pub deselected: usize,
+    /// Whether the user wanted an end before all tests had run.
+    pub interrupted: bool,
     pub wall: Duration,
 }
 
@@ -111,7 +121,7 @@ pub fn run(config: &Config, reporter: &mut dyn Reporter) -> std::io::Result<Summ
     #[allow(clippy::disallowed_methods, reason = "how long tests take is what their user wants to know")]
     let begun = std::time::Instant::now();
     let plan = plan(config)?;
-    reporter.begin(plan.tests.len() + plan.broken.len());
+    reporter.begin(&plan.all());
     let mut outcomes = plan.broken;
     outcomes.iter().for_each(|outcome| reporter.outcome(outcome));
     if !config.fail_fast || outcomes.is_empty() {
@@ -119,12 +129,15 @@ pub fn run(config: &Config, reporter: &mut dyn Reporter) -> std::io::Result<Summ
     }
     let ran = outcomes.iter().filter(|outcome| outcome.test.index > 0).count();
     outcomes.sort_by_key(|outcome| outcome.test.key());
-    Ok(Summary {
+    let summary = Summary {
         not_run: plan.tests.len().saturating_sub(ran),
         deselected: plan.deselected,
+        interrupted: config.interrupted.load(Ordering::Relaxed),
         outcomes,
         wall: begun.elapsed(),
-    })
+    };
+    reporter.end(&summary);
+    Ok(summary)
 }
 
 /// Loads every file to learn what tests it has.

@@ -66,6 +66,11 @@ impl Plan {
         }
         plan
     }
+
+    /// What will have an outcome.
+    pub(super) fn all(&self) -> Vec<Arc<TestCase>> {
+        self.broken.iter().map(|outcome| &outcome.test).chain(&self.tests).cloned().collect()
+    }
 }
 
 /// Every test as often as it is repeated.

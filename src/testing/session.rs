@@ -7,6 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::Config;
 use super::case::{Outcome, Status, TestCase};
+use super::excerpt::{Excerpt, positions};
 use super::plan::{Collection, Found};
 use crate::scene::Data;
 use crate::script::TestBench;
@@ -56,7 +57,7 @@ impl Session {
         let test = Arc::new(TestCase::of_file(file));
         let mut outcome = Outcome::new(test, Status::Error, "the file could not be loaded.");
         if let Some(error) = answer.and_then(|answer| answer.field("error")) {
-            explain(&mut outcome, error);
+            self.explain(&mut outcome, error);
         }
         outcome.console = self.bench.take_lines();
         outcome
@@ -69,7 +70,7 @@ impl Session {
         if let Some(answer) = answer {
             outcome.status = status(&answer);
             outcome.message.clear();
-            explain(&mut outcome, &answer);
+            self.explain(&mut outcome, &answer);
         } else if let Some(line) = self.bench.lines_from(0).iter().rev().find(|line| line.level == "error") {
             outcome.message.clone_from(&line.text);
         }
@@ -84,7 +85,30 @@ impl Session {
         let Some(answer) = self.call("package.loaded.busted.finish", &[]) else { return };
         if status(&answer) != Status::Passed && !last.is_bad() {
             last.status = status(&answer);
-            explain(last, &answer);
+            self.explain(last, &answer);
+        }
+    }
+
+    fn explain(&self, outcome: &mut Outcome, answer: &Data) {
+        outcome.message = text(answer, "message");
+        outcome.todo = answer.field("todo").is_some_and(Data::truthy);
+        outcome.trace = text(answer, "trace");
+        outcome.line = line(answer);
+        outcome.script = answer.field("script").map(as_text);
+        if outcome.is_bad() {
+            self.quote(outcome);
+        }
+    }
+
+    /// Adds the source the outcome speaks of, as it is now.
+    fn quote(&self, outcome: &mut Outcome) {
+        for (name, line) in positions(&outcome.message) {
+            let Some((script, code)) = self.sim.source_shown_as(name) else { continue };
+            outcome.excerpts.extend(Excerpt::of(&script, &code, line));
+            outcome.script.get_or_insert(script);
+        }
+        if let (Some(line), Ok(source)) = (outcome.line, std::fs::read(&outcome.test.file)) {
+            outcome.excerpts.extend(Excerpt::of(&self.bench.file, &source, line));
         }
     }
 
@@ -108,13 +132,6 @@ fn status(answer: &Data) -> Status {
         "pending" => Status::Pending,
         _ => Status::Error,
     }
-}
-
-fn explain(outcome: &mut Outcome, answer: &Data) {
-    outcome.message = text(answer, "message");
-    outcome.trace = text(answer, "trace");
-    outcome.line = line(answer);
-    outcome.script = answer.field("script").map(as_text);
 }
 
 fn text(answer: &Data, field: &str) -> String {

@@ -107,8 +107,8 @@ impl Terminal {
 }
 
 impl Reporter for Terminal {
-    fn begin(&mut self, count: usize) {
-        self.count = count;
+    fn begin(&mut self, tests: &[std::sync::Arc<crate::testing::TestCase>]) {
+        self.count = tests.len();
     }
 
     fn outcome(&mut self, outcome: &Outcome) {
