@@ -10,11 +10,14 @@ use super::setup::seconds;
 use crate::Options;
 use crate::testing::{self, Allowance, Config, Summary};
 
+mod failure;
 mod init;
+mod paint;
+mod reports;
 mod terminal;
 mod watch;
 
-use terminal::Terminal;
+use reports::ReportArgs;
 use watch::Watch;
 
 /// Exit codes as pytest has them.
@@ -74,15 +77,17 @@ pub(super) struct Args {
     /// Write a first test and a workflow that runs it into the current folder
     #[arg(long)]
     init: bool,
-    /// Show what passed as well
-    #[arg(long, short)]
-    verbose: bool,
+    #[command(flatten)]
+    reports: ReportArgs,
 }
 
 /// Runs the tests; the exit code tells how it went.
 pub(super) fn test(args: &Args) -> ExitCode {
     if args.init {
         return init();
+    }
+    if let Err(reason) = args.reports.check() {
+        return refuse(&reason);
     }
     let interrupt = Interrupt::install(INTERRUPTED);
     let config = args.config(&interrupt);
@@ -99,9 +104,8 @@ pub(super) fn test(args: &Args) -> ExitCode {
 }
 
 fn run(args: &Args, config: &Config) -> Result<u8, String> {
-    let mut terminal = Terminal::new(args.verbose);
-    let summary = testing::run(config, &mut terminal).map_err(|error| error.to_string())?;
-    terminal.summary(&summary);
+    let summary = testing::run(config, &mut args.reports.reporter()).map_err(|error| error.to_string())?;
+    args.reports.write(&summary)?;
     Ok(exit_code(config, &summary))
 }
 

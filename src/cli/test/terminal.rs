@@ -1,129 +1,206 @@
 //! What the terminal shows of a test run.
+//!
+//! Failures are shown in full as they come, passed tests by file, or one by one when it is verbose; at the end stands what matters once more.
 
+use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
 
-use crate::testing::{Outcome, Reporter, Status, Summary};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// Lines of a test's console that are shown when it fails.
-const CONSOLE_LINES: usize = 20;
-/// Lines of source before and after the one that failed.
-const CONTEXT: usize = 2;
+use super::failure;
+use super::paint::{BOLD, ColorChoice, DIM, GREEN, Paint, RED, YELLOW, harmless};
+use crate::testing::report::files;
+use crate::testing::{Outcome, Reporter, Status, Summary, TestCase};
 
-/// Shows failures as they come, and passes as well when it is verbose.
+/// What the user wants to see.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Wishes {
+    /// Each test, and tracebacks.
+    pub verbose: bool,
+    pub color: ColorChoice,
+    /// How many of the slowest tests.
+    pub durations: usize,
+    /// Standard output is taken by a report.
+    pub on_stderr: bool,
+}
+
+/// Shows how tests get on.
 pub(super) struct Terminal {
-    verbose: bool,
-    colours: bool,
-    done: usize,
-    count: usize,
+    wishes: Wishes,
+    paint: Paint,
+    bar: ProgressBar,
+    bad: usize,
+    /// How many tests of each file are not over yet, and what the others did.
+    open: BTreeMap<PathBuf, (usize, Tally)>,
+}
+
+/// Counts of a file.
+#[derive(Debug, Default)]
+struct Tally {
+    total: usize,
+    bad: usize,
+    pending: usize,
+    wall: Duration,
 }
 
 impl Terminal {
-    pub(super) fn new(verbose: bool) -> Self {
-        Self { verbose, colours: std::io::stdout().is_terminal(), done: 0, count: 0 }
+    pub(super) fn new(wishes: Wishes) -> Self {
+        let is_terminal =
+            if wishes.on_stderr { std::io::stderr().is_terminal() } else { std::io::stdout().is_terminal() };
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        Self { wishes, paint: Paint::new(wishes.color, is_terminal), bar, bad: 0, open: BTreeMap::new() }
     }
 
-    fn paint(&self, colour: u8, text: &str) -> String {
-        if self.colours { format!("\x1b[{colour}m{text}\x1b[0m") } else { text.to_owned() }
+    /// Writes text between the frames of the progress bar. A reader that closes the pipe has seen enough, which is no error.
+    fn say(&self, text: &str) {
+        self.bar.suspend(|| {
+            let _ = if self.wishes.on_stderr {
+                std::io::stderr().lock().write_all(text.as_bytes())
+            } else {
+                std::io::stdout().lock().write_all(text.as_bytes())
+            };
+        });
     }
 
-    fn word(&self, status: Status) -> String {
-        let (colour, word) = match status {
-            Status::Passed => (32, "PASS"),
-            Status::Failed => (31, "FAIL"),
-            Status::Error => (31, "ERROR"),
-            Status::Pending => (33, "PENDING"),
-        };
-        self.paint(colour, word)
+    fn show_bar(&self, count: usize) {
+        if !std::io::stderr().is_terminal() {
+            return;
+        }
+        let style = ProgressStyle::with_template("{bar:40} {pos}/{len} tests{msg}, {elapsed}");
+        self.bar.set_style(style.expect("the template is well-formed"));
+        self.bar.set_length(count as u64);
+        self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        // A long test should not look like a standstill.
+        self.bar.enable_steady_tick(Duration::from_millis(200));
     }
 
-    fn detail(&self, outcome: &Outcome) -> String {
-        let mut text = String::new();
-        for line in outcome.message.lines() {
-            text += &format!("    {line}\n");
+    fn advance(&mut self, outcome: &Outcome) {
+        self.bad += usize::from(outcome.is_bad());
+        if self.bad > 0 {
+            self.bar.set_message(format!(", {} failed", self.bad));
         }
-        if let Some(excerpt) = outcome.line.and_then(|line| self.excerpt(outcome, line)) {
-            text += &excerpt;
-        }
-        if let Some(script) = &outcome.script {
-            text += &format!("    in script {script}\n");
-        }
-        if outcome.steps > 0 {
-            text += &format!("    at simulated time {:.3} s, after {} steps\n", outcome.time, outcome.steps);
-        }
-        text + &self.console(outcome)
+        self.bar.inc(1);
     }
 
-    /// The source around a line.
-    fn excerpt(&self, outcome: &Outcome, line: u32) -> Option<String> {
-        let source = std::fs::read(&outcome.test.file).ok()?;
-        let source = String::from_utf8_lossy(&source);
-        let line = line as usize;
-        let mut text = format!("    {}:{line}\n", outcome.test.file.display());
-        for (i, code) in source.lines().enumerate().skip(line.saturating_sub(CONTEXT + 1)).take(2 * CONTEXT + 1) {
-            let mark = if i + 1 == line { self.paint(31, ">") } else { " ".into() };
-            text += &format!("    {mark} {:>4} | {code}\n", i + 1);
+    /// The line of a file whose tests are all over.
+    fn tally(&mut self, outcome: &Outcome) -> Option<String> {
+        let file = &outcome.test.file;
+        let (left, tally) = self.open.get_mut(file)?;
+        tally.add(outcome);
+        *left = left.saturating_sub(1);
+        if *left > 0 {
+            return None;
         }
-        Some(text)
+        let (_, tally) = self.open.remove(file)?;
+        let status = if tally.bad > 0 { Status::Failed } else { Status::Passed };
+        Some(format!("{} {} ({tally})\n", self.paint.status(status), harmless(&file.to_string_lossy())))
     }
 
-    fn console(&self, outcome: &Outcome) -> String {
-        let hidden = outcome.console.len().saturating_sub(CONSOLE_LINES);
-        let mut text = if outcome.console.is_empty() { String::new() } else { "    console:\n".to_owned() };
-        if hidden > 0 {
-            text += &format!("      ... {hidden} lines before\n");
-        }
-        for line in &outcome.console[hidden..] {
-            let origin = line.origin.as_deref().map(|origin| format!("[{origin}:{}] ", line.level)).unwrap_or_default();
-            text += &format!("      {:.3} {origin}{}\n", line.time, line.text);
-        }
-        text
+    fn test_line(&self, outcome: &Outcome) -> String {
+        let title = harmless(&outcome.test.id());
+        let reason =
+            if outcome.message.is_empty() { String::new() } else { format!(": {}", harmless(&outcome.message)) };
+        let wall = self.paint.paint(DIM, &format!("({:.1} ms)", outcome.wall.as_secs_f64() * 1e3));
+        format!("{} {title}{reason} {wall}\n", self.paint.status(outcome.status))
     }
 
-    pub(super) fn summary(&self, summary: &Summary) {
-        if summary.outcomes.is_empty() {
-            return say("no tests found\n");
-        }
-        let mut parts = Vec::new();
-        for (status, word) in [
-            (Status::Passed, "passed"),
-            (Status::Failed, "failed"),
-            (Status::Error, "errors"),
-            (Status::Pending, "pending"),
-        ] {
-            let count = summary.count(status);
-            if count > 0 || status == Status::Passed {
-                parts.push(format!("{count} {word}"));
-            }
-        }
-        for (count, word) in [(summary.not_run, "not run"), (summary.deselected, "deselected")] {
-            if count > 0 {
-                parts.push(format!("{count} {word}"));
-            }
-        }
-        let colour = if summary.is_good() { 32 } else { 31 };
-        let line = format!("{} in {:.2} s", parts.join(", "), summary.wall.as_secs_f64());
-        say(&format!("{}\n", self.paint(colour, &line)));
+    fn failure(&self, outcome: &Outcome) -> String {
+        let title = self.paint.paint(BOLD, &harmless(&outcome.test.id()));
+        let block = failure::block(outcome, self.paint, self.wishes.verbose);
+        format!("{} {title}\n{block}\n", self.paint.status(outcome.status))
+    }
+
+    /// What failed, a line each, in the order of the files.
+    fn failures(&self, summary: &Summary) -> String {
+        let bad: String = files(summary).flatten().filter(|outcome| outcome.is_bad()).map(|o| self.short(o)).collect();
+        if bad.is_empty() { bad } else { format!("Failures:\n{bad}\n") }
+    }
+
+    fn short(&self, outcome: &Outcome) -> String {
+        let line = outcome.line.or(outcome.test.line).map(|line| format!(":{line}")).unwrap_or_default();
+        let first = outcome.message.lines().next().unwrap_or_default();
+        let place = outcome.test.file.display().to_string() + &line;
+        let text = harmless(&format!("{place} {}: {first}", outcome.test.title()));
+        format!("  {} {text}\n", self.paint.status(outcome.status))
+    }
+
+    fn slowest(&self, summary: &Summary) -> String {
+        let mut slowest: Vec<_> = summary.outcomes.iter().collect();
+        slowest.sort_by_key(|outcome| std::cmp::Reverse(outcome.wall));
+        slowest.truncate(self.wishes.durations);
+        let line =
+            |outcome: &&Outcome| format!("  {:>8.3} s  {}\n", outcome.wall.as_secs_f64(), harmless(&outcome.test.id()));
+        let lines: String = slowest.iter().map(line).collect();
+        if lines.is_empty() { lines } else { format!("Slowest tests:\n{lines}\n") }
+    }
+
+    /// The last line: counts and time.
+    fn counts(&self, summary: &Summary) -> String {
+        let counts = [
+            (summary.count(Status::Passed), "passed", GREEN),
+            (summary.count(Status::Failed), "failed", RED),
+            (summary.count(Status::Error), "errors", RED),
+            (summary.count(Status::Pending), "pending", YELLOW),
+            (summary.not_run, "not run", YELLOW),
+            (summary.deselected, "deselected", DIM),
+        ];
+        let counts = counts.into_iter().filter(|(count, word, _)| *count > 0 || *word == "passed");
+        let parts: Vec<_> =
+            counts.map(|(count, word, colour)| self.paint.paint(colour, &format!("{count} {word}"))).collect();
+        let interrupted = if summary.interrupted { "interrupted: " } else { "" };
+        format!("{interrupted}{} in {:.2} s\n", parts.join(", "), summary.wall.as_secs_f64())
     }
 }
 
 impl Reporter for Terminal {
-    fn begin(&mut self, tests: &[std::sync::Arc<crate::testing::TestCase>]) {
-        self.count = tests.len();
+    fn begin(&mut self, tests: &[Arc<TestCase>]) {
+        for test in tests {
+            self.open.entry(test.file.clone()).or_default().0 += 1;
+        }
+        self.show_bar(tests.len());
     }
 
     fn outcome(&mut self, outcome: &Outcome) {
-        self.done += 1;
+        self.advance(outcome);
+        let file = self.tally(outcome);
         if outcome.is_bad() {
-            say(&format!("{} {}\n{}", self.word(outcome.status), outcome.test.id(), self.detail(outcome)));
-        } else if self.verbose || outcome.status == Status::Pending {
-            let reason = if outcome.message.is_empty() { String::new() } else { format!(": {}", outcome.message) };
-            let wall = outcome.wall.as_secs_f64() * 1e3;
-            say(&format!("{} {}{reason} ({wall:.1} ms)\n", self.word(outcome.status), outcome.test.id()));
+            self.say(&self.failure(outcome));
+        } else if self.wishes.verbose {
+            self.say(&self.test_line(outcome));
         }
+        if let Some(line) = file.filter(|_| !self.wishes.verbose) {
+            self.say(&line);
+        }
+    }
+
+    fn end(&mut self, summary: &Summary) {
+        self.bar.finish_and_clear();
+        self.say(&(self.failures(summary) + &self.slowest(summary) + &self.counts(summary)));
     }
 }
 
-/// A reader that closes the pipe has seen enough, which is no error.
-fn say(text: &str) {
-    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+impl Tally {
+    fn add(&mut self, outcome: &Outcome) {
+        self.total += 1;
+        self.bad += usize::from(outcome.is_bad());
+        self.pending += usize::from(outcome.status == Status::Pending);
+        self.wall += outcome.wall;
+    }
+}
+
+impl std::fmt::Display for Tally {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let plural = if self.total == 1 { "" } else { "s" };
+        if self.bad > 0 {
+            write!(f, "{} of ", self.bad)?;
+        }
+        write!(f, "{} test{plural}{}", self.total, if self.bad > 0 { " failed" } else { "" })?;
+        if self.pending > 0 {
+            write!(f, ", {} pending", self.pending)?;
+        }
+        write!(f, ", {:.2} s", self.wall.as_secs_f64())
+    }
 }

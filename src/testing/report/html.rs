@@ -1,1 +1,220 @@
-//! stub
+//! One page for a browser, with everything in it: it needs no network, and works without JavaScript, which only adds a filter.
+//!
+//! Its policy forbids whatever does not stand in the page. Pictures are images of their own, so no text in them becomes part of the page.
+
+use std::fmt;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD as BASE64;
+
+use super::parts;
+use crate::script::test_bench::ConsoleLine;
+use crate::testing::{Comparison, Excerpt, Outcome, Status, Summary};
+
+const STYLE: &str = include_str!("html/page.css");
+const SCRIPT: &str = include_str!("html/page.js");
+
+const STATUSES: [(Status, &str); 4] =
+    [(Status::Failed, "failed"), (Status::Error, "errors"), (Status::Pending, "pending"), (Status::Passed, "passed")];
+
+/// The report on a whole run.
+pub fn report(summary: &Summary) -> String {
+    let title = title(summary);
+    let files: String = parts::files(summary).map(file).collect();
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+        <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; \
+        script-src 'unsafe-inline'; img-src data:\">\n\
+        <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n\
+        <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n{}{CONTROLS}</header>\n\
+        <main>\n{files}</main>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n",
+        counts(summary),
+    )
+}
+
+/// Shown by the script only.
+const CONTROLS: &str = "<form class=\"controls\" role=\"search\" hidden>\n\
+    <input type=\"search\" id=\"find\" placeholder=\"Find in names, messages, consoles\" aria-label=\"Find\">\n\
+    <button type=\"button\" id=\"unfold\">Unfold all</button>\n<button type=\"button\" id=\"fold\">Fold all</button>\n\
+    <output id=\"shown\"></output>\n</form>\n";
+
+fn title(summary: &Summary) -> String {
+    let bad = summary.count(Status::Failed) + summary.count(Status::Error);
+    let total = summary.outcomes.len();
+    let interrupted = if summary.interrupted { ", interrupted" } else { "" };
+    match (bad, total) {
+        (_, 0) => format!("No tests{interrupted}"),
+        (0, _) => format!("No test of {total} failed{interrupted}"),
+        _ => format!("{bad} of {} failed{interrupted}", plural(total, "test")),
+    }
+}
+
+/// The counts are boxes to tick: they choose what is shown.
+fn counts(summary: &Summary) -> String {
+    let boxes: String = STATUSES
+        .iter()
+        .map(|&(status, word)| {
+            let (count, class) = (summary.count(status), parts::word(status));
+            format!(
+                "<li class=\"{class}\"><label><input type=\"checkbox\" value=\"{class}\" checked> \
+                <b>{count}</b> {word}</label></li>\n"
+            )
+        })
+        .collect();
+    let rest = [(summary.not_run, "not run"), (summary.deselected, "deselected")];
+    let rest =
+        rest.iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("<li><b>{count}</b> {word}</li>\n"));
+    let wall = format!("<li>{}</li>\n", duration(summary.wall.as_secs_f64()));
+    format!("<ul class=\"counts\">\n{boxes}{}{wall}</ul>\n", rest.collect::<String>())
+}
+
+fn file(outcomes: &[Outcome]) -> String {
+    let path = outcomes[0].test.file.to_string_lossy();
+    let bad = outcomes.iter().filter(|outcome| outcome.is_bad()).count();
+    let failed = if bad > 0 { format!(", {bad} failed") } else { String::new() };
+    let tests: String = outcomes.iter().map(test).collect();
+    let count = plural(outcomes.len(), "test");
+    format!("<section>\n<h2>{} <small>{count}{failed}</small></h2>\n{tests}</section>\n", Quoted(&path))
+}
+
+fn test(outcome: &Outcome) -> String {
+    let word = parts::word(outcome.status);
+    let open = if outcome.is_bad() { " open" } else { "" };
+    let title = outcome.test.title();
+    let wall = duration(outcome.wall.as_secs_f64());
+    format!(
+        "<details class=\"test {word}\"{open}>\n<summary><span class=\"status\">{word}</span> \
+        <span class=\"name\">{}</span> <span class=\"time\">{wall}</span></summary>\n<div>\n{}{}{}{}{}{}</div>\n</details>\n",
+        Quoted(&title),
+        message(outcome),
+        outcome.excerpts.iter().map(excerpt).collect::<String>(),
+        facts(outcome),
+        outcome.comparisons.iter().map(plot).collect::<String>(),
+        console(&outcome.console),
+        folded("trace", "Traceback", outcome.trace.trim()),
+    )
+}
+
+fn message(outcome: &Outcome) -> String {
+    if outcome.message.is_empty() {
+        return String::new();
+    }
+    format!("<pre class=\"message\">{}</pre>\n", Quoted(&outcome.message))
+}
+
+fn excerpt(excerpt: &Excerpt) -> String {
+    let lines: String = excerpt
+        .numbered()
+        .map(|(number, code, is_meant)| {
+            let line = format!("<span class=\"number\">{number:>4}</span> {}", Quoted(code));
+            if is_meant { format!("<mark>{line}</mark>\n") } else { line + "\n" }
+        })
+        .collect();
+    let place = format!("{}:{}", excerpt.place, excerpt.line);
+    format!("<figure><figcaption>{}</figcaption><pre>{lines}</pre></figure>\n", Quoted(&place))
+}
+
+fn facts(outcome: &Outcome) -> String {
+    let mut facts = Vec::new();
+    facts.extend(outcome.script.as_ref().map(|script| format!("in script {script}")));
+    facts.extend(parts::moment(outcome));
+    facts.push(format!("with seed {}", outcome.test.seed));
+    facts.extend(outcome.test.line.map(|line| format!("defined in line {line}")));
+    format!("<p class=\"facts\">{}</p>\n", Quoted(&facts.join(", ")))
+}
+
+/// The plot of a golden trace. Its verdict is part of the test's message.
+fn plot(comparison: &Comparison) -> String {
+    let Some(svg) = comparison.svg() else { return String::new() };
+    let about = format!("golden '{}'{}", comparison.name, if comparison.is_bad() { " differs" } else { "" });
+    let open = if comparison.is_bad() { " open" } else { "" };
+    format!(
+        "<details class=\"plot\"{open}>\n<summary>Plot of {0}</summary>\n\
+        <img alt=\"Expected and actual values: {0}\" src=\"data:image/svg+xml;base64,{1}\">\n</details>\n",
+        Quoted(&about),
+        BASE64.encode(svg),
+    )
+}
+
+fn console(lines: &[ConsoleLine]) -> String {
+    let line = |line: &ConsoleLine| {
+        let text = parts::console_line(line);
+        format!("<span class=\"{}\">{}</span>\n", Quoted(line.level), Quoted(&text))
+    };
+    if lines.is_empty() {
+        return String::new();
+    }
+    let text: String = lines.iter().map(line).collect();
+    let count = plural(lines.len(), "line");
+    format!("<details class=\"console\">\n<summary>Console ({count})</summary>\n<pre>{text}</pre>\n</details>\n")
+}
+
+fn folded(class: &str, title: &str, text: &str) -> String {
+    if text.is_empty() {
+        return String::new();
+    }
+    format!("<details class=\"{class}\">\n<summary>{title}</summary>\n<pre>{}</pre>\n</details>\n", Quoted(text))
+}
+
+fn plural(count: usize, word: &str) -> String {
+    format!("{count} {word}{}", if count == 1 { "" } else { "s" })
+}
+
+fn duration(seconds: f64) -> String {
+    if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.2} s") }
+}
+
+/// Text that says what it says, wherever it stands in the page.
+struct Quoted<'a>(&'a str);
+
+impl fmt::Display for Quoted<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use fmt::Write;
+        self.0.chars().try_for_each(|c| match c {
+            '&' => f.write_str("&amp;"),
+            '<' => f.write_str("&lt;"),
+            '>' => f.write_str("&gt;"),
+            '"' => f.write_str("&quot;"),
+            '\'' => f.write_str("&#39;"),
+            _ => f.write_char(parts::allowed(c)),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parts::sample;
+    use super::*;
+
+    #[test]
+    fn all_tests_are_there() {
+        let page = report(&sample::summary());
+        assert_eq!(page.matches("<section>").count(), 2);
+        assert_eq!(page.matches("<details class=\"test ").count(), 5);
+        assert_eq!(page.matches(" open>\n<summary><span").count(), 2, "what failed is unfolded");
+        for part in ["<b>1</b> failed", "<b>2</b> not run", "2 of 5 tests failed", "Console (2 lines)", "1.50 s"] {
+            assert!(page.contains(part), "{part}");
+        }
+    }
+
+    #[test]
+    fn nothing_a_test_says_is_more_than_text() {
+        let page = report(&sample::summary());
+        assert_eq!(page.matches("<script>").count(), 1, "its own");
+        assert!(page.matches("&lt;script&gt;alert(&#39;x&#39;)").count() >= 4);
+        assert!(!page.contains("\u{1b}") && !page.contains('\0'));
+    }
+
+    #[test]
+    fn nothing_comes_from_elsewhere() {
+        let page = report(&sample::summary());
+        for part in ["http:", "https:", "//cdn", "url(", "@import"] {
+            assert!(!page.contains(part), "{part}");
+        }
+    }
+
+    #[test]
+    fn a_run_without_tests() {
+        assert!(report(&Summary::default()).contains("<h1>No tests</h1>"));
+    }
+}

@@ -8,3 +8,5 @@ pub mod json;
 pub mod junit;
 mod parts;
 pub mod tap;
+
+pub use parts::{console_line, files, moment};

@@ -4,7 +4,7 @@ use crate::script::test_bench::ConsoleLine;
 use crate::testing::{Outcome, Status, Summary};
 
 /// Parts of a summary in the order of the files: the outcomes of each file.
-pub(super) fn files(summary: &Summary) -> impl Iterator<Item = &[Outcome]> {
+pub fn files(summary: &Summary) -> impl Iterator<Item = &[Outcome]> {
     summary.outcomes.chunk_by(|a, b| a.test.file == b.test.file)
 }
 
@@ -36,7 +36,7 @@ pub(super) fn details(outcome: &Outcome) -> String {
 }
 
 /// When it ended, if there was a simulation.
-pub(super) fn moment(outcome: &Outcome) -> Option<String> {
+pub fn moment(outcome: &Outcome) -> Option<String> {
     let steps = outcome.steps;
     (steps > 0).then(|| {
         format!("at simulated time {:.3} s, after {steps} step{}", outcome.time, if steps == 1 { "" } else { "s" })
@@ -44,7 +44,7 @@ pub(super) fn moment(outcome: &Outcome) -> Option<String> {
 }
 
 /// A line of the console with its time and its author.
-pub(super) fn console_line(line: &ConsoleLine) -> String {
+pub fn console_line(line: &ConsoleLine) -> String {
     let author = line.origin.as_deref().map(|origin| format!("[{origin}:{}] ", line.level)).unwrap_or_default();
     format!("{:.3} {author}{}", line.time, line.text)
 }

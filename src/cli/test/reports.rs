@@ -1,0 +1,152 @@
+//! Which reports of a test run are wanted, and where they go.
+
+use std::fs;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::paint::ColorChoice;
+use super::terminal::{Terminal, Wishes};
+use crate::format::scene_file::write_whole;
+use crate::testing::report::{html, json, junit, tap};
+use crate::testing::{Outcome, Reporter, Summary, TestCase};
+
+/// The options of reports.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Reports")]
+pub(super) struct ReportArgs {
+    /// Write a report that CI systems read: JUnit XML
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    /// Write a report for a browser: one page with plots and consoles
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Results to standard output as TAP 14, as the tests finish
+    #[arg(long, conflicts_with_all = ["json", "watch", "list"])]
+    tap: bool,
+    /// Results to standard output as lines of JSON, as the tests finish
+    #[arg(long, conflicts_with_all = ["watch", "list"])]
+    json: bool,
+    /// Show each test, and tracebacks
+    #[arg(long, short)]
+    verbose: bool,
+    /// Show the N slowest tests
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    durations: usize,
+    /// When to use colours
+    #[arg(long, value_name = "WHEN", value_enum, default_value = "auto", alias = "colour")]
+    color: ColorChoice,
+}
+
+impl ReportArgs {
+    /// Makes sure that the files can be written.
+    ///
+    /// # Errors
+    /// The reason why one cannot.
+    pub(super) fn check(&self) -> Result<(), String> {
+        [&self.junit, &self.html].into_iter().flatten().try_for_each(|file| check(file))
+    }
+
+    /// What is told while the tests run.
+    pub(super) fn reporter(&self) -> Reports {
+        let stream = if self.tap { Some(Stream::Tap(0)) } else { self.json.then_some(Stream::Json) };
+        // A terminal that shows the report already has no place for a second one.
+        let is_silent = stream.is_some() && std::io::stdout().is_terminal();
+        let wishes =
+            Wishes { verbose: self.verbose, color: self.color, durations: self.durations, on_stderr: stream.is_some() };
+        Reports { terminal: (!is_silent).then(|| Terminal::new(wishes)), stream }
+    }
+
+    /// Writes the reports that need to know everything.
+    ///
+    /// # Errors
+    /// The reason why one could not be written.
+    pub(super) fn write(&self, summary: &Summary) -> Result<(), String> {
+        if let Some(file) = &self.junit {
+            write(file, &junit::report(summary))?;
+        }
+        if let Some(file) = &self.html {
+            write(file, html::report(summary).as_bytes())?;
+        }
+        Ok(())
+    }
+}
+
+/// All that is told while the tests run.
+pub(super) struct Reports {
+    terminal: Option<Terminal>,
+    stream: Option<Stream>,
+}
+
+/// A report on standard output.
+enum Stream {
+    /// With the number of the last test.
+    Tap(usize),
+    Json,
+}
+
+impl Reporter for Reports {
+    fn begin(&mut self, tests: &[Arc<TestCase>]) {
+        match self.stream {
+            Some(Stream::Tap(_)) => say(&tap::begin(tests.len())),
+            Some(Stream::Json) => say(&json::begin(tests)),
+            None => {}
+        }
+        self.terminal.iter_mut().for_each(|terminal| terminal.begin(tests));
+    }
+
+    fn outcome(&mut self, outcome: &Outcome) {
+        match &mut self.stream {
+            Some(Stream::Tap(number)) => {
+                *number += 1;
+                say(&tap::test(*number, outcome));
+            }
+            Some(Stream::Json) => say(&json::test(outcome)),
+            None => {}
+        }
+        self.terminal.iter_mut().for_each(|terminal| terminal.outcome(outcome));
+    }
+
+    fn end(&mut self, summary: &Summary) {
+        match self.stream {
+            Some(Stream::Tap(_)) => say(&tap::end(summary)),
+            Some(Stream::Json) => say(&json::end(summary)),
+            None => {}
+        }
+        self.terminal.iter_mut().for_each(|terminal| terminal.end(summary));
+    }
+}
+
+/// At once, for whoever reads along. A reader that closes the pipe has seen enough, which is no error.
+fn say(text: &str) {
+    let mut out = std::io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// A pipe or a device takes the report as it comes; anything else is replaced as a whole.
+fn is_special(file: &Path) -> bool {
+    fs::metadata(file).is_ok_and(|data| !data.is_file() && !data.is_dir())
+}
+
+/// Where a link leads: the link stays one.
+fn followed(file: &Path) -> PathBuf {
+    fs::canonicalize(file).unwrap_or_else(|_| file.to_owned())
+}
+
+fn check(file: &Path) -> Result<(), String> {
+    let failed = |error: std::io::Error| format!("cannot write {}: {error}", file.display());
+    if file.is_dir() {
+        return Err(failed(std::io::ErrorKind::IsADirectory.into()));
+    }
+    if is_special(file) {
+        return Ok(());
+    }
+    let target = followed(file);
+    let folder = target.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    fs::create_dir_all(folder).and_then(|()| tempfile::NamedTempFile::new_in(folder)).map(drop).map_err(failed)
+}
+
+fn write(file: &Path, bytes: &[u8]) -> Result<(), String> {
+    let written = if is_special(file) { fs::write(file, bytes) } else { write_whole(&followed(file), bytes) };
+    written.map_err(|error| format!("cannot write {}: {error}", file.display()))
+}
