@@ -121,8 +121,10 @@ impl Terminal {
 
     fn short(&self, outcome: &Outcome) -> String {
         let line = outcome.line.or(outcome.test.line).map(|line| format!(":{line}")).unwrap_or_default();
-        let first = outcome.message.lines().next().unwrap_or_default();
         let place = outcome.test.file.display().to_string() + &line;
+        let first = outcome.message.lines().next().unwrap_or_default();
+        // Lua's messages begin with the place.
+        let first = first.strip_prefix(&format!("{place}: ")).unwrap_or(first);
         let text = harmless(&format!("{place} {}: {first}", outcome.test.title()));
         format!("  {} {text}\n", self.paint.status(outcome.status))
     }
@@ -151,6 +153,9 @@ impl Terminal {
         let parts: Vec<_> =
             counts.map(|(count, word, colour)| self.paint.paint(colour, &format!("{count} {word}"))).collect();
         let interrupted = if summary.interrupted { "interrupted: " } else { "" };
+        if summary.outcomes.is_empty() && !summary.interrupted {
+            return "no tests found\n".into();
+        }
         format!("{interrupted}{} in {:.2} s\n", parts.join(", "), summary.wall.as_secs_f64())
     }
 }
