@@ -25,6 +25,7 @@ class Browser:
             stderr=subprocess.DEVNULL,
         )
         self.count = 0
+        self.events = []  # what the page did, as far as its domains are enabled
         self.socket = connect(self._page(), max_size=None)
 
     def _page(self):
@@ -46,7 +47,7 @@ class Browser:
         self.count += 1
         self.socket.send(json.dumps({"id": self.count, "method": method, "params": params}))
         while (reply := json.loads(self.socket.recv(LIMIT))).get("id") != self.count:
-            pass
+            self.events.append(reply)
         return reply.get("result", {})
 
     def open(self, url):

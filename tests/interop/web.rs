@@ -35,11 +35,16 @@ fn the_remote_api() {
 
 #[test]
 fn pages_in_a_browser() {
+    check_in_browser("ws_browser.py");
+}
+
+/// Runs a file that needs Chromium.
+pub fn check_in_browser(file: &str) {
     let names = ["chromium", "chromium-browser", "google-chrome"];
     let is_there =
         |name: &&str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
     if names.iter().any(is_there) {
-        return check("ws_browser.py");
+        return check(file);
     }
     assert!(std::env::var_os("CI").is_none(), "CI must have Chromium");
     eprintln!("skipped: there is no Chromium");
