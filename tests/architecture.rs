@@ -36,6 +36,7 @@ const OWNERS: &[(&str, &str)] = &[
     ("plotters", "src/testing/golden/plot.rs"),
     ("dejavu", "src/testing/golden/plot.rs"),
     ("notify", "src/cli/test/watch.rs"),
+    ("quick_xml", "src/testing/report/junit.rs"),
     ("clap", "src/cli"),
     ("indicatif", "src/cli"),
     ("ctrlc", "src/cli"),

@@ -7,7 +7,6 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-#[allow(dead_code, reason = "other tests use other parts")]
 mod support;
 
 const LIMIT: Duration = Duration::from_secs(60);
@@ -111,7 +110,8 @@ fn a_file_that_cannot_be_loaded_is_quoted() {
 
 #[test]
 fn what_tests_print_cannot_command_the_terminal() {
-    let text = stdout(&[("a_test.lua", "it('x\\27[2J', function() print('\\27]0;title\\7') error('\\27[31m') end)")], &[]);
+    let text =
+        stdout(&[("a_test.lua", "it('x\\27[2J', function() print('\\27]0;title\\7') error('\\27[31m') end)")], &[]);
     assert!(text.contains("␛[31m") && !text.contains('\x1b') && !text.contains('\x07'), "{text}");
 }
 
@@ -169,7 +169,8 @@ fn files_are_written_whatever_the_result_and_replace_older_ones() {
     assert!(junit.contains("<testsuites name=\"swanilda test\" tests=\"5\" failures=\"1\" errors=\"1\" skipped=\"2\""));
     let page = fs::read_to_string(folder.path().join("page.html")).expect("it is written");
     assert!(page.contains("<title>2 of 5 tests failed</title>"));
-    let names: Vec<_> = fs::read_dir(folder.path()).expect("a folder").flatten().map(|entry| entry.file_name()).collect();
+    let names: Vec<_> =
+        fs::read_dir(folder.path()).expect("a folder").flatten().map(|entry| entry.file_name()).collect();
     assert_eq!(names.len(), 3, "nothing else is left: {names:?}");
 }
 
@@ -202,7 +203,8 @@ fn devices_and_links_stay_what_they_are() {
 #[cfg(unix)]
 fn an_interrupted_run_reports_what_it_did() {
     let folder = tempfile::tempdir().expect("a folder");
-    let suite = "it('passes', function() end) it('loops', function() while true do end end) it('waits', function() end)";
+    let suite =
+        "it('passes', function() end) it('loops', function() while true do end end) it('waits', function() end)";
     let args = ["--json", "--junit", "junit.xml", "--html", "page.html", "-j", "1"];
     let mut child = command(folder.path(), &[("a_test.lua", suite)], &args)
         .stdout(Stdio::piped())
