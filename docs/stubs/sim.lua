@@ -1903,7 +1903,7 @@ function sim.launchThreadedChildScripts() end
 function sim.loadImage(options, filename) end
 
 --- Adds a model to the scene, where it was saved.
----@param filenameOrBuffer any a `.ttm` file or its bytes
+---@param filenameOrBuffer any a `.ttm` or `.simmodel.xml` file or its bytes
 ---@return integer objectHandle the base of the model
 function sim.loadModel(filenameOrBuffer) end
 
@@ -1915,7 +1915,7 @@ function sim.loadPlugin(name) end
 --- Replaces the scene. For add-ons and the sandbox, while the simulation is stopped.
 ---
 --- empty for the default scene alone
----@param filenameOrBuffer any a `.ttt` file or its bytes; a `.lua` file, whose text becomes a customization script of the default scene;
+---@param filenameOrBuffer any a `.ttt` or `.simscene.xml` file or its bytes; a `.lua` file, whose text becomes a customization script of the default scene;
 ---@return integer result 1
 function sim.loadScene(filenameOrBuffer) end
 
@@ -2436,12 +2436,12 @@ function sim.saveImage(image, resolution, options, filename, quality) end
 
 --- Writes a model to a file, or returns its bytes. It is saved where it stands in the world.
 ---@param modelBaseHandle integer an object that is marked as the base of a model
----@param filename? string a `.ttm` file; nothing for the bytes
+---@param filename? string a `.ttm` file, or a `.simmodel.xml` file, with `@simpleXml` behind it for the simple variant; nothing for the bytes
 ---@return any result 1, or a buffer with the bytes
 function sim.saveModel(modelBaseHandle, filename) end
 
 --- Writes the scene to a file, which becomes the scene's, or returns its bytes. CoppeliaSim reads them since 4.5.1.
----@param filename? string a `.ttt` file; nothing for the bytes
+---@param filename? string a `.ttt` file, or a `.simscene.xml` file, with `@simpleXml` behind it for the simple variant; nothing for the bytes
 ---@return any result 1, or a buffer with the bytes
 function sim.saveScene(filename) end
 

@@ -8,9 +8,9 @@ use std::rc::Rc;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::format::scene_file::{SceneFile, write_whole};
+use crate::format::scene_file::{SceneFile, read_file};
 use crate::scene::{Data, Handle, SceneError, special};
-use crate::script::SceneSource;
+use crate::script::{SceneSource, write_named};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, save_scene, close_scene, load_model, save_model];
 
@@ -19,15 +19,15 @@ const LONGEST_NAME: usize = 1000;
 
 /// Replaces the scene. For add-ons and the sandbox, while the simulation is stopped.
 ///
-/// @param filenameOrBuffer a `.ttt` file or its bytes; a `.lua` file, whose text becomes a customization script of the default scene;
+/// @param filenameOrBuffer a `.ttt` or `.simscene.xml` file or its bytes; a `.lua` file, whose text becomes a customization script of the default scene;
 /// empty for the default scene alone
 /// @return result 1
 #[api("sim.loadScene")]
 fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
     let (source, path) = match FileOrBytes::new(filename_or_buffer)? {
         FileOrBytes::Name(name) if name.is_empty() => (SceneSource::Default, None),
-        FileOrBytes::Name(name) => (scene_source(&name, read(&name)?)?, Some(absolute(&name))),
-        FileOrBytes::Bytes(bytes) => (scene_source("the buffer", bytes)?, None),
+        FileOrBytes::Name(name) => (scene_source(&name, read(&name)?, folder_of(&name))?, Some(absolute(&name))),
+        FileOrBytes::Bytes(bytes) => (scene_source("the buffer", bytes, None)?, None),
     };
     let caller = Rc::clone(cx.script());
     Rc::clone(cx.sim()).switch_scene(&caller, source, path)?;
@@ -36,13 +36,13 @@ fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
 
 /// Adds a model to the scene, where it was saved.
 ///
-/// @param filenameOrBuffer a `.ttm` file or its bytes
+/// @param filenameOrBuffer a `.ttm` or `.simmodel.xml` file or its bytes
 /// @return objectHandle the base of the model
 #[api("sim.loadModel")]
 fn load_model(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
     let file = match FileOrBytes::new(filename_or_buffer)? {
-        FileOrBytes::Name(name) => scene_file(&name, &read(&name)?)?,
-        FileOrBytes::Bytes(bytes) => scene_file("the buffer", &bytes)?,
+        FileOrBytes::Name(name) => scene_file(&name, &read(&name)?, folder_of(&name))?,
+        FileOrBytes::Bytes(bytes) => scene_file("the buffer", &bytes, None)?,
     };
     let root = Rc::clone(cx.sim()).load_model_file(file)?;
     Ok(root.map_or(special::WORLD, Handle::raw))
@@ -50,13 +50,12 @@ fn load_model(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
 
 /// Writes the scene to a file, which becomes the scene's, or returns its bytes. CoppeliaSim reads them since 4.5.1.
 ///
-/// @param filename a `.ttt` file; nothing for the bytes
+/// @param filename a `.ttt` file, or a `.simscene.xml` file, with `@simpleXml` behind it for the simple variant; nothing for the bytes
 /// @return result 1, or a buffer with the bytes
 #[api("sim.saveScene")]
 fn save_scene(cx: &mut Cx, #[default(None)] filename: Option<String>) -> Result<Data> {
     let sim = Rc::clone(cx.sim());
-    let Some(filename) = filename else { return Ok(Data::Buffer(sim.scene_bytes()?)) };
-    check_binary(&filename)?;
+    let Some(filename) = filename else { return Ok(Data::Buffer(sim.scene_file()?.write())) };
     sim.save_scene(&filename)?;
     Ok(Data::Int(1))
 }
@@ -64,27 +63,17 @@ fn save_scene(cx: &mut Cx, #[default(None)] filename: Option<String>) -> Result<
 /// Writes a model to a file, or returns its bytes. It is saved where it stands in the world.
 ///
 /// @param modelBaseHandle an object that is marked as the base of a model
-/// @param filename a `.ttm` file; nothing for the bytes
+/// @param filename a `.ttm` file, or a `.simmodel.xml` file, with `@simpleXml` behind it for the simple variant; nothing for the bytes
 /// @return result 1, or a buffer with the bytes
 #[api("sim.saveModel")]
 fn save_model(cx: &mut Cx, model_base_handle: Handle, #[default(None)] filename: Option<String>) -> Result<Data> {
     if !cx.scene().object(model_base_handle)?.is_model() {
         return Err(SceneError::NotAModel.into());
     }
-    let bytes = cx.sim().model_bytes(model_base_handle)?;
-    let Some(filename) = filename else { return Ok(Data::Buffer(bytes)) };
-    check_binary(&filename)?;
-    write_whole(Path::new(&filename), &bytes)
-        .map_err(|error| ApiError::Other(format!("'{filename}' could not be written: {error}.")))?;
+    let file = cx.sim().model_file(model_base_handle)?;
+    let Some(filename) = filename else { return Ok(Data::Buffer(file.write())) };
+    write_named(&file, &filename)?;
     Ok(Data::Int(1))
-}
-
-/// XML is read, not written.
-fn check_binary(filename: &str) -> Result<()> {
-    if filename.ends_with("@simpleXml") || filename.ends_with(".xml") {
-        return Err(ApiError::Other("writing XML is not implemented in Swanilda: save as .ttt or .ttm.".into()));
-    }
-    Ok(())
 }
 
 enum FileOrBytes {
@@ -112,15 +101,21 @@ fn read(name: &str) -> Result<Vec<u8>> {
 }
 
 /// A scene of CoppeliaSim is known by its bytes, a Lua scene by its name.
-fn scene_source(name: &str, bytes: Vec<u8>) -> Result<SceneSource> {
+fn scene_source(name: &str, bytes: Vec<u8>, folder: Option<&Path>) -> Result<SceneSource> {
     match Path::new(name).extension().and_then(|extension| extension.to_str()) {
         Some("lua") => Ok(SceneSource::Script(bytes)),
-        _ => Ok(SceneSource::File(Box::new(scene_file(name, &bytes)?))),
+        _ => Ok(SceneSource::File(Box::new(scene_file(name, &bytes, folder)?))),
     }
 }
 
-fn scene_file(name: &str, bytes: &[u8]) -> Result<SceneFile> {
-    SceneFile::read(bytes).map_err(|error| ApiError::Other(format!("{name}: {error}")))
+fn scene_file(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<SceneFile> {
+    let file = read_file(bytes, folder).and_then(SceneFile::new);
+    file.map_err(|error| ApiError::Other(format!("{name}: {error}")))
+}
+
+/// Where files that belong to a scene are looked for.
+fn folder_of(name: &str) -> Option<&Path> {
+    Path::new(name).parent()
 }
 
 /// The path as scripts read it as the scene's.

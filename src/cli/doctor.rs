@@ -6,11 +6,13 @@ use std::process::ExitCode;
 
 use super::{refuse, say};
 use crate::docs::{self, Support, Use};
-use crate::format::scene_file::{self, SceneFile};
-use crate::format::ttt;
+use crate::format::scene_file;
 
 /// Exit code when something a script calls is approximated or missing.
 const NOT_ALL_WORKS: u8 = 1;
+
+/// How the names of files end that are looked at in folders.
+const ENDINGS: [&str; 5] = [".lua", ".ttt", ".ttm", ".simscene.xml", ".simmodel.xml"];
 
 /// Tell which calls of scripts, scenes or whole folders work, are approximated, or are missing
 #[derive(clap::Args)]
@@ -58,7 +60,7 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, String> {
         // Folders by their own type: a link could lead back here.
         if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
             found.extend(files(&below)?);
-        } else if below.extension().is_some_and(|e| ["lua", "ttt", "ttm"].iter().any(|known| e == *known)) {
+        } else if ENDINGS.iter().any(|ending| below.to_string_lossy().ends_with(ending)) {
             found.push(below);
         }
     }
@@ -82,8 +84,8 @@ impl Report {
         let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
         let bytes = std::fs::read(path).map_err(|error| unreadable(error.to_string()))?;
         let name = path.display().to_string();
-        if ttt::is_binary(&bytes) {
-            let file = SceneFile::read(&bytes).map_err(|error| unreadable(error.to_string()))?;
+        if scene_file::is_scene(&bytes) {
+            let file = super::files::scene(path)?;
             for script in file.scripts() {
                 self.add(format!("{name}: {}", script.name), &script.code);
             }

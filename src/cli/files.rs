@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::format::scene_file::SceneFile;
+use crate::format::scene_file::{self, SceneFile};
 use crate::format::scene_folder;
 use crate::format::ttt::File;
 
@@ -13,8 +13,7 @@ pub(super) fn file(path: &Path) -> Result<File, String> {
     if scene_folder::is_scene(path) {
         return scene_folder::pack(path).map_err(unreadable);
     }
-    let bytes = std::fs::read(path).map_err(|error| unreadable(error.to_string()))?;
-    File::read(&bytes).map_err(|error| unreadable(error.to_string()))
+    scene_file::read_path(path).map_err(unreadable)
 }
 
 /// # Errors

@@ -6,7 +6,6 @@ use super::interrupt::Interrupt;
 use super::output::{Format, Output};
 use super::progress::Progress;
 use crate::format::scene_file::{self, SceneFile};
-use crate::format::ttt;
 use crate::script::verbosity;
 use crate::{Options, ScriptKind, Simulator};
 
@@ -171,11 +170,10 @@ fn read_scene(path: &Path) -> Result<Scene, String> {
         return Ok(Scene::File(Box::new(super::files::scene(path)?)));
     }
     let (name, bytes) = read(path)?;
-    if !ttt::is_binary(&bytes) {
+    if !scene_file::is_scene(&bytes) {
         return Ok(Scene::Script((name, bytes)));
     }
-    let file = SceneFile::read(&bytes).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-    Ok(Scene::File(Box::new(file)))
+    Ok(Scene::File(Box::new(super::files::scene(path)?)))
 }
 
 /// The folder a file lies in; scripts find their modules there.

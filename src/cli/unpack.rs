@@ -1,16 +1,19 @@
 //! `swanilda unpack` and `swanilda pack`: scenes as folders for version control, and back.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use super::{files, refuse};
-use crate::format::scene_file::write_whole;
+use crate::format::scene_file::{SceneFile, save, write_whole};
 use crate::format::scene_folder;
+use crate::format::ttt::File;
+use crate::format::xml::{self, Variant};
+use crate::scene::Scene;
 
 /// Write a scene or model as a folder: a tree in JSON, scripts as Lua files, meshes as OBJ files
 #[derive(clap::Args)]
 pub(super) struct UnpackArgs {
-    /// A .ttt or .ttm file
+    /// A .ttt or .ttm file, or XML
     file: PathBuf,
     /// A new or empty folder, or one that was unpacked before
     folder: PathBuf,
@@ -19,9 +22,9 @@ pub(super) struct UnpackArgs {
 /// Write the scene or model that a folder says
 #[derive(clap::Args)]
 pub(super) struct PackArgs {
-    /// A folder made by unpack
+    /// A folder made by unpack, or a file
     folder: PathBuf,
-    /// A .ttt or .ttm file
+    /// A .ttt or .ttm file, or XML: .simscene.xml or .simmodel.xml, with @simpleXml behind it for the simple variant
     file: PathBuf,
 }
 
@@ -31,9 +34,28 @@ pub(super) fn unpack(args: &UnpackArgs) -> ExitCode {
 
 pub(super) fn pack(args: &PackArgs) -> ExitCode {
     let written = files::file(&args.folder).and_then(|file| {
-        write_whole(&args.file, &file.write()).map_err(|error| format!("cannot write {}: {error}", args.file.display()))
+        let (variant, path) = Variant::of_name(args.file.to_str().unwrap_or_default());
+        let (path, bytes) = match variant {
+            Some(variant) => (Path::new(path), xml::write(&as_saved(file)?, variant).into_bytes()),
+            None => (args.file.as_path(), file.write()),
+        };
+        write_whole(path, &bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))
     });
     done(written)
+}
+
+/// XML has elements for what the savers write, not for what only older programs knew.
+fn as_saved(file: File) -> Result<File, String> {
+    let damaged = |error: &dyn std::fmt::Display| format!("cannot write XML: {error}");
+    let file = SceneFile::new(file).map_err(|error| damaged(&error))?;
+    let is_model = file.is_model();
+    let mut scene = Scene::new();
+    let loaded = file.add_to(&mut scene, !is_model).map_err(|error| damaged(&error))?;
+    let saved = match loaded.root.filter(|_| is_model) {
+        Some(base) => save::model(&scene, base, &loaded.scripts),
+        None => save::scene(&scene, &loaded.scripts),
+    };
+    saved.map_err(|error| damaged(&error))
 }
 
 fn done(result: Result<(), String>) -> ExitCode {

@@ -6,3 +6,4 @@ pub(crate) mod scene_file;
 pub(crate) mod scene_folder;
 pub(crate) mod scene_outline;
 pub mod ttt;
+pub(crate) mod xml;

@@ -79,6 +79,7 @@ pub(crate) use instance::Detached;
 pub(crate) use lua::{Object, Stack};
 pub(crate) use order::Group;
 pub(crate) use property::{Target, table as property_table};
+pub(crate) use scene_save::write_named;
 pub(crate) use scene_switch::SceneSource;
 pub(crate) use sim::Sim;
 pub(crate) use threads::{auto_level, changed_level, set_auto_level, use_up_slice};

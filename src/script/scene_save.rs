@@ -7,6 +7,8 @@ use super::callback::SysCall;
 use super::error::ApiResult;
 use super::sim::Sim;
 use crate::format::scene_file::{LoadedScript, save, write_whole};
+use crate::format::ttt::File;
+use crate::format::xml::{self, Variant};
 use crate::scene::script_object::ScriptType;
 use crate::scene::{Data, Handle};
 
@@ -14,34 +16,33 @@ use crate::scene::{Data, Handle};
 const NORMAL_PRIORITY: i64 = 1;
 
 impl Sim {
-    /// The scene as the bytes of a `.ttt` file.
+    /// The scene as a file.
     ///
     /// # Errors
     /// When the tree of the scene is damaged.
-    pub(crate) fn scene_bytes(&self) -> ApiResult<Vec<u8>> {
+    pub(crate) fn scene_file(&self) -> ApiResult<File> {
         let scripts = self.scripts_to_save();
-        Ok(save::scene(&self.scene.borrow(), &scripts)?.write())
+        Ok(save::scene(&self.scene.borrow(), &scripts)?)
     }
 
-    /// The model below `base` as the bytes of a `.ttm` file.
+    /// The model below `base` as a file.
     ///
     /// # Errors
     /// When there is no such object.
-    pub(crate) fn model_bytes(&self, base: Handle) -> ApiResult<Vec<u8>> {
+    pub(crate) fn model_file(&self, base: Handle) -> ApiResult<File> {
         let scripts = self.scripts_to_save();
-        Ok(save::model(&self.scene.borrow(), base, &scripts)?.write())
+        Ok(save::model(&self.scene.borrow(), base, &scripts)?)
     }
 
-    /// Writes the scene to a file, which becomes the scene's. Scripts are told before and after.
+    /// Writes the scene to a file of the kind its name tells, which becomes the scene's. Scripts are told before and after.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub(crate) fn save_scene(self: &Rc<Self>, path: &str) -> ApiResult<()> {
+    pub(crate) fn save_scene(self: &Rc<Self>, name: &str) -> ApiResult<()> {
+        let (_, path) = Variant::of_name(name);
         let info = Data::map([("file", Data::text(path)), ("regularSave", true.into())]);
         self.broadcast(SysCall::BeforeSave, std::slice::from_ref(&info));
-        let bytes = self.scene_bytes()?;
-        write_whole(Path::new(path), &bytes)
-            .map_err(|error| super::ApiError::Other(format!("'{path}' could not be written: {error}.")))?;
+        write_named(&self.scene_file()?, name)?;
         let path = std::path::absolute(path).map_or_else(|_| path.to_owned(), |p| p.to_string_lossy().into_owned());
         self.scene.borrow_mut().modify_settings(|settings| settings.path = path);
         self.broadcast(SysCall::AfterSave, &[info]);
@@ -66,4 +67,15 @@ impl Sim {
         });
         saved.collect()
     }
+}
+
+/// Writes a file under a name that tells its format: XML where it ends so, in the simple variant with `@simpleXml` behind it.
+///
+/// # Errors
+/// When the file cannot be written.
+pub(crate) fn write_named(file: &File, name: &str) -> ApiResult<()> {
+    let (variant, path) = Variant::of_name(name);
+    let bytes = variant.map_or_else(|| file.write(), |variant| xml::write(file, variant).into_bytes());
+    write_whole(Path::new(path), &bytes)
+        .map_err(|error| super::ApiError::Other(format!("'{path}' could not be written: {error}.")))
 }

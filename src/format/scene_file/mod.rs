@@ -5,6 +5,7 @@
 
 mod load;
 mod migrate;
+mod read;
 pub mod save;
 mod write;
 
@@ -16,6 +17,7 @@ pub(crate) mod tests;
 pub use load::SceneFile;
 pub(crate) use migrate::old_names;
 pub use migrate::with_compat;
+pub use read::{is_scene, read_file, read_path};
 pub use write::write_whole;
 
 use crate::scene::Handle;

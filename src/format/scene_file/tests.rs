@@ -101,7 +101,7 @@ fn same(a: &str, b: &str) -> bool {
 }
 
 #[track_caller]
-fn assert_same(a: &Scene, b: &Scene, what: &str) {
+pub(crate) fn assert_same(a: &Scene, b: &Scene, what: &str) {
     let (first, second) = (descriptions(a), descriptions(b));
     assert!(first.keys().eq(second.keys()), "{what}: other objects");
     for (place, text) in &first {

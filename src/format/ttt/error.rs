@@ -27,6 +27,15 @@ pub enum FileError {
         path: String,
         what: String,
     },
+    #[error("line {line}, column {column}, in {path}: {what}.")]
+    Element {
+        line: usize,
+        /// Bytes from the beginning of the line, from 1.
+        column: usize,
+        /// The elements on the way to the place, such as `CoppeliaSim/joint/common`.
+        path: String,
+        what: String,
+    },
 }
 
 pub type FileResult<T> = Result<T, FileError>;

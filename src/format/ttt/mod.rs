@@ -94,6 +94,12 @@ pub fn object_node(object: &tree::Object) -> Node {
     object.to_node()
 }
 
+/// # Errors
+/// When the tree is not that of an object; in words.
+pub fn object_of_node(node: &Node) -> NodeResult<tree::Object> {
+    Value::from_node(node)
+}
+
 fn contents(body: &mut Reader<'_>) -> FileResult<Contents> {
     let mut contents = Contents::default();
     while let Some(mut chunk) = body.chunk(Contents::END)? {

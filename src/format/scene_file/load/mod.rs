@@ -14,7 +14,7 @@ mod shape;
 
 use std::collections::BTreeMap;
 
-use super::{Loaded, LoadedScript, ScriptCode};
+use super::{Loaded, LoadedScript, ScriptCode, read_file};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{File, FileError, FileKind, FileResult, Header};
 use crate::scene::dummy::{Dummy, LinkType};
@@ -38,10 +38,12 @@ pub struct SceneFile {
 }
 
 impl SceneFile {
+    /// A binary file or XML.
+    ///
     /// # Errors
     /// What is wrong with the bytes, and where.
     pub fn read(bytes: &[u8]) -> FileResult<Self> {
-        Self::new(File::read(bytes)?)
+        Self::new(read_file(bytes, None)?)
     }
 
     /// # Errors

@@ -1,0 +1,28 @@
+//! Files of either format, known by their first bytes.
+
+use std::path::Path;
+
+use crate::format::ttt::{self, File, FileError, FileResult};
+use crate::format::xml;
+
+/// True where the bytes begin as a scene or model does, binary or XML.
+pub fn is_scene(bytes: &[u8]) -> bool {
+    ttt::is_binary(bytes) || xml::is_xml(bytes)
+}
+
+/// What a file holds. XML may name files beside it, which are looked for in `folder`.
+///
+/// # Errors
+/// What is wrong with the bytes, and where.
+pub fn read_file(bytes: &[u8], folder: Option<&Path>) -> FileResult<File> {
+    if xml::is_xml(bytes) { xml::read(bytes, folder) } else { File::read(bytes) }
+}
+
+/// The file at a path.
+///
+/// # Errors
+/// In words.
+pub fn read_path(path: &Path) -> Result<File, String> {
+    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+    read_file(&bytes, path.parent()).map_err(|error: FileError| error.to_string())
+}

@@ -1,0 +1,59 @@
+//! Scenes and models as XML, in both variants: exhaustive, which says all, and simple, which people write by hand (section 12 of the format).
+//!
+//! An XML file becomes the tree of chunks that a binary file is read as, so that nothing behind it knows the difference. Which element says
+//! which field stands in `fields.tsv`; reader and writer go by the same rows. Elements nobody knows are reported like unknown chunks.
+
+mod arrays;
+mod document;
+mod geometry;
+mod read;
+mod scene;
+mod side_files;
+mod table;
+mod write;
+
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use super::ttt::{File, FileResult};
+use document::Document;
+use side_files::SideFiles;
+
+/// Which of the two XML formats is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variant {
+    Exhaustive,
+    Simple,
+}
+
+impl Variant {
+    /// The variant a file name asks for, and the name without the mark that says so; none for other formats.
+    pub fn of_name(name: &str) -> (Option<Self>, &str) {
+        match name.strip_suffix("@simpleXml") {
+            Some(name) => (Some(Self::Simple), name),
+            None if name.ends_with(".xml") => (Some(Self::Exhaustive), name),
+            None => (None, name),
+        }
+    }
+}
+
+/// True where the bytes begin as XML does: no script and no binary scene begins so.
+pub fn is_xml(bytes: &[u8]) -> bool {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    text.trim_ascii_start().starts_with(b"<")
+}
+
+/// The scene or model of an XML file. Files it names are looked for in `folder`; out of a buffer there are none.
+///
+/// # Errors
+/// What is wrong, with line, column and the names of the elements.
+pub fn read(bytes: &[u8], folder: Option<&Path>) -> FileResult<File> {
+    scene::read(&Document::parse(bytes)?, SideFiles(folder))
+}
+
+/// A file of the savers as XML.
+pub fn write(file: &File, variant: Variant) -> String {
+    scene::write(file, variant == Variant::Simple)
+}
