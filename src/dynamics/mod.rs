@@ -156,7 +156,7 @@ impl Dynamics {
         links::follow(&mut self.links, plan.links, &self.bodies, world, scene);
         links::take_resets(&self.links, scene);
         contacts::ask_about_all(world, self.asks);
-        self.articulation.follow(&self.links, &scene.all_breadth_first(), &self.bodies);
+        self.articulation.follow(&self.links, &scene.all_breadth_first(), &self.bodies, world);
         self.revision = Some(scene.changes().dynamics_revision());
     }
 

@@ -12,6 +12,7 @@ mod axis;
 mod block_cholesky;
 mod mover;
 mod node;
+mod rotor;
 mod settle;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -56,7 +57,8 @@ struct Meeting {
 
 impl Articulation {
     /// Lays out the system for the links there are. `order`: base-to-tip.
-    pub(super) fn follow(&mut self, links: &Links, order: &[Handle], bodies: &Bodies) {
+    pub(super) fn follow(&mut self, links: &Links, order: &[Handle], bodies: &Bodies, world: &mut World) {
+        self.moving().for_each(|mover| mover.leave_gyration_to_rapier(true, world));
         *self = Self::default();
         for handle in order.iter().rev() {
             let Some(link) = links.get(handle) else { continue };
@@ -70,6 +72,7 @@ impl Articulation {
         self.pattern =
             Pattern::new(self.nodes.len(), self.meetings.iter().map(|meeting| (meeting.row.0, meeting.column.0)));
         self.group();
+        self.moving().for_each(|mover| mover.leave_gyration_to_rapier(false, world));
     }
 
     fn mover(&mut self, shape: Handle, bodies: &Bodies) -> Option<usize> {

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use rapier3d_f64::prelude::{RigidBody, RigidBodyHandle};
 
+use super::rotor::{Rotor, Spin};
 use super::spatial;
 use crate::dynamics::bodies::Body;
 use crate::dynamics::convert::{from_pose, from_vector, is_finite, to_pose, to_vector};
@@ -16,6 +17,7 @@ pub(super) struct Mover {
     pub group: usize,
     pub rigid: RigidBodyHandle,
     pub inverse_mass: f64,
+    pub inertia: Matrix3<f64>,
     pub inverse_inertia: Matrix3<f64>,
     pub com_in_shape: Vector3<f64>,
     /// Of this sub-step: pose, centre of mass, response to impulses, velocity before and with the links' impulses.
@@ -26,6 +28,10 @@ pub(super) struct Mover {
     pub velocity: Vector6<f64>,
     /// How far it was put back after the sub-step.
     pub shift: Vector6<f64>,
+    /// Angular impulse of the gyroscopic torque.
+    pub gyration: Vector3<f64>,
+    /// Of a body that turns far in a sub-step.
+    pub rotor: Option<Rotor>,
 }
 
 /// Where a body is while the gaps are closed.
@@ -44,6 +50,7 @@ impl Mover {
             group: 0,
             rigid: body.rigid,
             inverse_mass: if body.build.dynamic { 1.0 / mass.mass } else { 0.0 },
+            inertia: mass.inertia * mass.mass,
             inverse_inertia: inverse.unwrap_or_else(Matrix3::zeros),
             com_in_shape: mass.com.into(),
             pose: Pose::identity(),
@@ -52,6 +59,8 @@ impl Mover {
             free: Vector6::zeros(),
             velocity: Vector6::zeros(),
             shift: Vector6::zeros(),
+            gyration: Vector3::zeros(),
+            rotor: None,
         }
     }
 
@@ -78,18 +87,48 @@ impl Mover {
             return;
         }
         let push = spatial(from_vector(rigid.user_force()).into(), from_vector(rigid.user_torque()).into()) * step;
-        let gyration = Vector3::from(from_vector(rigid.angvel_with_gyroscopic_forces(step)));
-        self.free = spatial(from_vector(rigid.linvel()).into(), gyration) + self.response * push;
+        let spin = Vector3::from(from_vector(rigid.angvel()));
+        self.gyration = self.rotor_impulse(&spin, step).unwrap_or_else(|| {
+            self.world_inertia() * (Vector3::from(from_vector(rigid.angvel_with_gyroscopic_forces(step))) - spin)
+        });
+        let push = push + spatial(Vector3::zeros(), self.gyration);
+        self.free = spatial(from_vector(rigid.linvel()).into(), spin) + self.response * push;
         let fall = self.free.fixed_rows::<3>(0) + Vector3::from(gravity) * step;
         self.free.fixed_rows_mut::<3>(0).copy_from(&fall);
+    }
+
+    /// In the axes of the world.
+    pub(super) fn world_inertia(&self) -> Matrix3<f64> {
+        let turn = self.pose.rotation.to_rotation_matrix();
+        turn.matrix() * self.inertia * turn.matrix().transpose()
+    }
+
+    /// Whether rapier applies the gyroscopic torque; to a body on links the articulation does, since rapier would apply it to what the
+    /// links do as well.
+    pub(super) fn leave_gyration_to_rapier(&self, on: bool, world: &mut World) {
+        if let Some(rigid) = world.bodies.get_mut(self.rigid) {
+            rigid.enable_gyroscopic_forces(on);
+        }
     }
 
     /// Moves the centre of mass and turns about it.
     pub(super) fn shift(&mut self, by: &Vector6<f64>) {
         let rotation = UnitQuaternion::from_scaled_axis(by.fixed_rows::<3>(3).into_owned()) * self.pose.rotation;
         self.com += by.fixed_rows::<3>(0);
-        self.pose = Pose::from_parts((self.com - rotation * self.com_in_shape).into(), rotation);
+        self.turn_to(rotation);
         self.shift += by;
+    }
+
+    pub(super) fn spin_about(&self, axis: &Vector3<f64>, world: &World) -> Option<Spin> {
+        let rigid = world.bodies.get(self.rigid).filter(|_| self.moves())?;
+        let spin = Vector3::from(from_vector(rigid.angvel()));
+        let about = axis * spin.dot(axis);
+        Some(Spin { about, rest: spin - about }).filter(|_| spin.iter().all(|x| x.is_finite()))
+    }
+
+    /// Turns about the centre of mass.
+    pub(super) fn turn_to(&mut self, rotation: UnitQuaternion<f64>) {
+        self.pose = Pose::from_parts((self.com - rotation * self.com_in_shape).into(), rotation);
     }
 
     /// Where the body is, to be taken back there.
@@ -104,13 +143,14 @@ impl Mover {
     /// Tells rapier where the body was shifted to, which makes its velocity another one; `most` bounds its spin, rad/s.
     pub(super) fn tell(&self, world: &mut World, step: f64, most: f64) {
         let Some(rigid) = world.bodies.get_mut(self.rigid) else { return };
-        if self.shift == Vector6::zeros() || !is_finite(&self.pose) {
+        if (self.shift == Vector6::zeros() && self.rotor.is_none()) || !is_finite(&self.pose) {
             return;
         }
         rigid.set_position(to_pose(&self.pose), false);
         let [linear, angular] = [0, 3].map(|part| to_vector((self.shift.fixed_rows::<3>(part) / step).into()));
         rigid.set_linvel(rigid.linvel() + linear, false);
-        let spin = rigid.angvel() + angular;
+        let gained = self.rotor.as_ref().map_or(Vector3::zeros(), |rotor| rotor.gained);
+        let spin = rigid.angvel() + angular + to_vector(gained.into());
         rigid.set_angvel(spin.clamp_length_max(most), false);
     }
 
@@ -129,7 +169,7 @@ impl Mover {
     pub(super) fn give(&self, impulse: &Vector6<f64>, world: &mut World, step: f64) {
         if let Some(rigid) = world.bodies.get_mut(self.rigid) {
             rigid.add_force(to_vector((impulse.fixed_rows::<3>(0) / step).into()), true);
-            rigid.add_torque(to_vector((impulse.fixed_rows::<3>(3) / step).into()), true);
+            rigid.add_torque(to_vector(((impulse.fixed_rows::<3>(3) + self.gyration) / step).into()), true);
         }
     }
 }

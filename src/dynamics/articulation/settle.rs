@@ -25,9 +25,12 @@ impl Articulation {
     /// Puts the bodies back where the links want them: integration leaves them off by the curvature of their ways. The velocities
     /// learn of it, which makes the whole a SHAKE step and keeps the energy.
     pub(in crate::dynamics) fn settle(&mut self, links: &Links, world: &mut World, step: f64) {
-        for mover in &mut self.movers {
+        let spins = self.far_spins(links, world, step);
+        for (mover, spin) in self.movers.iter_mut().zip(spins) {
+            let before = mover.pose.rotation;
             mover.place(world);
             mover.shift = Vector6::zeros();
+            mover.turn_with_axis(spin, before, step);
         }
         let most = if self.close_gaps(links) { f64::MAX } else { RESOLVED_TURN / step };
         self.movers.iter().for_each(|mover| mover.tell(world, step, most));
