@@ -225,3 +225,16 @@ fn an_interrupted_run_reports_what_it_did() {
     let page = fs::read_to_string(folder.path().join("page.html")).expect("it is written");
     assert!(page.contains("<b>2</b> not run") && page.contains("interrupted"));
 }
+
+#[test]
+fn the_page_has_plots_of_recordings_that_are_as_they_should_be() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let suite = "local t = require 'swanilda.test'
+        it('waves', function() t.golden('wave', {s = function() return math.sin(t.time()) end}) t.run_for(500) end)";
+    let files = [("a_test.lua", suite)];
+    assert_eq!(run(folder.path(), &files, &["--update-golden"]).status.code(), Some(0));
+    assert_eq!(run(folder.path(), &files, &["--html", "page.html"]).status.code(), Some(0));
+    let page = fs::read_to_string(folder.path().join("page.html")).expect("it is written");
+    assert!(page.contains("src=\"data:image/svg+xml;base64,"));
+    assert!(page.len() < 200_000, "10 000 samples take {} bytes", page.len());
+}

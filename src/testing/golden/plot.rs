@@ -37,7 +37,6 @@ pub(super) fn png(comparison: &Comparison) -> Option<Vec<u8>> {
     let (expected, columns) = shown(comparison)?;
     let (width, height) = (WIDTH, HEIGHT * columns.len() as u32);
     let mut pixels = vec![0; (width * height * 3) as usize];
-    load_font();
     let area = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
     draw(area, comparison, expected, &columns).ok()?;
     let picture = Picture::new(pixels, [i64::from(width), i64::from(height)], Layout::Rgb).ok()?;
@@ -67,6 +66,7 @@ where
     B: DrawingBackend,
     B::ErrorType: 'static,
 {
+    load_font();
     area.fill(&WHITE)?;
     for (part, &(i, j)) in area.split_evenly((columns.len(), 1)).iter().zip(columns) {
         let (was, is) = (points(expected, i), points(&comparison.actual, j));
@@ -80,7 +80,22 @@ where
 fn points(trace: &Trace, column: usize) -> Vec<(f64, f64)> {
     let points = trace.rows.iter().map(|row| (row[0], row[column + 1]));
     // Larger values leave no room between two lines of a grid.
-    points.filter(|(_, value)| value.is_finite() && value.abs() < 1e100).collect()
+    thinned(points.filter(|(_, value)| value.is_finite() && value.abs() < 1e100).collect())
+}
+
+/// Of the many points over one pixel, only the lowest and the highest can be seen.
+fn thinned(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    if points.len() <= 2 * WIDTH as usize {
+        return points;
+    }
+    let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+    let extremes = |some: &[(f64, f64)]| {
+        let mut ends: Vec<_> =
+            some.iter().min_by(by_value).into_iter().chain(some.iter().max_by(by_value)).copied().collect();
+        ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ends
+    };
+    points.chunks(points.len().div_ceil(WIDTH as usize)).flat_map(extremes).collect()
 }
 
 fn draw_quantity<B>(area: &DrawingArea<B, Shift>, name: &str, was: &[(f64, f64)], is: &[(f64, f64)]) -> Drawn<()>
@@ -123,7 +138,7 @@ fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     low - room..high + room
 }
 
-/// The bitmap backend brings no font.
+/// plotters brings no font; it needs one also to measure the words of an SVG.
 fn load_font() {
     static LOADED: Once = Once::new();
     // A font that cannot be loaded leaves a picture without words.
