@@ -36,7 +36,8 @@ fn list(functions: &[Function]) -> String {
     let mut categories: BTreeMap<&str, String> = BTreeMap::new();
     for function in functions.iter().filter(|function| function.alias_of.is_none()) {
         let lines = categories.entry(&function.category).or_default();
-        lines.push_str(&format!("  {:<36} {}\n", function.name, function.summary()));
+        let mark = if docs::difference(&function.name).is_some() { " (approximated)" } else { "" };
+        lines.push_str(&format!("  {:<36} {}{mark}\n", function.name, function.summary()));
     }
     categories.iter().map(|(category, lines)| format!("{category}\n{lines}")).collect::<Vec<_>>().join("\n")
 }

@@ -87,17 +87,18 @@ impl Report {
         if scene_file::is_scene(&bytes) {
             let file = super::files::scene(path)?;
             for script in file.scripts() {
-                self.add(format!("{name}: {}", script.name), &script.code);
+                self.add(format!("{name}: {}", script.name), &script.language, &script.code);
             }
         } else {
             let code = if compat { scene_file::with_compat(bytes) } else { bytes };
-            self.add(name, &code);
+            self.add(name, "lua", &code);
         }
         Ok(())
     }
 
-    fn add(&mut self, name: String, code: &[u8]) {
-        self.scripts.push(Patient { name, uses: docs::uses(code) });
+    fn add(&mut self, name: String, language: &str, code: &[u8]) {
+        let uses = if language == "lua" { docs::uses(code) } else { docs::foreign_script(language) };
+        self.scripts.push(Patient { name, uses });
     }
 
     fn uses(&self) -> impl Iterator<Item = &Use> {

@@ -57,7 +57,10 @@ impl Report {
     fn new(args: &Args) -> Result<Self, String> {
         let file = files::scene(&args.file)?;
         let scripts = file.scripts();
-        let uses = scripts.iter().filter(|script| script.language == "lua").flat_map(|script| docs::uses(&script.code));
+        let uses = scripts.iter().flat_map(|script| match script.language.as_str() {
+            "lua" => docs::uses(&script.code),
+            other => docs::foreign_script(other),
+        });
         let needs = uses.map(|found| (found.name, found.support)).collect();
         let skipped = file.file().skipped.iter();
         let skipped = skipped.map(|skip| format!("{} ({} bytes)", skip.path, skip.size)).collect();
@@ -79,7 +82,8 @@ impl Report {
         }
         self.skipped.iter().for_each(|skipped| out += &format!("not understood: {skipped}\n"));
         for (name, support) in self.needs.iter().filter(|(_, support)| **support != Support::Works) {
-            out += &format!("{:<12} {name}\n", word(*support));
+            let how = if let Support::Approximated(how) = support { format!(" ({how})") } else { String::new() };
+            out += &format!("{:<12} {name}{how}\n", word(*support));
         }
         let works = self.needs.values().filter(|support| **support == Support::Works).count();
         out + &format!("{works} of {} functions and modules that scripts use work\n", self.needs.len())

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write as _;
 
+use super::approximated::difference;
 use super::row::Function;
 use super::{Age, ReferenceRow, reference};
 use crate::api;
@@ -14,21 +15,30 @@ pub(super) fn text(functions: &[Function]) -> String {
     let counted: Vec<&ReferenceRow> = rows.iter().filter(|row| row.age != Age::Later).collect();
     let mut out = String::from(
         "# Coverage of the `sim` reference\n\nGenerated from the sources: `UPDATE=1 cargo test --test generated`. A function that is \
-         missing exists all the same: it raises `not implemented in Swanilda: sim.name`. Functions that came after 4.10 are not \
-         counted.\n\n",
+         missing exists all the same: it raises `not implemented in Swanilda: sim.name`. An approximated one does less than in \
+         CoppeliaSim, or takes the call without effect. Functions that came after 4.10 are not counted.\n\n",
     );
     out.push_str(&tiers(&counted, &built));
     out.push_str("\n| function | category | status |\n|---|---|---|\n");
     for row in &rows {
-        let status = if built.contains(row.name) { "works" } else { "missing" };
+        let status = status(row.name, &built);
         let note = match row.age {
             Age::Current => "",
             Age::Deprecated => ", deprecated",
             Age::Later => ", came after 4.10",
         };
-        let _ = writeln!(out, "| `sim.{}` | {} | {status}{note} |", row.name, row.category);
+        let how = difference(&format!("sim.{}", row.name)).map(|how| format!(": {how}")).unwrap_or_default();
+        let _ = writeln!(out, "| `sim.{}` | {} | {status}{note}{how} |", row.name, row.category);
     }
     out
+}
+
+fn status(name: &str, built: &HashSet<&str>) -> &'static str {
+    match (built.contains(name), difference(&format!("sim.{name}"))) {
+        (false, _) => "missing",
+        (true, None) => "works",
+        (true, Some(_)) => "approximated",
+    }
 }
 
 /// Counts by tier: how much published code needs a function.
@@ -40,13 +50,15 @@ fn tiers(rows: &[&ReferenceRow], built: &HashSet<&str>) -> String {
         ("T4", "deprecated without use, graphical, or removed"),
     ];
     let tier_of: BTreeMap<&str, &str> = api::pairs(api::TIERS).collect();
-    let mut out = String::from("| tier | what it is | works | of |\n|---|---|---|---|\n");
+    let mut out = String::from("| tier | what it is | works | approximated | of |\n|---|---|---|---|---|\n");
+    let mut line = |tier: &str, meaning: &str, of: &[&&ReferenceRow]| {
+        let count = |wanted: &str| of.iter().filter(|row| status(row.name, built) == wanted).count();
+        let _ = writeln!(out, "| {tier} | {meaning} | {} | {} | {} |", count("works"), count("approximated"), of.len());
+    };
     for (tier, meaning) in MEANING {
         let of: Vec<_> = rows.iter().filter(|row| tier_of.get(row.name) == Some(&tier)).collect();
-        let works = of.iter().filter(|row| built.contains(row.name)).count();
-        let _ = writeln!(out, "| {tier} | {meaning} | {works} | {} |", of.len());
+        line(tier, meaning, &of);
     }
-    let works = rows.iter().filter(|row| built.contains(row.name)).count();
-    let _ = writeln!(out, "| | all | {works} | {} |", rows.len());
+    line("", "all", &rows.iter().collect::<Vec<_>>());
     out
 }

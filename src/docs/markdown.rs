@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use super::approximated::difference;
 use super::modules;
 use super::row::Function;
 
@@ -53,6 +54,9 @@ fn body(function: &Function) -> String {
     }
     if let Some(name) = &function.alias_of {
         let _ = write!(out, "Another name for `{name}`.\n\n");
+    }
+    if let Some(how) = difference(&function.name) {
+        let _ = write!(out, "**Approximated**: {how}.\n\n");
     }
     let _ = write!(out, "```\n{}\n```\n", function.signature());
     if function.alias_of.is_some() {

@@ -3,6 +3,7 @@
 //! Everything is read from `#[api]` rows, from the comments of the Lua library, and from the tables of `crate::api`; nothing runs.
 //! `tests/generated.rs` holds the committed files to what this module makes.
 
+mod approximated;
 mod coverage;
 mod lua_comments;
 mod lua_tokens;
@@ -18,9 +19,10 @@ use std::collections::BTreeMap;
 
 use crate::api;
 
+pub use approximated::difference;
 pub use markdown::function_text;
 pub use row::{Function, Parameter, Returned};
-pub use usage::{Support, Use, uses};
+pub use usage::{Support, Use, foreign_script, uses};
 
 /// Where the editor stubs are kept in the repository.
 pub const STUBS: &str = "docs/stubs";

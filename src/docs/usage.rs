@@ -6,6 +6,7 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::LazyLock;
 
+use super::approximated::difference;
 use super::lua_tokens::{Kind, Token, tokens};
 use super::{module_stubs, modules};
 use crate::api;
@@ -42,6 +43,15 @@ pub fn uses(code: &[u8]) -> Vec<Use> {
         _ => None,
     });
     named.collect()
+}
+
+/// What a script in another language uses: that language, which is missing.
+pub fn foreign_script(language: &str) -> Vec<Use> {
+    let name = match language {
+        "python" => "Python".to_owned(),
+        other => other.to_owned(),
+    };
+    vec![Use { name: format!("scripts in {name}"), written: None, line: 1, support: Support::Missing }]
 }
 
 /// What the names of one file stand for.
@@ -121,10 +131,11 @@ fn variable_of_require<'a>(tokens: &'a [Token<'_>], at: usize) -> Option<&'a str
     }
 }
 
-/// The use of a module of CoppeliaSim that is missing here. Modules that are here say so by their functions.
+/// The use of a module of CoppeliaSim that is missing here, or approximated as a whole. Other modules say so by their functions.
 fn required(module: &str, line: usize) -> Option<Use> {
     let is_missing = CATALOGUE.reference_modules.contains(module) && !CATALOGUE.modules.contains_key(module);
-    is_missing.then(|| Use { name: module.to_owned(), written: None, line, support: Support::Missing })
+    let support = if is_missing { Support::Missing } else { Support::Approximated(difference(module)?) };
+    Some(Use { name: module.to_owned(), written: None, line, support })
 }
 
 /// What an old name is called now; None for other names.
@@ -156,9 +167,7 @@ fn of_sim(member: &str) -> Option<Support> {
 }
 
 fn of_function(name: &str) -> Support {
-    api::pairs(APPROXIMATED)
-        .find(|(known, _)| *known == name)
-        .map_or(Support::Works, |(_, how)| Support::Approximated(how))
+    difference(name).map_or(Support::Works, Support::Approximated)
 }
 
 /// None for modules that are not CoppeliaSim's, and for constants of those that are here.
@@ -172,9 +181,6 @@ fn of_module(module: &str, member: &str, is_call: bool) -> Option<Support> {
         _ => Some(Support::Missing),
     }
 }
-
-/// `name<TAB>what is different` of functions that do less than in CoppeliaSim.
-const APPROXIMATED: &str = include_str!("approximated.tsv");
 
 /// What there is, and what CoppeliaSim has.
 struct Catalogue {
@@ -191,7 +197,6 @@ static CATALOGUE: LazyLock<Catalogue> = LazyLock::new(|| Catalogue {
 #[cfg(test)]
 mod tests {
     use super::{Support, uses};
-    use crate::docs::functions;
 
     fn names(code: &str) -> Vec<String> {
         uses(code.as_bytes()).into_iter().map(|found| found.name).collect()
@@ -233,13 +238,5 @@ mod tests {
             ("sim.getObjectHandle", Some("simGetObjectHandle"))
         );
         assert_eq!(names("simExtCustomUI_create('')"), ["simUI.create"]);
-    }
-
-    #[test]
-    fn approximated_functions_are_there() {
-        let known: Vec<String> = functions().into_iter().map(|function| function.name).collect();
-        for (name, _) in crate::api::pairs(super::APPROXIMATED) {
-            assert!(known.iter().any(|known| known == name), "{name}");
-        }
     }
 }
