@@ -1411,6 +1411,10 @@ function sim.getScriptAssociatedWithObject(objectHandle) end
 ---@return any attribute
 function sim.getScriptAttribute(scriptHandle, attributeId) end
 
+--- How often the calling script has run, as it was last told by sim.setScriptAttribute: old scenes tell it so.
+---@return integer count 0 at first
+function sim.getScriptExecutionCount() end
+
 --- An object whose methods are the global functions of another script: proxy:name(...).
 ---@param handle integer script, object that has a script, or path to one
 ---@param scriptType? integer which script of an object that is none itself

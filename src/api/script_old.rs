@@ -17,6 +17,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_script_handle,
     get_script_name,
     get_script_attribute,
+    get_script_execution_count,
     set_script_attribute,
     get_script_int32_param,
     set_script_int32_param,
@@ -37,6 +38,8 @@ enum Attribute {
     Text,
     Name,
     Language,
+    /// Its scenes put it into the text of old scripts to count their runs.
+    ExecutionCount,
     /// CoppeliaSim has forgotten what it meant: it can be set, without effect.
     Forgotten,
 }
@@ -54,7 +57,8 @@ impl Attribute {
             10109 => Self::Name,
             10110 => Self::Text,
             10112 => Self::Language,
-            0 | 2 | 3 | 5 | 6 => Self::Forgotten,
+            2 => Self::ExecutionCount,
+            0 | 3 | 5 | 6 => Self::Forgotten,
             _ => return Err(ApiError::Other("invalid parameter.".into())),
         })
     }
@@ -69,7 +73,7 @@ impl Attribute {
             Self::Name => ("scriptName", ValueType::String),
             Self::Language => ("language", ValueType::String),
             Self::Enabled => ("scriptDisabled", ValueType::Bool),
-            Self::Handle | Self::Object | Self::Forgotten => return None,
+            Self::Handle | Self::Object | Self::ExecutionCount | Self::Forgotten => return None,
         })
     }
 }
@@ -82,6 +86,7 @@ fn read(cx: &Cx, script: &Rc<Script>, attribute: Attribute) -> Result<Data> {
     let Some((name, ty)) = attribute.property() else {
         let handle = match attribute {
             Attribute::Handle => Some(script.id),
+            Attribute::ExecutionCount => Some(script.execution_count.get()),
             Attribute::Forgotten => Some(0),
             _ => script.object.or(script.owner()).map(Handle::raw),
         };
@@ -92,8 +97,13 @@ fn read(cx: &Cx, script: &Rc<Script>, attribute: Attribute) -> Result<Data> {
 }
 
 fn write(cx: &Cx, script: &Rc<Script>, attribute: Attribute, value: Data) -> Result<()> {
-    if attribute == Attribute::Forgotten {
-        return Ok(());
+    match attribute {
+        Attribute::Forgotten => return Ok(()),
+        Attribute::ExecutionCount => {
+            script.execution_count.set(value.as_f64().unwrap_or_default() as i64);
+            return Ok(());
+        }
+        _ => {}
     }
     let (name, ty) = attribute.property().ok_or(ApiError::PropertyNotWritable)?;
     let truth = match value {
@@ -191,6 +201,14 @@ fn get_script_name(cx: &Cx, script_handle: Number) -> Result<Data> {
 #[api("sim.getScriptAttribute")]
 fn get_script_attribute(cx: &Cx, script_handle: Number, attribute_id: Number) -> Result<Data> {
     read(cx, &script_of(cx, script_handle.0)?, Attribute::from_number(attribute_id.0)?)
+}
+
+/// How often the calling script has run, as it was last told by sim.setScriptAttribute: old scenes tell it so.
+///
+/// @return count 0 at first
+#[api("sim.getScriptExecutionCount")]
+fn get_script_execution_count(cx: &Cx) -> Result<i64> {
+    Ok(cx.script().execution_count.get())
 }
 
 /// Sets an attribute of a script.

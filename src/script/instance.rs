@@ -28,6 +28,8 @@ pub struct Script {
     state: Cell<i64>,
     pub(crate) runtime: RefCell<Option<Rc<Runtime>>>,
     pub(crate) removed: Cell<bool>,
+    /// What an old script says of how often it has run: the time before callbacks had a counter for it.
+    pub(crate) execution_count: Cell<i64>,
 }
 
 /// Text and flags of a script that is no scene object.
@@ -71,6 +73,7 @@ impl Script {
             state: Cell::new(state::UNLOADED),
             runtime: RefCell::new(None),
             removed: Cell::new(false),
+            execution_count: Cell::new(0),
         }
     }
 
