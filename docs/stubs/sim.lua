@@ -1820,7 +1820,7 @@ function sim.handleVarious() end
 ---@return integer result number of detections
 function sim.handleVisionSensor(sensorHandle) end
 
---- Same as sim.includeRel.
+--- Runs a file, given by its path relative to the folder of the scene. Where there is none, '/lua/name.lua' is the module of that name.
 ---@param path string of a Lua file
 ---@return any result of the file
 function sim.include(path) end

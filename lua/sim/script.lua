@@ -172,12 +172,20 @@ function M.includeRel(path)
     return result
 end
 
---- Same as sim.includeRel.
+local function exists(path)
+    local file = io.open(path)
+    return file ~= nil and file:close()
+end
+
+--- Runs a file, given by its path relative to the folder of the scene. Where there is none, '/lua/name.lua' is the module of that name.
 -- @api any result = sim.include(string path)
 -- @param path of a Lua file
 -- @return result of the file
 function M.include(path)
-    local result = includeFile(scenePath(path))
+    local file = scenePath(path)
+    local module = path:match('^[/\\]?lua[/\\](.+)%.lua$')
+    if module and not exists(file) then return (require((module:gsub('[/\\]', '.')))) end
+    local result = includeFile(file)
     return result
 end
 

@@ -1,5 +1,5 @@
 -- topic: scripts
--- as: simulation
+-- as: customization
 -- passes: 0
 -- note: old scripts count their own runs
 sim = require 'sim'
