@@ -275,6 +275,13 @@ impl Simulator {
         self.sim.quit.get()
     }
 
+    /// The named parameters, as text.
+    pub fn named_params(&self) -> Vec<(String, String)> {
+        let app = self.sim.app.borrow();
+        let text = |value: &Vec<u8>| String::from_utf8_lossy(value).into_owned();
+        app.named_params.iter().map(|(name, value)| (name.clone(), text(value))).collect()
+    }
+
     /// The scene, to read. Do not hold it across other calls.
     pub fn scene(&self) -> Ref<'_, Scene> {
         self.sim.scene.borrow()

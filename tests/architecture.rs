@@ -33,6 +33,7 @@ const OWNERS: &[(&str, &str)] = &[
     ("httparse", "src/io/ws"),
     ("futures", "src/io"),
     ("serialport", "src/io/serial.rs"),
+    ("csv", "src/testing/batch/store.rs"),
     ("plotters", "src/testing/golden/plot.rs"),
     ("dejavu", "src/testing/golden/plot.rs"),
     ("notify", "src/cli/test/watch.rs"),

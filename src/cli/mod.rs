@@ -4,6 +4,7 @@
 #![allow(clippy::disallowed_methods, reason = "the outside world is this layer's business")]
 
 mod api;
+mod batch;
 mod diff;
 mod doctor;
 mod files;
@@ -44,6 +45,7 @@ enum Command {
     Run(run::Args),
     Serve(serve::Args),
     Test(test::Args),
+    Batch(batch::Args),
     Api(api::Args),
     Doctor(doctor::Args),
     Inspect(inspect::Args),
@@ -89,6 +91,7 @@ impl Command {
             Self::Run(args) => run::run(&args),
             Self::Serve(args) => serve::serve(&args),
             Self::Test(args) => test::test(&args),
+            Self::Batch(args) => batch::batch(&args),
             Self::Api(args) => api::api(&args),
             Self::Doctor(args) => doctor::doctor(&args),
             Self::Inspect(args) => inspect::inspect(&args),

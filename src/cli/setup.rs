@@ -197,7 +197,7 @@ fn step_length(text: &str) -> Result<f64, String> {
     if (0.0001..=10.0).contains(&dt) { Ok(dt) } else { Err("a step lasts 0.0001 to 10 seconds".into()) }
 }
 
-fn named_param(text: &str) -> Result<(String, String), String> {
+pub(super) fn named_param(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((name, value)) if !name.is_empty() => Ok((name.to_owned(), value.to_owned())),
         _ => Err("NAME=VALUE is needed".into()),

@@ -36,13 +36,21 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
     load_module(stack, sim, "no_unsafe").and_then(|()| stack.protected_call(0, 0))
 }
 
-/// `math.random` starts from the simulator's seed: Lua's own start is different in every state.
+/// `math.random` starts from the simulator's seed: Lua's own start is different in every state. From seeds that follow each other its generator
+/// begins with numbers that do as well, so the seed is scrambled first (the finalizer of SplitMix64).
 fn seed_random(stack: Stack<'_>, seed: u32) {
     stack.push_global("math");
     stack.raw_get_field(-1, "randomseed");
-    stack.push_int(i64::from(seed));
+    stack.push_int(scrambled(seed));
     stack.protected_call(1, 0).expect("randomseed takes an integer");
     stack.pop(1);
+}
+
+fn scrambled(seed: u32) -> i64 {
+    let mut bits = u64::from(seed).wrapping_add(0x9e37_79b9_7f4a_7c15);
+    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    (bits ^ (bits >> 31)).cast_signed()
 }
 
 /// Modules that CoppeliaSim has not, or no longer: a script's own file of that name goes first.

@@ -1,5 +1,6 @@
 //! A test, and how it ended.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -84,6 +85,8 @@ pub struct Outcome {
     /// What the test recorded, until it is compared.
     pub(super) goldens: Vec<Golden>,
     pub comparisons: Vec<Comparison>,
+    /// What a run of a batch came to.
+    pub results: BTreeMap<String, String>,
 }
 
 impl Outcome {
@@ -104,6 +107,7 @@ impl Outcome {
             console: Vec::new(),
             goldens: Vec::new(),
             comparisons: Vec::new(),
+            results: BTreeMap::new(),
         }
     }
 

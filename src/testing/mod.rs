@@ -3,6 +3,7 @@
 //! `discover` finds files, `session` is one simulator with a test file in it, `workers` spreads the work over threads, `plan` chooses
 //! tests. What is shown is up to a [`Reporter`]; `report` has the texts of reports, most of which are made from the [`Summary`].
 
+pub mod batch;
 mod case;
 mod discover;
 mod excerpt;
@@ -50,6 +51,25 @@ pub struct Config {
     pub allowance: Allowance,
     /// Becomes true when the user wants an end.
     pub interrupted: Arc<AtomicBool>,
+}
+
+impl Config {
+    /// Nothing chosen yet, everything once.
+    pub fn new(jobs: usize, allowance: Allowance, interrupted: Arc<AtomicBool>) -> Self {
+        Self {
+            paths: Vec::new(),
+            jobs,
+            filters: Vec::new(),
+            shard: None,
+            repeat: 1,
+            seed: crate::Options::default().seed,
+            fail_fast: false,
+            update_golden: false,
+            artifacts: PathBuf::new(),
+            allowance,
+            interrupted,
+        }
+    }
 }
 
 /// What a test may use up.

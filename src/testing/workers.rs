@@ -13,6 +13,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::Config;
+use super::batch;
 use super::case::{Outcome, Status, TestCase};
 use super::plan::{Collection, Job};
 use super::session::Session;
@@ -29,6 +30,8 @@ pub(super) enum Task {
     /// Learn what tests a file has.
     Collect(PathBuf),
     Run(Job),
+    /// A run of a batch.
+    Simulate(batch::Job),
 }
 
 /// What comes back.
@@ -220,6 +223,7 @@ impl Worker {
             match task {
                 Task::Collect(file) => self.collect(&file),
                 Task::Run(job) => self.run(job.tests),
+                Task::Simulate(job) => self.simulate(&job),
             }
         }
         self.tell(News::Gone);
@@ -281,6 +285,13 @@ impl Worker {
             self.finished(outcome);
         }
         tests
+    }
+
+    fn simulate(&self, job: &batch::Job) {
+        let stop = Arc::new(AtomicBool::new(false));
+        self.begin(&job.case, &[], &stop);
+        let outcome = catch_unwind(AssertUnwindSafe(|| batch::simulate(&self.shared.config, job, &stop)));
+        self.finished(outcome.unwrap_or_else(|_| Outcome::new(Arc::clone(&job.case), Status::Error, CRASHED)));
     }
 
     fn finished(&self, outcome: Outcome) {

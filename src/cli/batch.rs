@@ -1,0 +1,154 @@
+//! `swanilda batch`: one scene, many runs, a table of results.
+
+use std::collections::BTreeMap;
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::interrupt::Interrupt;
+use super::refuse;
+use super::setup::{named_param, seconds};
+use crate::Options;
+use crate::testing::batch::{self, Batch, Run, Store};
+use crate::testing::{Allowance, Config};
+
+/// Exit code when some runs failed.
+const FAILED: u8 = 1;
+/// Exit code after ctrl-c, as shells expect it.
+const INTERRUPTED: u8 = 130;
+/// Seeds of one batch.
+const MOST_SEEDS: u32 = 10_000_000;
+
+/// Run a scene many times, with other seeds and parameters
+///
+/// A script reads its parameters and tells its results through the module swanilda.batch. A batch that was interrupted goes on where it was.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// The scene: a Lua file, or one of CoppeliaSim
+    scene: PathBuf,
+    /// The seeds: 0..99 with both ends, or 1,2,3
+    #[arg(long, value_name = "SEEDS", value_parser = seeds)]
+    seeds: Option<Seeds>,
+    /// A parameter and its values, such as kp=1,2,5; may be repeated, and every combination is run
+    #[arg(long, value_name = "NAME=V1,V2,...", value_parser = sweep)]
+    sweep: Vec<(String, Vec<String>)>,
+    /// A parameter that is the same in all runs; may be repeated
+    #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = named_param)]
+    define: Vec<(String, String)>,
+    /// Runs at a time [default: as many as there are processors]
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Where the results go
+    #[arg(long, value_name = "FOLDER", default_value = "results")]
+    out: PathBuf,
+    /// Ask each run for its end after that much simulated time
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time: Option<f64>,
+    /// Wall-clock time a run may take
+    #[arg(long, value_name = "SECONDS", default_value = "3600", value_parser = seconds)]
+    timeout: f64,
+    /// Memory the Lua code of a run may take, MiB
+    #[arg(long, value_name = "MIB", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
+    memory: u32,
+    /// Begin anew, whatever the folder holds
+    #[arg(long)]
+    force: bool,
+}
+
+/// A list of seeds; a type of its own, since clap takes a plain list for a repeated option.
+#[derive(Debug, Clone)]
+struct Seeds(Vec<u32>);
+
+/// Runs the batch; the exit code tells how it went.
+pub(super) fn batch(args: &Args) -> ExitCode {
+    let interrupt = Interrupt::install(INTERRUPTED);
+    match run(args, &interrupt) {
+        // At once: a run that could not be ended may still keep a thread.
+        Ok(code) => std::process::exit(i32::from(code)),
+        Err(reason) => refuse(&reason),
+    }
+}
+
+fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
+    let batch = args.batch();
+    if !batch.scene.is_file() {
+        return Err(format!("cannot read {}", batch.scene.display()));
+    }
+    let runs = batch.runs();
+    let mut store = Store::open(&args.out, &batch, args.force).map_err(|error| error.to_string())?;
+    let missing = store.missing(&runs);
+    let bar = bar(&runs, &missing);
+    let mut lost = None;
+    batch::run(&args.config(interrupt), &batch, &missing, &mut |row| {
+        if let Some(error) = &row.error {
+            bar.suspend(|| eprintln!("run {} (seed {}): {error}", row.run.number, row.run.seed));
+        }
+        bar.inc(1);
+        lost = lost.take().or(store.add(row).err());
+    })
+    .map_err(|error| error.to_string())?;
+    bar.finish_and_clear();
+    if let Some(error) = lost {
+        return Err(error.to_string());
+    }
+    let table = store.finish().map_err(|error| error.to_string())?;
+    let (done, failed) = (store.rows().count(), store.failed());
+    println!("{done} of {} runs done, {failed} failed: {}", runs.len(), table.display());
+    Ok(if interrupt.is_requested() { INTERRUPTED } else { u8::from(failed > 0) * FAILED })
+}
+
+fn bar(runs: &[Run], missing: &[Run]) -> ProgressBar {
+    let hidden = !std::io::stderr().is_terminal();
+    let target = if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let bar = ProgressBar::with_draw_target(Some(runs.len() as u64), target);
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} runs, {eta} left");
+    bar.set_style(style.expect("the template is well-formed"));
+    bar.with_position((runs.len() - missing.len()) as u64)
+}
+
+impl Args {
+    fn batch(&self) -> Batch {
+        Batch {
+            scene: self.scene.clone(),
+            seeds: self.seeds.clone().map_or_else(|| vec![Options::default().seed], |seeds| seeds.0),
+            sweeps: self.sweep.clone(),
+            fixed: self.define.iter().cloned().collect::<BTreeMap<_, _>>(),
+            time: self.time,
+        }
+    }
+
+    fn config(&self, interrupt: &Interrupt) -> Config {
+        let jobs = self.jobs.map_or_else(super::test::processors, usize::from);
+        let allowance = Allowance {
+            wall: Duration::from_secs_f64(self.timeout),
+            simulated: f64::INFINITY,
+            memory: (self.memory as usize) << 20,
+        };
+        Config::new(jobs, allowance, interrupt.flag())
+    }
+}
+
+fn seeds(text: &str) -> Result<Seeds, String> {
+    let wrong = || "seeds are written 0..99 or 1,2,3".to_owned();
+    if let Some((first, last)) = text.split_once("..") {
+        let (first, last): (u32, u32) = (first.parse().map_err(|_| wrong())?, last.parse().map_err(|_| wrong())?);
+        return match last.checked_sub(first) {
+            Some(count) if count < MOST_SEEDS => Ok(Seeds((first..=last).collect())),
+            _ => Err(wrong()),
+        };
+    }
+    let list: Result<Vec<u32>, _> = text.split(',').map(str::parse).collect();
+    list.map(Seeds).map_err(|_| wrong())
+}
+
+fn sweep(text: &str) -> Result<(String, Vec<String>), String> {
+    match text.split_once('=') {
+        Some((name, values)) if !name.is_empty() => {
+            Ok((name.to_owned(), values.split(',').map(str::to_owned).collect()))
+        }
+        _ => Err("NAME=V1,V2,... is needed".into()),
+    }
+}

@@ -1,0 +1,134 @@
+//! Batches: one scene, many runs with other seeds and parameters, a row of results for each.
+//!
+//! A parameter is a named parameter of the simulator (`sim.getNamedStringParam`), and so is a result: one whose name begins with `result.`
+//! when the run ends. `store` keeps the rows in a folder, from which an interrupted batch goes on.
+
+mod simulate;
+mod store;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+pub(super) use simulate::{Job, simulate};
+pub use store::{Error, Store};
+
+use super::Config;
+use super::case::{Outcome, Status, TestCase};
+use super::workers::{Message, Task, work};
+
+/// What is run.
+#[derive(Debug, Clone)]
+pub struct Batch {
+    /// A scene, as `swanilda run` takes it.
+    pub scene: PathBuf,
+    pub seeds: Vec<u32>,
+    /// Parameters with the values each takes; every combination is run.
+    pub sweeps: Vec<(String, Vec<String>)>,
+    /// Parameters that are the same in all runs.
+    pub fixed: BTreeMap<String, String>,
+    /// Simulated seconds after which a run is asked to end.
+    pub time: Option<f64>,
+}
+
+/// One run of a batch.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Run {
+    /// From 1, in the order of the combinations.
+    pub number: usize,
+    pub seed: u32,
+    /// The swept parameters.
+    pub params: Vec<(String, String)>,
+}
+
+/// What came of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    pub run: Run,
+    /// What went wrong.
+    pub error: Option<String>,
+    pub steps: u64,
+    /// Simulated seconds.
+    pub time: f64,
+    pub results: BTreeMap<String, String>,
+}
+
+impl Batch {
+    /// All runs: the seeds vary fastest, then the last parameter.
+    pub fn runs(&self) -> Vec<Run> {
+        let mut combinations = vec![Vec::new()];
+        for (name, values) in &self.sweeps {
+            let extend = |known: &Vec<(String, String)>| {
+                let with = |value: &String| [known.clone(), vec![(name.clone(), value.clone())]].concat();
+                values.iter().map(with).collect::<Vec<_>>()
+            };
+            combinations = combinations.iter().flat_map(extend).collect();
+        }
+        let all = combinations.iter().flat_map(|params| self.seeds.iter().map(move |&seed| (seed, params.clone())));
+        all.enumerate().map(|(i, (seed, params))| Run { number: i + 1, seed, params }).collect()
+    }
+}
+
+/// Runs what the store has no row of, as `config` says, and hands over each row.
+///
+/// # Errors
+/// When the scene cannot be read.
+pub fn run(config: &Config, batch: &Batch, runs: &[Run], done: &mut dyn FnMut(Row)) -> std::io::Result<()> {
+    let scene = Arc::new(simulate::Scene::read(&batch.scene)?);
+    let task = |run: &Run| {
+        Task::Simulate(Job {
+            case: Arc::new(case(batch, run)),
+            scene: Arc::clone(&scene),
+            params: batch.fixed.clone().into_iter().chain(run.params.iter().cloned()).collect(),
+            time: batch.time,
+        })
+    };
+    let by_number: BTreeMap<usize, &Run> = runs.iter().map(|run| (run.number, run)).collect();
+    work(config, runs.iter().map(task).collect(), &mut |message| {
+        if let Message::Finished(outcome) = message
+            && let Some(run) = by_number.get(&outcome.test.index)
+        {
+            done(row(run, &outcome));
+        }
+        true
+    });
+    Ok(())
+}
+
+fn case(batch: &Batch, run: &Run) -> TestCase {
+    let name = run.params.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    TestCase { index: run.number, name, seed: run.seed, ..TestCase::of_file(&batch.scene) }
+}
+
+fn row(run: &Run, outcome: &Outcome) -> Row {
+    Row {
+        run: run.clone(),
+        error: (outcome.status != Status::Passed)
+            .then(|| outcome.message.lines().next().unwrap_or_default().to_owned()),
+        steps: outcome.steps,
+        time: outcome.time,
+        results: outcome.results.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Batch;
+
+    #[test]
+    fn every_combination_is_run() {
+        let sweep = |name: &str, values: &[&str]| (name.to_owned(), values.iter().map(|v| (*v).to_owned()).collect());
+        let batch = Batch {
+            scene: "a.lua".into(),
+            seeds: vec![4, 5],
+            sweeps: vec![sweep("kp", &["1", "2"]), sweep("kd", &["x", "y", "z"])],
+            fixed: Default::default(),
+            time: None,
+        };
+        let runs = batch.runs();
+        assert_eq!(runs.len(), 12);
+        assert_eq!((runs[0].seed, runs[1].seed), (4, 5));
+        assert_eq!(runs[2].params, [("kp".to_owned(), "1".to_owned()), ("kd".into(), "y".into())]);
+        assert!(runs.iter().enumerate().all(|(i, run)| run.number == i + 1));
+    }
+}
