@@ -55,7 +55,7 @@ pub mod sensors;
 pub mod settings;
 pub mod shape;
 pub mod shape_build;
-mod shape_geometry;
+pub mod shape_geometry;
 mod shape_group;
 mod shape_params;
 pub mod spline;

@@ -179,7 +179,7 @@ impl Scene {
 }
 
 /// A box along the axes of the frame around parts.
-pub(super) fn box_of(parts: &[Part]) -> Option<BoundingBox> {
+pub fn box_of(parts: &[Part]) -> Option<BoundingBox> {
     let mut mesh = Mesh::default();
     parts.iter().for_each(|part| mesh.append(&part.mesh, &part.pose));
     mesh.bounding_box(&UnitQuaternion::identity())

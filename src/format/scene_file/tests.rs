@@ -7,7 +7,9 @@ use std::rc::Rc;
 use super::{Loaded, SceneFile, save};
 use crate::format::ttt::File;
 use crate::scene::engine_blocks::EngineValues;
-use crate::scene::{DynamicsSettings, Handle, Kept, Kind, Object, Scene, Settings};
+use crate::scene::primitive::PrimitiveKind;
+use crate::scene::shape::Shape;
+use crate::scene::{DynamicsSettings, Handle, Kept, Kind, Object, Pose, Scene, Settings};
 
 /// The smaller ones of other people's scenes and models, where they are at hand.
 pub(crate) fn real_files() -> Vec<PathBuf> {
@@ -158,4 +160,37 @@ fn a_model_comes_back_where_it_stood() {
         let (there, here) = (first.world_pose(base).unwrap(), scene.world_pose(root).unwrap());
         assert!((there.translation.vector - here.translation.vector).norm() < 1e-12);
     }
+}
+
+#[test]
+fn groups_in_groups_come_apart_level_by_level_after_loading() {
+    let mut scene = Scene::new();
+    let mut cube = |x: f64| {
+        let shape = Shape::primitive(PrimitiveKind::Cuboid, [0.1, 0.2, 0.3], Default::default()).unwrap();
+        let cube = scene.add("c", Kind::Shape(Box::new(shape))).unwrap();
+        scene.set_world_pose(cube, Pose::translation(x, 2.0 * x, 0.0)).unwrap();
+        cube.raw()
+    };
+    let cubes = [cube(0.0), cube(1.0), cube(2.0), cube(3.0)];
+    let mut joined = |a: i64, b: i64| {
+        let (group, members) = scene.group_shapes(&[a, b], false).unwrap();
+        scene.remove(&members).unwrap();
+        group.raw()
+    };
+    let pair = joined(cubes[0], cubes[1]);
+    let three = joined(pair, cubes[2]);
+    joined(three, cubes[3]);
+    let (mut scene, loaded) = load(&saved(&scene, &Loaded::default()));
+    let mut taken = |group| {
+        let pieces = scene.ungroup_shape(group).unwrap().unwrap();
+        let parts = pieces.iter().map(|h| scene.object(*h).unwrap().shape().unwrap().parts.len()).collect::<Vec<_>>();
+        let places = pieces.iter().map(|h| scene.world_pose(*h).unwrap().translation.x.round());
+        (pieces[0], parts, places.collect::<Vec<_>>())
+    };
+    let (three, parts, places) = taken(loaded.root.unwrap());
+    assert_eq!((parts, places), (vec![3, 1], vec![2.0, 3.0]));
+    let (pair, parts, places) = taken(three);
+    assert_eq!((parts, places), (vec![2, 1], vec![1.0, 2.0]));
+    let (_, parts, places) = taken(pair);
+    assert_eq!((parts, places), (vec![1, 1], vec![0.0, 1.0]));
 }

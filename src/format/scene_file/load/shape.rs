@@ -63,13 +63,20 @@ fn parts<'a>(context: &mut Context<'_>, geometry: &'a ShapeGeometry) -> Result<(
 
 /// The meshes of a group, whose frame in the shape is `frame`.
 fn collect(context: &mut Context<'_>, group: &MeshNode, frame: &Pose, parts: &mut Vec<Part>) -> Result<(), String> {
-    for child in &group.children {
+    for (number, child) in (0..).zip(&group.children) {
         match child {
             MeshTree::Mesh(mesh) => {
                 let frame = node_frame(&mesh.node, frame);
                 parts.push(part(context, mesh, &frame, false)?);
             }
-            MeshTree::Group(inner) => collect(context, inner, &node_frame(inner, frame), parts)?,
+            MeshTree::Group(inner) => {
+                let first = parts.len();
+                collect(context, inner, &node_frame(inner, frame), parts)?;
+                // A mesh that is alone in its group is no group.
+                if parts.len() > first + 1 {
+                    parts[first..].iter_mut().for_each(|part| part.group.insert(0, number));
+                }
+            }
         }
     }
     Ok(())

@@ -9,13 +9,18 @@ use crate::scene::engine_blocks::EngineValues;
 use crate::scene::mass::MassProperties;
 use crate::scene::primitive::PrimitiveKind;
 use crate::scene::shape::{Appearance, Material, Part, Primitive, Shape, ShapeDynamics};
+use crate::scene::shape_geometry::box_of;
 
 const CONVEX: u8 = 0x4;
 const CONVEXITY_KNOWN: u8 = 0x20;
+/// Groups within groups; readers have an end somewhere, so deeper ones are written as one.
+const DEEPEST_GROUP: usize = 50;
 
-/// A mesh in a shape: which node it is, and where its vertices are.
+/// A mesh or group in a shape: which node it is, and where its vertices are.
 struct Place {
     name: String,
+    /// Of the group it is in, in the shape.
+    group: Pose,
     /// Of the node in the shape.
     node: Pose,
     /// Of the vertices in the node.
@@ -49,26 +54,69 @@ fn switches(dynamics: &ShapeDynamics) -> u8 {
 /// The node of a simple shape is its frame. A primitive is centred in its box; a mesh is written in the box of the shape.
 fn simple(context: &mut Context<'_>, shape: &Shape, part: &Part) -> FileMesh {
     let vertices = if is_centred(part) { part.pose } else { shape.bounding_box.pose };
-    let place = Place { name: "sub__0".into(), node: Pose::identity(), vertices, mass: shape.mass };
+    let place = Place { vertices, ..Place::root(shape) };
     let mut mesh = mesh(context, part, place);
     mesh.node.box_size = Some(shape.bounding_box.size);
     mesh
 }
 
 fn group(context: &mut Context<'_>, shape: &Shape, parts: &[Part]) -> MeshNode {
-    let root =
-        Place { name: "sub__0".into(), node: Pose::identity(), vertices: shape.bounding_box.pose, mass: shape.mass };
-    let mut group = node(&root, shape.bounding_box.size, shape.is_convex());
-    for (at, part) in parts.iter().enumerate() {
-        let place = Place {
-            name: format!("sub__{}", at + 1),
-            node: part.pose,
-            vertices: if is_centred(part) { Pose::identity() } else { centre(part) },
-            mass: part.mass,
-        };
-        group.children.push(MeshTree::Mesh(Box::new(mesh(context, part, place))));
-    }
+    let mut root = node(&Place::root(shape), shape.bounding_box.size, shape.is_convex());
+    root.children = children(context, parts, 0, &Pose::identity(), &mut 0);
+    root
+}
+
+/// The members of a group whose frame in the shape is `frame`: parts, or groups of those that are together at this depth.
+/// `named` counts the nodes that have a name.
+fn children(context: &mut Context<'_>, parts: &[Part], depth: usize, frame: &Pose, named: &mut usize) -> Vec<MeshTree> {
+    let together = |a: &Part, b: &Part| {
+        depth < DEEPEST_GROUP && a.group.get(depth).is_some_and(|group| b.group.get(depth) == Some(group))
+    };
+    let members = parts.chunk_by(together).map(|member| {
+        *named += 1;
+        let name = format!("sub__{named}");
+        match member {
+            [part] => {
+                let vertices = if is_centred(part) { Pose::identity() } else { centre(part) };
+                let place = Place { name, group: *frame, node: part.pose, vertices, mass: part.mass };
+                MeshTree::Mesh(Box::new(mesh(context, part, place)))
+            }
+            parts => MeshTree::Group(Box::new(subgroup(context, parts, (name, depth + 1), frame, named))),
+        }
+    });
+    members.collect()
+}
+
+/// A group in a group. Its frame is that of its last part.
+fn subgroup(
+    context: &mut Context<'_>,
+    parts: &[Part],
+    (name, depth): (String, usize),
+    outer: &Pose,
+    named: &mut usize,
+) -> MeshNode {
+    let frame = parts.last().map_or(*outer, |part| part.pose);
+    let own: Vec<Part> = parts.iter().map(|part| Part { pose: frame.inverse() * part.pose, ..part.clone() }).collect();
+    let masses: Vec<_> = own.iter().map(|part| (part.pose, part.mass)).collect();
+    let (vertices, size) = box_of(&own).map_or_else(Default::default, |around| (around.pose, around.size));
+    let place = Place {
+        name,
+        group: *outer,
+        node: frame,
+        vertices,
+        mass: MassProperties::combine(&masses).unwrap_or_default(),
+    };
+    let mut group = node(&place, size, own.iter().all(|part| part.convex));
+    group.children = children(context, parts, depth, &frame, named);
     group
+}
+
+impl Place {
+    fn root(shape: &Shape) -> Self {
+        let name = "sub__0".into();
+        let node = Pose::identity();
+        Self { name, group: node, node, vertices: shape.bounding_box.pose, mass: shape.mass }
+    }
 }
 
 /// Whether the vertices lie around the origin of the part's frame because the primitive does.
@@ -118,7 +166,7 @@ fn node(place: &Place, box_size: [f64; 3], convex: bool) -> MeshNode {
         mass: Some(mass.mass),
         old_inertia: Some((inertia_frame.into(), moments)),
         old_frame: Some(place.node.into()),
-        frame: Some(place.node.into()),
+        frame: Some((place.group.inverse() * place.node).into()),
         centre_of_mass: Some(mass.com),
         inertia: Some(std::array::from_fn(|i| mass.inertia[(i / 3, i % 3)])),
         box_frame: Some(place.vertices.into()),
