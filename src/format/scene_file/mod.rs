@@ -20,8 +20,27 @@ pub use migrate::with_compat;
 pub use read::{is_scene, read_file, read_path};
 pub use write::write_whole;
 
-use crate::scene::Handle;
+use crate::format::ttt::{FileResult, container};
 use crate::scene::script_object::ScriptType;
+use crate::scene::{Handle, Scene, SceneResult};
+
+impl SceneFile {
+    /// The bytes of a file of this scene, as CoppeliaSim 4.10 writes them. `scripts` are those outside of the tree.
+    ///
+    /// # Errors
+    /// When the tree of the scene is damaged.
+    pub fn bytes_of(scene: &Scene, scripts: &[LoadedScript]) -> SceneResult<Vec<u8>> {
+        Ok(save::scene(scene, scripts)?.write())
+    }
+
+    /// What a file holds after its header, uncompressed.
+    ///
+    /// # Errors
+    /// When the header or the compressed data are damaged.
+    pub fn body(bytes: &[u8]) -> FileResult<Vec<u8>> {
+        Ok(container::unpack(bytes)?.1)
+    }
+}
 
 /// What a file has brought into a scene.
 #[derive(Debug, Default)]

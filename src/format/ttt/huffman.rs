@@ -48,6 +48,16 @@ impl Bits<'_> {
     fn byte(&mut self) -> FileResult<u8> {
         (0..8).try_fold(0, |byte, _| Ok(byte << 1 | u8::from(self.next()?)))
     }
+
+    /// The next bits, 57 at least, high ones first; zeros beyond the end.
+    fn peek(&self) -> u64 {
+        let rest = self.data.get(self.at / 8..).unwrap_or(&[]);
+        let word = match rest.first_chunk::<8>() {
+            Some(bytes) => u64::from_be_bytes(*bytes),
+            None => rest.iter().rev().fold(0, |word, byte| word >> 8 | u64::from(*byte) << 56),
+        };
+        word << (self.at % 8)
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -60,12 +70,17 @@ struct Tree {
     nodes: Vec<Node>,
 }
 
-/// What a byte of codes makes of a state: the symbols it completes, and the node it ends at.
+/// How many bits are decoded by one look into the table. Longer codes are walked bit by bit.
+const PEEK: usize = 11;
+/// Looks that one word of 57 bits is good for.
+const LOOKS: usize = 5;
+
+/// What [`PEEK`] bits say: the symbols whose codes are complete in them, and how many bits these take.
 #[derive(Clone, Copy, Default)]
-struct Move {
-    symbols: [u8; 8],
+struct Entry {
+    symbols: [u8; 4],
     count: u8,
-    next: u8,
+    bits: u8,
 }
 
 impl Tree {
@@ -95,59 +110,61 @@ impl Tree {
         }
     }
 
-    /// Whole bytes by table: one look for eight bits of code.
     fn decode(&self, mut bits: Bits<'_>, size: usize) -> FileResult<Vec<u8>> {
-        let inner: Vec<usize> = (0..self.nodes.len()).filter(|n| matches!(self.nodes[*n], Node::Inner(_))).collect();
-        let table: Vec<Move> =
-            inner.iter().flat_map(|node| (0..=255).map(|byte| self.walk(*node, byte, &inner))).collect();
-        // Room for what the last byte writes beyond the end.
-        let mut out = vec![0; size + 8];
-        let (mut node, mut done) = (0, 0);
-        while !bits.at.is_multiple_of(8) && done < size {
-            node = self.step(node, bits.next()?, |symbol| {
-                out[done] = symbol;
-                done += 1;
-            });
-        }
-        let mut state = inner.binary_search(&node).expect("a step ends at an inner node");
-        for byte in &bits.data[bits.at / 8..] {
-            if done >= size {
-                break;
+        let table: Vec<Entry> = (0..1 << PEEK).map(|peeked| self.entry(peeked)).collect();
+        let mut out = vec![0; size];
+        let mut done = 0;
+        while done + 4 * LOOKS <= size {
+            let mut word = bits.peek();
+            for _ in 0..LOOKS {
+                let entry = table[(word >> (64 - PEEK)) as usize];
+                if entry.count == 0 {
+                    out[done] = self.symbol(|| bits.next())?;
+                    done += 1;
+                    break;
+                }
+                out[done..done + 4].copy_from_slice(&entry.symbols);
+                done += usize::from(entry.count);
+                word <<= entry.bits;
+                bits.at += usize::from(entry.bits);
             }
-            let entry = &table[state << 8 | usize::from(*byte)];
-            out[done..done + 8].copy_from_slice(&entry.symbols);
-            done += usize::from(entry.count);
-            state = usize::from(entry.next);
         }
-        if done < size {
+        // The last ones one by one: codes beyond them do not count.
+        for symbol in &mut out[done..] {
+            *symbol = self.symbol(|| bits.next())?;
+        }
+        if bits.at > 8 * bits.data.len() {
             return Err(FileError::Inflate("they end too early"));
         }
-        out.truncate(size);
         Ok(out)
     }
 
-    fn step(&self, node: usize, bit: bool, mut emit: impl FnMut(u8)) -> usize {
-        let Node::Inner(children) = self.nodes[node] else { return 0 };
-        let next = usize::from(children[usize::from(bit)]);
-        match self.nodes[next] {
-            Node::Leaf(symbol) => {
-                emit(symbol);
-                0
+    /// The symbol that the next bits lead to.
+    fn symbol(&self, mut next: impl FnMut() -> FileResult<bool>) -> FileResult<u8> {
+        let mut node = 0;
+        loop {
+            match self.nodes[node] {
+                Node::Leaf(symbol) => return Ok(symbol),
+                Node::Inner(children) => node = usize::from(children[usize::from(next()?)]),
             }
-            Node::Inner(_) => next,
         }
     }
 
-    fn walk(&self, from: usize, byte: u8, inner: &[usize]) -> Move {
-        let mut entry = Move::default();
-        let mut node = from;
-        for bit in (0..8).rev() {
-            node = self.step(node, byte >> bit & 1 == 1, |symbol| {
+    fn entry(&self, peeked: usize) -> Entry {
+        let mut entry = Entry::default();
+        let mut node = 0;
+        for used in 1..=PEEK {
+            let Node::Inner(children) = self.nodes[node] else { break };
+            node = usize::from(children[peeked >> (PEEK - used) & 1]);
+            if let Node::Leaf(symbol) = self.nodes[node] {
                 entry.symbols[usize::from(entry.count)] = symbol;
-                entry.count += 1;
-            });
+                (entry.count, entry.bits) = (entry.count + 1, used as u8);
+                node = 0;
+            }
+            if usize::from(entry.count) == entry.symbols.len() {
+                break;
+            }
         }
-        entry.next = inner.binary_search(&node).expect("a step ends at an inner node") as u8;
         entry
     }
 }

@@ -1,0 +1,54 @@
+"""Seeds for the fuzz target scene_file: the scenes of tests/scene_files, as they are and uncompressed.
+
+What is changed in compressed data changes all that follows; only uncompressed files let single changes reach the chunks.
+"""
+
+import pathlib
+
+HEADER = 1021
+METHOD = 12  # 1: compressed, 0: not
+ROOT = pathlib.Path(__file__).resolve().parent
+
+
+def bits(data):
+    for byte in data:
+        for shift in range(7, -1, -1):
+            yield byte >> shift & 1
+
+
+def tree(stream):
+    """A leaf is its byte, an inner node the pair of its branches; a 1 before eight bits is a leaf."""
+    if next(stream):
+        return int("".join(str(next(stream)) for _ in range(8)), 2)
+    return tree(stream), tree(stream)
+
+
+def inflated(data, size):
+    stream = bits(data)
+    root = tree(stream)
+    body = bytearray()
+    while len(body) < size:
+        node = root
+        while isinstance(node, tuple):
+            node = node[next(stream)]
+        body.append(node)
+    return bytes(body)
+
+
+def uncompressed(file):
+    size = int.from_bytes(file[METHOD + 1 : METHOD + 5], "little")
+    head = bytearray(file[:HEADER])
+    head[METHOD] = 0
+    return bytes(head) + inflated(file[HEADER:], size)
+
+
+def main():
+    corpus = ROOT / "corpus" / "scene_file"
+    corpus.mkdir(parents=True, exist_ok=True)
+    for path in sorted((ROOT.parent / "tests" / "scene_files").glob("*.tt[tm]")):
+        file = path.read_bytes()
+        (corpus / path.name).write_bytes(file)
+        (corpus / f"plain_{path.name}").write_bytes(uncompressed(file))
+
+
+main()
