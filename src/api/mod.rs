@@ -54,6 +54,7 @@ mod time;
 mod trajectory;
 mod tube;
 mod user_param;
+mod voxels;
 mod zmq;
 
 use std::collections::HashMap;
@@ -116,6 +117,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Programs", subprocess::SIM_FUNCTIONS),
     ("Consoles, messages of the interface, semaphores", auxiliary_console::FUNCTIONS),
     ("User parameters", user_param::FUNCTIONS),
+    ("Octrees and point clouds", voxels::FUNCTIONS),
     ("Scene files", scene_file::FUNCTIONS),
     ("Display", drawing::FUNCTIONS),
 ];

@@ -4,7 +4,9 @@ use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::colour::Component;
-use crate::scene::sensors::{OcTree, PointCloud, ProximitySensor, VisionSensor};
+use crate::scene::octree::{OcTree, cell_size};
+use crate::scene::point_cloud::PointCloud;
+use crate::scene::sensors::{ProximitySensor, VisionSensor};
 use crate::scene::{Field, Handle, Kind, SceneError};
 use crate::script::Number;
 
@@ -68,7 +70,7 @@ fn create_vision_sensor(
 /// A new, empty octree at the world's origin.
 ///
 /// @param voxelSize edge of a voxel, metres
-/// @param options for display
+/// @param options 2: random colours; others for display
 /// @param pointSize for display, pixels
 /// @return handle the octree
 #[api("sim.createOctree")]
@@ -78,8 +80,8 @@ fn create_octree(
     #[default(0)] options: Number,
     #[default(4.0)] point_size: f64,
 ) -> Result<Handle> {
-    let _ = options;
-    let octree = OcTree { voxel_size: cell_size(voxel_size), point_size };
+    let mut octree = OcTree::new(voxel_size, point_size);
+    octree.random_colours = options.0 & 2 != 0;
     cx.sim().clone().add_object("octree", Kind::OcTree(Box::new(octree)))
 }
 
@@ -87,7 +89,7 @@ fn create_octree(
 ///
 /// @param maxVoxelSize largest cell, metres
 /// @param maxPtCntPerVoxel most points in a cell
-/// @param options 8: points are not kept in an octree; others for display
+/// @param options 2: random colours, 8: points are not kept in an octree; others for display
 /// @param pointSize for display, pixels
 /// @return handle the point cloud
 #[api("sim.createPointCloud")]
@@ -105,13 +107,10 @@ fn create_point_cloud(
         point_size: point_size as i64,
         uses_octree: options.0 & 8 == 0,
         display_fraction: 1.0,
+        random_colours: options.0 & 2 != 0,
+        points: Vec::new(),
     };
     cx.sim().clone().add_object("pointCloud", Kind::PointCloud(Box::new(cloud)))
-}
-
-/// The edge of a cell, within what is sensible, metres.
-fn cell_size(asked: f64) -> f64 {
-    if asked.is_finite() { asked.clamp(0.001, 1.0) } else { 0.001 }
 }
 
 /// State, three zeros, diffuse and specular colour.

@@ -204,7 +204,7 @@ impl Object {
             Kind::Camera(camera) => camera.view.float_param(id, OF_CAMERA),
             Kind::Light(light) => light.float_param(id),
             Kind::ForceSensor(sensor) => sensor.float_param(id),
-            Kind::OcTree(octree) if id == OCTREE_VOXEL_SIZE => Some(octree.voxel_size),
+            Kind::OcTree(octree) if id == OCTREE_VOXEL_SIZE => Some(octree.voxel_size()),
             _ => None,
         }
     }

@@ -18,6 +18,8 @@ pub enum SceneError {
     AncestorOfParent,
     #[error("object is not tagged as model base.")]
     NotAModel,
+    #[error("scene is locked.")]
+    Locked,
     #[error("found invalid handles.")]
     InvalidHandles,
     #[error("invalid handle.")]

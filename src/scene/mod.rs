@@ -3,6 +3,7 @@
 //! [`Scene`] owns every object in one store indexed by [`Handle`]. Reading gives `&Object`; every mutation is a method of `Scene` and
 //! ends in [`Changes`], so that events, caches and the physics learn of it in one place.
 
+pub mod assembly;
 pub mod change;
 mod collection;
 pub mod colour;
@@ -39,7 +40,9 @@ mod mesh_islands;
 mod movement;
 mod object;
 mod object_params;
+pub mod octree;
 mod path;
+pub mod point_cloud;
 pub mod pose;
 pub mod poses;
 pub mod primitive;
@@ -60,6 +63,7 @@ mod shape_group;
 mod shape_params;
 pub mod spline;
 mod store;
+pub mod surroundings;
 pub mod time_optimal;
 mod tree;
 mod value_type;

@@ -1,12 +1,15 @@
 //! A scene object: what all objects have, and what its type adds.
 
+use super::assembly::Assembly;
 use super::colour::Colour;
 use super::dummy::Dummy;
 use super::force_sensor::ForceSensor;
 use super::joint::Joint;
+use super::octree::OcTree;
+use super::point_cloud::PointCloud;
 use super::restore::InitialState;
 use super::script_object::ScriptObject;
-use super::sensors::{Camera, Graph, Light, OcTree, PointCloud, ProximitySensor, VisionSensor};
+use super::sensors::{Camera, Graph, Light, ProximitySensor, VisionSensor};
 use super::shape::Shape;
 use super::{CustomData, Handle, Kept, Movement, Pose, SceneError, SceneResult, Uid};
 
@@ -55,6 +58,9 @@ pub struct Object {
     pub signals: CustomData,
     /// Values that have no effect here, as scripts set them.
     pub kept: Kept,
+    pub assembly: Assembly,
+    /// Settings of renderers and the like, such as `povray {...} openGL3 {...}`.
+    pub extension_string: String,
     /// Parameters of the old parameter dialog: name and value as text.
     pub user_params: Vec<(String, String)>,
     /// Tagged lists of handles: `(tag, handles)`; -1 stands for an object that is gone.
@@ -172,6 +178,8 @@ impl Object {
             custom_data: CustomData::default(),
             signals: CustomData::default(),
             kept: Kept::default(),
+            assembly: Assembly::default(),
+            extension_string: String::new(),
             user_params: Vec::new(),
             references: Vec::new(),
             original_references: Vec::new(),

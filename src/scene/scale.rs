@@ -91,8 +91,8 @@ impl Object {
             }
             Kind::Light(light) => light.size *= factor,
             Kind::Graph(graph) => graph.size *= factor,
-            Kind::OcTree(octree) => octree.voxel_size *= factor,
-            Kind::PointCloud(cloud) => cloud.max_cell_size *= factor,
+            Kind::OcTree(octree) => octree.scale(factor),
+            Kind::PointCloud(cloud) => cloud.scale(factor),
             Kind::Script(script) => script.size *= factor,
         }
     }

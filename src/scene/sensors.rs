@@ -1,4 +1,4 @@
-//! Objects that exist as data until their behaviour is built: sensors, cameras, lights, graphs, voxels.
+//! Objects that exist as data until their behaviour is built: sensors, cameras, lights, graphs.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -182,24 +182,6 @@ impl Default for Graph {
         let (background, foreground) = ([0.1; 3], [0.8; 3]);
         Self { explicit: false, buffer_size: 1000, cyclic: true, size: 0.1, background, foreground }
     }
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub struct OcTree {
-    pub voxel_size: f64,
-    pub point_size: f64,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub struct PointCloud {
-    pub max_cell_size: f64,
-    pub max_points_in_cell: i64,
-    /// Pixels.
-    pub point_size: i64,
-    /// Points are kept in a tree of cells.
-    pub uses_octree: bool,
-    /// How many of the points are shown, 0 to 1.
-    pub display_fraction: f64,
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Settings of a scene: what the simulation dialog of CoppeliaSim holds.
 
 use super::Kept;
+use super::surroundings::Surroundings;
 
 /// Scene-wide settings. Times in seconds.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +21,9 @@ pub struct Settings {
     /// Simulation steps per drawn image. Kept for scripts: nothing is drawn.
     pub steps_per_rendering: i64,
     pub acknowledgment: String,
+    /// The scene may not be saved.
+    pub locked: bool,
+    pub surroundings: Surroundings,
 }
 
 /// Settings of the physics.
@@ -52,6 +56,8 @@ impl Default for Settings {
             path: String::new(),
             steps_per_rendering: 1,
             acknowledgment: String::new(),
+            locked: false,
+            surroundings: Surroundings::default(),
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::format::scene_file::{LoadedScript, save, write_whole};
 use crate::format::ttt::File;
 use crate::format::xml::{self, Variant};
 use crate::scene::script_object::ScriptType;
-use crate::scene::{Data, Handle};
+use crate::scene::{Data, Handle, SceneError};
 
 /// Priorities of scripts count from 0 here, in files around 0.
 const NORMAL_PRIORITY: i64 = 1;
@@ -19,8 +19,9 @@ impl Sim {
     /// The scene as a file.
     ///
     /// # Errors
-    /// When the tree of the scene is damaged.
+    /// When the scene is locked, or its tree is damaged.
     pub(crate) fn scene_file(&self) -> ApiResult<File> {
+        self.check_unlocked()?;
         let scripts = self.scripts_to_save();
         Ok(save::scene(&self.scene.borrow(), &scripts)?)
     }
@@ -37,8 +38,9 @@ impl Sim {
     /// Writes the scene to a file of the kind its name tells, which becomes the scene's. Scripts are told before and after.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// When the scene is locked, or the file cannot be written.
     pub(crate) fn save_scene(self: &Rc<Self>, name: &str) -> ApiResult<()> {
+        self.check_unlocked()?;
         let (_, path) = Variant::of_name(name);
         let info = Data::map([("file", Data::text(path)), ("regularSave", true.into())]);
         self.broadcast(SysCall::BeforeSave, std::slice::from_ref(&info));
@@ -47,6 +49,10 @@ impl Sim {
         self.scene.borrow_mut().modify_settings(|settings| settings.path = path);
         self.broadcast(SysCall::AfterSave, &[info]);
         Ok(())
+    }
+
+    fn check_unlocked(&self) -> ApiResult<()> {
+        if self.scene.borrow().settings().locked { Err(SceneError::Locked.into()) } else { Ok(()) }
     }
 
     /// The scripts outside of the tree: those attached to objects, and a main script of the scene's own.

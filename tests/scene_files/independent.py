@@ -16,13 +16,19 @@ def line(*fields):
 
 
 for path in sys.argv[2:]:
-    _, _, _, found = parse_ttt.parse_file(path)
+    _, _, tree, found = parse_ttt.parse_file(path)
     line("file", path)
     places = {entry["handle"]: place for place, entry in enumerate(found["objects"])}
     for entry in found["objects"]:
         # The pose is x y z qx qy qz qw; the mass of a compound is that of its root.
         fields = [entry["kind"], clean(entry["alias"]), places.get(entry["parent"], -1), *entry["pose"]]
         line("object", *fields, entry.get("mass"))
+    for place, entry in enumerate(tree.get("object", [])):
+        for blob in ("blob3", "blob2", "blob1"):
+            if blob in entry:
+                line("cells", place, entry[blob].get("voxels", entry[blob].get("points")))
+                break
+    line("textures", len(tree.get("texture", [])))
     for script in found["scripts"]:
         if script["type"] == "main" and script["defaultMain"]:
             continue

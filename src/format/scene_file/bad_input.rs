@@ -63,6 +63,17 @@ fn flipped_bits_do_no_harm() {
 }
 
 #[test]
+fn an_object_at_no_place_is_an_error() {
+    let mut scene = Scene::new();
+    scene.add("far", crate::scene::Kind::Dummy(crate::scene::dummy::Dummy::new(0.1))).unwrap();
+    let mut file = super::save::scene(&scene, &[]).unwrap();
+    let far = crate::scene::Pose::translation(1e300, 0.0, 0.0);
+    file.contents.objects[0].common.pose = Some(far.into());
+    let error = SceneFile::read(&file.write()).err().unwrap().to_string();
+    assert!(error.contains("far") && error.contains("no place"), "{error}");
+}
+
+#[test]
 fn lengths_that_lie_are_errors_with_their_place() {
     for length in [i32::MAX, -1, i32::MIN, 1 << 24] {
         let chunk = [&b"VIN"[..], &length.to_le_bytes(), b"EOF"].concat();

@@ -1,8 +1,9 @@
-//! Properties of what is only looked at: lights, graphs, octrees and point clouds. Octrees and point clouds are empty so far.
+//! Properties of what is only looked at: lights, graphs, octrees and point clouds.
 
 use super::Color;
 use super::access::{Accessor, finite, length, object_properties, refused};
 use crate::scene::sensors::Graph;
+use crate::script::Bytes;
 
 pub(super) const LIGHT: &[Accessor] = object_properties! {
     "lightSize": f64, |o| o.light()?.size, Appearance |o, size| o.light_mut()?.size = length(size)?;
@@ -33,11 +34,15 @@ pub(super) const GRAPH: &[Accessor] = object_properties! {
 };
 
 pub(super) const OCTREE: &[Accessor] = object_properties! {
-    "voxelSize": f64, |o| o.octree()?.voxel_size,
-        Geometry |o, size| o.octree_mut()?.voxel_size = finite(size)?.clamp(0.001, 1.0);
+    "voxelSize": f64, |o| o.octree()?.voxel_size(),
+        Geometry |o, size| o.octree_mut()?.set_voxel_size(finite(size)?);
+    "voxels": Vec<f64>, |o| o.octree()?.voxels().flat_map(|(centre, _)| centre).collect();
+    "colors": Bytes, |o| Bytes(o.octree()?.voxels().flat_map(|(_, voxel)| voxel.colour).collect());
 };
 
 pub(super) const POINT_CLOUD: &[Accessor] = object_properties! {
+    "points": Vec<f64>, |o| o.point_cloud()?.points.iter().flat_map(|point| point.position).collect();
+    "colors": Bytes, |o| Bytes(o.point_cloud()?.points.iter().flat_map(|point| point.colour).collect());
     "ocTreeStruct": bool, |o| o.point_cloud()?.uses_octree, Geometry |o, on| o.point_cloud_mut()?.uses_octree = on;
     "pointSize": i64, |o| o.point_cloud()?.point_size,
         Appearance |o, pixels| o.point_cloud_mut()?.point_size = pixels.clamp(1, 20);

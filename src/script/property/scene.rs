@@ -114,6 +114,7 @@ pub(super) const ENVIRONMENT: &[Accessor] = settings! {
 
 pub(super) const IDENTITY: &[Accessor] = subject_properties! {
     "sceneUid": i64, |s| s.sim.scene_uid();
+    "sceneIsLocked": bool, |s| s.sim.scene.borrow().settings().locked;
     "sceneUidString": String, |s| s.sim.scene_uid_text();
 };
 

@@ -4,10 +4,13 @@ use super::{Context, custom_data, path};
 use crate::format::ttt::chunks::{Common, UserParams};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{Counted, Text};
-use crate::scene::{Data, Field, Handle, Movement, NOT_MODEL, Object, Scene, SceneResult, clean_alias};
+use crate::scene::assembly::Assembly;
+use crate::scene::{Data, Field, Handle, Movement, NOT_MODEL, Object, Pose, Scene, SceneResult, clean_alias};
 
 /// Written since 2.5 into every property; where it is missing, the object was hidden.
 const NOT_HIDDEN: i64 = 0x4;
+/// Before, a pose that is not the identity was used.
+const ASSEMBLY_POSE_BIT_SINCE: i32 = 20;
 
 /// The alias, or what older files call the object up to the number of its copy.
 pub(super) fn alias(common: &Common) -> String {
@@ -34,6 +37,8 @@ pub(super) fn fill(scene: &mut Scene, context: &Context<'_>, handle: Handle, obj
         new.hierarchy_colour = common.hierarchy_colour.unwrap_or(-1).into();
         new.self_collision_indicator = common.self_collision_indicator.unwrap_or(0).into();
         new.priority = common.script_exec_priority.map_or(1, i64::from).clamp(0, 2);
+        new.assembly = assembly(common, context.header.serialization);
+        new.extension_string = common.extension_string.as_ref().map(Text::decode).unwrap_or_default();
         new.user_params = user_params(common.user_params.as_ref());
         custom_data::fill(
             &mut new.custom_data,
@@ -86,6 +91,29 @@ fn movement(common: &Common) -> Movement {
     }
     movement.options = forbidden(common);
     movement
+}
+
+/// Old files have numbers for words, and say with bits what can be no child or no parent.
+fn assembly(common: &Common, serialization: i32) -> Assembly {
+    let usual = Assembly::default();
+    let words = |words: &Counted<Text>| words.0.iter().map(Text::decode).collect::<Vec<_>>();
+    let [cannot_be_child, cannot_be_parent] = [5, 6].map(|bit| common.old_switches.unwrap_or(0) >> bit & 1 == 1);
+    let old = |number: i32, cannot: bool| match number {
+        _ if cannot => Vec::new(),
+        0 => vec![Assembly::WORD.to_owned()],
+        number => vec![number.to_string()],
+    };
+    let (child_words, parent_words) = match (&common.assembly, common.old_assembly) {
+        (Some((child, parent)), _) => (words(child), words(parent)),
+        (None, Some([child, parent])) => (old(child, cannot_be_child), old(parent, cannot_be_parent)),
+        (None, None) => (usual.child_words, usual.parent_words),
+    };
+    let pose = common.assembly_pose.and_then(|pose| pose.pose()).unwrap_or_default();
+    let moves = match common.switches {
+        Some(switches) if serialization >= ASSEMBLY_POSE_BIT_SINCE => switches & 0x80 != 0,
+        _ => pose != Pose::identity(),
+    };
+    Assembly { pose, moves, child_words, parent_words }
 }
 
 /// What a hand may not do to the object. Old files forbid moving and turning together.

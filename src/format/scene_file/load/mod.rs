@@ -1,5 +1,6 @@
 //! Out of a file into the scene: objects with new handles, then who belongs to whom (section 10 of the format).
 
+pub(super) mod cells;
 mod common;
 mod custom_data;
 mod joint;
@@ -18,6 +19,7 @@ use super::{Loaded, LoadedScript, ScriptCode, read_file};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{File, FileError, FileKind, FileResult, Header};
 use crate::scene::dummy::{Dummy, LinkType};
+use crate::scene::poses::is_place;
 use crate::scene::{Handle, Kind, Scene, SceneResult};
 use mesh::Meshes;
 
@@ -47,11 +49,12 @@ impl SceneFile {
     }
 
     /// # Errors
-    /// When geometry is damaged.
+    /// When geometry, a tree of cells or a pose is damaged.
     pub fn new(file: File) -> FileResult<Self> {
         let mut context = Context { header: &file.header, file: &file, meshes: Meshes::new(&file) };
-        let kinds =
-            file.contents.objects.iter().map(|object| kind_of(&mut context, object)).collect::<Result<_, _>>()?;
+        let objects = &file.contents.objects;
+        objects.iter().try_for_each(stands_somewhere)?;
+        let kinds = objects.iter().map(|object| kind_of(&mut context, object)).collect::<Result<_, _>>()?;
         Ok(Self { file, kinds })
     }
 
@@ -118,8 +121,10 @@ fn kind_of(context: &mut Context<'_>, object: &FileObject) -> FileResult<Kind> {
         Class::Camera(camera) => Kind::Camera(Box::new(sensors::camera(camera))),
         Class::Light(light) => Kind::Light(Box::new(sensors::light(light))),
         Class::Graph(graph) => Kind::Graph(Box::new(sensors::graph(graph))),
-        Class::OcTree(tree) => Kind::OcTree(Box::new(sensors::octree(tree))),
-        Class::PointCloud(cloud) => Kind::PointCloud(Box::new(sensors::point_cloud(cloud))),
+        Class::OcTree(tree) => Kind::OcTree(Box::new(cells::octree(tree).map_err(|what| damaged(object, what))?)),
+        Class::PointCloud(cloud) => {
+            Kind::PointCloud(Box::new(cells::point_cloud(cloud).map_err(|what| damaged(object, what))?))
+        }
         Class::ScriptObject(script) => Kind::Script(Box::new(script::object(script, context))),
         Class::Path(_)
         | Class::Mirror(_)
@@ -132,6 +137,13 @@ fn kind_of(context: &mut Context<'_>, object: &FileObject) -> FileResult<Kind> {
             Kind::Dummy(dummy)
         }
     })
+}
+
+fn stands_somewhere(object: &FileObject) -> FileResult<()> {
+    match object.common.pose.and_then(|pose| pose.pose()) {
+        Some(pose) if !is_place(&pose) => Err(damaged(object, "the pose of an object is no place".into())),
+        _ => Ok(()),
+    }
 }
 
 fn damaged(object: &FileObject, what: String) -> FileError {

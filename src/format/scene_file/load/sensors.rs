@@ -1,10 +1,10 @@
-//! Sensors, cameras, lights, graphs, voxels, and colours (sections 7.1 and 7.4 of the format).
+//! Sensors, cameras, lights, graphs, and colours (sections 7.1 and 7.4 of the format).
 
 use super::Context;
 use crate::format::ttt::chunks as file;
 use crate::scene::colour::Colour;
 use crate::scene::sensor_volume::{PYRAMID, RAY, Volume};
-use crate::scene::sensors::{Camera, Graph, Light, OcTree, PointCloud, ProximitySensor, View, VisionSensor};
+use crate::scene::sensors::{Camera, Graph, Light, ProximitySensor, View, VisionSensor};
 
 const EVERYTHING: i32 = -1;
 /// Where this bit of a colour is clear, it is translucent.
@@ -185,20 +185,4 @@ pub(super) fn graph(chunk: &file::Graph) -> Graph {
     let switches = chunk.gps.unwrap_or(1);
     (graph.cyclic, graph.explicit) = (switches & 1 != 0, switches & 0x10 != 0);
     graph
-}
-
-pub(super) fn octree(chunk: &file::OcTree) -> OcTree {
-    let (voxel_size, point_size) = chunk.sizes.unwrap_or((0.05, 8));
-    OcTree { voxel_size, point_size: point_size.into() }
-}
-
-pub(super) fn point_cloud(chunk: &file::PointCloud) -> PointCloud {
-    let (max_cell_size, point_size) = chunk.sizes.unwrap_or((0.02, 2));
-    PointCloud {
-        max_cell_size,
-        max_points_in_cell: chunk.cells.map_or(20, |(points, _)| points.into()),
-        point_size: point_size.into(),
-        uses_octree: chunk.flags.unwrap_or(0) & 0x10 == 0,
-        display_fraction: chunk.display_ratio.unwrap_or(1.0),
-    }
 }

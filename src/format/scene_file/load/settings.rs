@@ -4,6 +4,7 @@ use super::custom_data;
 use super::material::load_all;
 use crate::format::ttt::chunks::{Dynamics, Environment, Simulation};
 use crate::format::ttt::{File, Text};
+use crate::scene::surroundings::{Fog, Surroundings};
 use crate::scene::{Data, DynamicsSettings, Scene, SceneResult, Settings};
 
 /// Simulation steps of the presets of old files, seconds; the next number means a step of one's own.
@@ -11,6 +12,9 @@ const STEP_PRESETS: [f64; 5] = [0.2, 0.1, 0.05, 0.025, 0.01];
 /// The preset of the physics that means settings of one's own.
 const CUSTOM: i32 = 5;
 const MICROSECOND: f64 = 1e-6;
+/// Bits of the surroundings.
+const FOG: u8 = 0x10;
+const LOCKED: u8 = 0x20;
 
 pub(super) fn apply(scene: &mut Scene, file: &File) -> SceneResult<()> {
     let contents = &file.contents;
@@ -83,6 +87,20 @@ fn dynamics(settings: &mut DynamicsSettings, chunk: &Dynamics) {
 fn environment(settings: &mut Settings, chunk: &Environment) {
     settings.visibility_layers = chunk.active_layers.map_or(settings.visibility_layers, i64::from);
     settings.acknowledgment = chunk.acknowledgment.as_ref().map(Text::decode).unwrap_or_default();
+    let switches = chunk.switches.unwrap_or(0);
+    settings.locked = switches & LOCKED != 0;
+    let (fog_type, [start, density]) = chunk.fog.unwrap_or_default();
+    let fog =
+        Fog { enabled: switches & FOG != 0, fog_type, start, end: chunk.fog_end, density, colour: chunk.fog_colour };
+    let usual = Surroundings::default();
+    let [largest, relative] = usual.triangle_sizes;
+    settings.surroundings = Surroundings {
+        fog,
+        background: chunk.bg_up.map(|up| [up, chunk.bg_down.unwrap_or(up)]),
+        display: switches & !(LOCKED | FOG),
+        triangle_sizes: [chunk.max_tri_size.unwrap_or(largest), chunk.min_rel_tri.unwrap_or(relative)],
+        extension_string: chunk.extension_string.as_ref().map(Text::decode).unwrap_or_default(),
+    };
 }
 
 /// Before 3.2 it was half as bright.

@@ -26,7 +26,10 @@ pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Comm
         self_collision_indicator: Some(object.self_collision_indicator as i32),
         object_property: Some(object.object_property as i32 | WRITTEN_SINCE_2_5),
         switches_2: Some(model | old_switches(movement.options)),
-        switches: Some(model | switches(movement.options)),
+        switches: Some(model | switches(movement.options) | u8::from(object.assembly.moves) << 7),
+        assembly_pose: Some(object.assembly.pose.into()),
+        assembly: Some((words(&object.assembly.child_words), words(&object.assembly.parent_words))),
+        extension_string: Some(object.extension_string.as_str().into()),
         locks: Some((movement.options >> 4 & 3) as u8),
         special_property: Some(object.special_property as i32),
         model_property: Some(object.model_property as i32),
@@ -85,6 +88,10 @@ fn old_switches(options: i64) -> u8 {
 
 fn bits(options: i64, table: &[(i64, u8)]) -> u8 {
     table.iter().filter(|(option, _)| options & option != 0).fold(0, |bits, (_, bit)| bits | bit)
+}
+
+fn words(words: &[String]) -> Counted<Text> {
+    Counted(words.iter().map(|word| word.as_str().into()).collect())
 }
 
 fn user_params(object: &Object) -> Option<UserParams> {

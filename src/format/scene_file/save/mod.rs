@@ -3,6 +3,7 @@
 //! Written is what the scene holds. Chunks that only programs before 4.5 look at are left out, apart from the geometry frames that
 //! early revisions of 4.5.1 still use.
 
+mod cells;
 mod colour;
 mod common;
 mod custom_data;
@@ -119,8 +120,8 @@ fn class(context: &mut Context<'_>, object: &Object) -> Class {
         Kind::Camera(camera) => Class::Camera(Box::new(sensors::camera(context, camera, colour))),
         Kind::Light(light) => Class::Light(Box::new(sensors::light(light, colour))),
         Kind::Graph(graph) => Class::Graph(Box::new(sensors::graph(graph, colour))),
-        Kind::OcTree(tree) => Class::OcTree(Box::new(sensors::octree(tree, colour))),
-        Kind::PointCloud(cloud) => Class::PointCloud(Box::new(sensors::point_cloud(cloud, colour))),
+        Kind::OcTree(tree) => Class::OcTree(Box::new(cells::octree(tree, colour))),
+        Kind::PointCloud(cloud) => Class::PointCloud(Box::new(cells::point_cloud(cloud, colour))),
         Kind::Script(script) => Class::ScriptObject(Box::new(script::object(script, object.handle(), colour))),
     }
 }

@@ -1,11 +1,11 @@
-//! Sensors, cameras, lights, graphs, voxels.
+//! Sensors, cameras, lights, graphs.
 
 use super::{Context, colour};
 use crate::format::ttt::Counted;
 use crate::format::ttt::chunks as file;
 use crate::scene::Handle;
 use crate::scene::sensor_volume::{RAY, Volume};
-use crate::scene::sensors::{Camera, Graph, Light, OcTree, PointCloud, ProximitySensor, VisionSensor};
+use crate::scene::sensors::{Camera, Graph, Light, ProximitySensor, VisionSensor};
 
 /// The first type of proximity sensors; their volumes count from 0.
 const FIRST_SENSOR_TYPE: i32 = 30;
@@ -19,7 +19,7 @@ const ALL_MANIPULATIONS: i32 = 31;
 type Colour = Option<file::Colour>;
 
 /// A number of bits, each from its switch.
-fn bits(switches: &[(bool, u8)]) -> u8 {
+pub(super) fn bits(switches: &[(bool, u8)]) -> u8 {
     switches.iter().filter(|(on, _)| *on).fold(0, |bits, (_, bit)| bits | 1 << bit)
 }
 
@@ -140,21 +140,5 @@ pub(super) fn graph(graph: &Graph, colour: Colour) -> file::Graph {
         buffer: Some([graph.buffer_size as i32, 0]),
         gps: Some(bits(&[(graph.cyclic, 0), (true, 1), (true, 2), (true, 3), (graph.explicit, 4)])),
         ..file::Graph::default()
-    }
-}
-
-pub(super) fn octree(tree: &OcTree, colour: Colour) -> file::OcTree {
-    let flags = Some(bits(&[(true, 4)]));
-    file::OcTree { sizes: Some((tree.voxel_size, tree.point_size as i32)), flags, colour, ..file::OcTree::default() }
-}
-
-pub(super) fn point_cloud(cloud: &PointCloud, colour: Colour) -> file::PointCloud {
-    file::PointCloud {
-        sizes: Some((cloud.max_cell_size, cloud.point_size as i32)),
-        display_ratio: Some(cloud.display_fraction),
-        cells: Some((cloud.max_points_in_cell as i32, cloud.max_cell_size)),
-        flags: Some(bits(&[(true, 3), (!cloud.uses_octree, 4)])),
-        colour,
-        ..file::PointCloud::default()
     }
 }

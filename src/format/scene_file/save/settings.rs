@@ -71,14 +71,23 @@ fn dynamics(settings: &Settings) -> Dynamics {
 }
 
 fn environment(scene: &Scene) -> Environment {
+    let around = &scene.settings().surroundings;
+    let (fog, [largest, relative]) = (&around.fog, around.triangle_sizes);
     let ambient = scene.kept.get("ambientLight").and_then(three);
     Environment {
         active_layers: Some(scene.settings().visibility_layers as u16),
         old_ambient: ambient.map(|light| light.map(|c| c / 2.0)),
         ambient,
         acknowledgment: Some(scene.settings().acknowledgment.as_str().into()),
-        max_tri_size: Some(0.3),
-        min_rel_tri: Some(0.02),
+        max_tri_size: Some(largest),
+        min_rel_tri: Some(relative),
+        fog_end: fog.end,
+        fog: Some((fog.fog_type, [fog.start, fog.density])),
+        fog_colour: fog.colour,
+        bg_up: around.background.map(|[up, _]| up),
+        bg_down: around.background.map(|[_, down]| down),
+        switches: Some(around.display | u8::from(fog.enabled) << 4 | u8::from(scene.settings().locked) << 5),
+        extension_string: Some(around.extension_string.as_str().into()),
         ..Environment::default()
     }
 }

@@ -1,0 +1,38 @@
+//! What surrounds the objects of a scene. Kept for files: nothing is drawn.
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surroundings {
+    pub fog: Fog,
+    /// Colours of the background, above and below; none where the file does not tell.
+    pub background: Option<[[f32; 3]; 2]>,
+    /// Bits of a file for what is shown: textures, emitters, receivers.
+    pub display: u8,
+    /// Largest side of triangles in calculations (m), and the smallest beside the object.
+    pub triangle_sizes: [f64; 2],
+    /// Settings of renderers, such as `openGL3 {...}`.
+    pub extension_string: String,
+}
+
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Fog {
+    pub enabled: bool,
+    /// 0 linear, 1 exponential, 2 exponential of the square.
+    pub fog_type: i32,
+    /// Metres.
+    pub start: f64,
+    pub end: Option<f64>,
+    pub density: f64,
+    pub colour: Option<[f32; 3]>,
+}
+
+impl Default for Surroundings {
+    fn default() -> Self {
+        Self {
+            fog: Fog::default(),
+            background: None,
+            display: 0,
+            triangle_sizes: [0.3, 0.02],
+            extension_string: String::new(),
+        }
+    }
+}
