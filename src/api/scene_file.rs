@@ -14,6 +14,9 @@ use crate::script::{SceneSource, write_named};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, save_scene, close_scene, load_model, save_model];
 
+/// What asks for a scene beside the present one, after the name of its file.
+const KEEP_CURRENT: &str = "@keepCurrent";
+
 /// A text as long as this is a file, not its name.
 const LONGEST_NAME: usize = 1000;
 
@@ -25,6 +28,11 @@ const LONGEST_NAME: usize = 1000;
 #[api("sim.loadScene")]
 fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
     let (source, path) = match FileOrBytes::new(filename_or_buffer)? {
+        FileOrBytes::Name(name) if name.ends_with(KEEP_CURRENT) => {
+            return Err(ApiError::Other(
+                "scenes beside the current one (@keepCurrent) are not implemented in Swanilda.".into(),
+            ));
+        }
         FileOrBytes::Name(name) if name.is_empty() => (SceneSource::Default, None),
         FileOrBytes::Name(name) => (scene_source(&name, read(&name)?, folder_of(&name))?, Some(absolute(&name))),
         FileOrBytes::Bytes(bytes) => (scene_source("the buffer", bytes, None)?, None),
@@ -37,9 +45,13 @@ fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
 /// Adds a model to the scene, where it was saved.
 ///
 /// @param filenameOrBuffer a `.ttm` or `.simmodel.xml` file or its bytes
+/// @param onlyThumbnails of no use: nothing is shown
 /// @return objectHandle the base of the model
 #[api("sim.loadModel")]
-fn load_model(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
+fn load_model(cx: &mut Cx, filename_or_buffer: Data, #[default(false)] only_thumbnails: bool) -> Result<i64> {
+    if only_thumbnails {
+        return Err(ApiError::Other("thumbnails of models are not implemented in Swanilda.".into()));
+    }
     let file = match FileOrBytes::new(filename_or_buffer)? {
         FileOrBytes::Name(name) => scene_file(&name, &read(&name)?, folder_of(&name))?,
         FileOrBytes::Bytes(bytes) => scene_file("the buffer", &bytes, None)?,

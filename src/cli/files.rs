@@ -19,5 +19,10 @@ pub(super) fn file(path: &Path) -> Result<File, String> {
 /// # Errors
 /// When it cannot be read, or its geometry is damaged.
 pub(super) fn scene(path: &Path) -> Result<SceneFile, String> {
-    SceneFile::new(file(path)?).map_err(|error| format!("cannot read {}: {error}", path.display()))
+    let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
+    let scene = SceneFile::new(file(path)?).map_err(|error| unreadable(error.to_string()))?;
+    if !scene_folder::is_scene(path) {
+        return Ok(scene);
+    }
+    Ok(scene.with_sources(scene_folder::sources(path).map_err(unreadable)?))
 }

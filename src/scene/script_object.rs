@@ -25,6 +25,8 @@ impl ScriptType {
 pub struct ScriptObject {
     pub script_type: ScriptType,
     pub code: Vec<u8>,
+    /// The file the text is from, as stack traces name it; none for a text that only the scene has.
+    pub source: Option<String>,
     pub language: String,
     pub disabled: bool,
     pub restart_on_error: bool,
@@ -42,6 +44,7 @@ impl ScriptObject {
         Self {
             script_type,
             code,
+            source: None,
             language: language.to_owned(),
             disabled: disabled || !runs || !matches!(language, "lua" | "python"),
             restart_on_error: false,

@@ -10,6 +10,11 @@ use crate::scene::{Handle, Scene};
 /// Where old files say that a script comes before, with or after the others; later ones count from 0.
 const NORMAL_PRIORITY: i64 = 1;
 
+/// A file as Lua shows it in positions: as it is, without quotes.
+fn file_name(path: &str) -> String {
+    format!("@{path}")
+}
+
 impl Sim {
     /// Attaches a script to an object, as scenes before 4.7 have it.
     pub(crate) fn attach_script(&self, owner: Handle, script: &ScriptObject, exec_order: i64) -> Rc<Script> {
@@ -22,6 +27,7 @@ impl Sim {
                 disabled: script.disabled,
                 priority: (NORMAL_PRIORITY + exec_order).clamp(0, 2),
                 owner: Some(owner),
+                source: script.source.clone(),
                 ..Detached::default()
             },
         )
@@ -50,12 +56,16 @@ impl Sim {
     pub(super) fn code_of(&self, script: &Script) -> (Vec<u8>, String) {
         let Some(handle) = script.object else {
             let detached = script.detached.borrow();
-            let name = if detached.owner.is_some() { self.log_name(script) } else { detached.chunk_name.clone() };
+            let name = match &detached.source {
+                Some(file) => file_name(file),
+                None if detached.owner.is_some() => self.log_name(script),
+                None => detached.chunk_name.clone(),
+            };
             return (detached.code.clone(), name);
         };
-        let code =
-            self.scene.borrow().object(handle).and_then(|o| o.script()).map(|s| s.code.clone()).unwrap_or_default();
-        (code, self.log_name(script))
+        let text = |s: &ScriptObject| (s.code.clone(), s.source.as_deref().map(file_name));
+        let (code, file) = self.scene.borrow().object(handle).and_then(|o| o.script()).map(text).unwrap_or_default();
+        (code, file.unwrap_or_else(|| self.log_name(script)))
     }
 
     /// The script that Lua calls `name` in positions, under its full name, and its text. Lua cuts long names and ends them with dots.

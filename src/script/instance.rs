@@ -39,6 +39,8 @@ pub(crate) struct Detached {
     pub code: Vec<u8>,
     /// How Lua names the text in error positions.
     pub chunk_name: String,
+    /// The file the text is from, which stands for the name.
+    pub source: Option<String>,
     pub disabled: bool,
     pub restart_on_error: bool,
     pub priority: i64,

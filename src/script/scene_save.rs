@@ -68,6 +68,7 @@ impl Sim {
                 code: detached.code.clone(),
                 language: detached.language().to_owned(),
                 disabled: detached.disabled,
+                source: None,
                 exec_order: detached.priority - NORMAL_PRIORITY,
             })
         });

@@ -92,11 +92,14 @@ impl Sim {
         match (script.script_type, script.owner) {
             (ScriptType::Main, _) => {
                 if let Some(main) = self.detached(ScriptType::Main) {
-                    main.detached.borrow_mut().code.clone_from(&script.code);
+                    let mut main = main.detached.borrow_mut();
+                    main.code.clone_from(&script.code);
+                    main.source.clone_from(&script.source);
                 }
             }
             (script_type, Some(owner)) => {
-                let object = ScriptObject::new(script_type, script.code.clone(), &script.language, script.disabled);
+                let mut object = ScriptObject::new(script_type, script.code.clone(), &script.language, script.disabled);
+                object.source.clone_from(&script.source);
                 self.attach_script(owner, &object, script.exec_order);
             }
             (_, None) => {}
@@ -110,7 +113,9 @@ impl Sim {
             self.remove_objects(&everything)?;
         }
         if let Some(main) = self.detached(ScriptType::Main) {
-            main.detached.borrow_mut().code = self.registry.modules["main"].source.as_bytes().to_vec();
+            let mut main = main.detached.borrow_mut();
+            main.code = self.registry.modules["main"].source.as_bytes().to_vec();
+            main.source = None;
         }
         self.app.borrow_mut().closed_scenes += 1;
         let mut scene = self.scene.borrow_mut();

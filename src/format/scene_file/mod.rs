@@ -69,8 +69,17 @@ pub struct LoadedScript {
     /// The object it is attached to; none for the main script.
     pub owner: Option<Handle>,
     pub code: Vec<u8>,
+    /// The file the text is from, as stack traces name it.
+    pub source: Option<String>,
     pub language: String,
     pub disabled: bool,
     /// -1 before, 0 with, 1 after the others.
     pub exec_order: i64,
+}
+
+/// The files that the texts of scripts are from, by the places of objects and of scripts outside of the tree in the file.
+#[derive(Debug, Clone, Default)]
+pub struct ScriptSources {
+    pub objects: Vec<Option<String>>,
+    pub attached: Vec<Option<String>>,
 }

@@ -8,6 +8,7 @@ mod obj;
 
 use std::path::{Component, Path};
 
+use crate::format::scene_file::ScriptSources;
 use crate::format::ttt::File;
 use crate::format::ttt::chunks::{MeshData, MeshNode};
 use crate::format::ttt::node::{Node, NodeResult, at};
@@ -17,7 +18,8 @@ use names::Names;
 /// The file with the tree.
 const TREE: &str = "scene.json";
 /// Folders that belong to a scene; what is in them is replaced.
-const PARTS: [&str; 3] = ["scripts", "meshes", "data"];
+const PARTS: [&str; 3] = [SCRIPTS, "meshes", "data"];
+const SCRIPTS: &str = "scripts";
 /// Bytes up to this number stand in the tree.
 const SHORT: usize = 64;
 
@@ -60,13 +62,42 @@ pub fn unpack(file: &File, folder: &Path) -> NodeResult<()> {
 /// # Errors
 /// What is wrong, and where in the tree.
 pub fn pack(folder: &Path) -> NodeResult<File> {
-    let text = read(folder, TREE)?;
-    let mut tree =
-        at(TREE, String::from_utf8(text).map_err(|error| error.to_string()).and_then(|text| Node::parse(&text)))?;
+    let mut tree = tree(folder)?;
     bring_in(folder, &mut tree)?;
     let mut file = at(TREE, File::from_node(&tree))?;
     put_meshes(folder, &mut file)?;
     Ok(file)
+}
+
+/// Which files of an unpacked scene hold the texts of its scripts.
+///
+/// # Errors
+/// When the tree of the folder cannot be read.
+pub fn sources(folder: &Path) -> NodeResult<ScriptSources> {
+    let tree = tree(folder)?;
+    let list = |name: &str| match tree.get("contents").and_then(|contents| contents.get(name)) {
+        Some(Node::List(items)) => items.iter().map(|item| Some(path_of(folder, source(item)?))).collect(),
+        _ => Vec::new(),
+    };
+    Ok(ScriptSources { objects: list("objects"), attached: list("scripts") })
+}
+
+fn tree(folder: &Path) -> NodeResult<Node> {
+    let text = String::from_utf8(read(folder, TREE)?).map_err(|error| error.to_string());
+    at(TREE, text.and_then(|text| Node::parse(&text)))
+}
+
+fn path_of(folder: &Path, name: &str) -> String {
+    folder.join(name).to_string_lossy().into_owned()
+}
+
+/// The file of the script of an object.
+fn source(node: &Node) -> Option<&str> {
+    let Node::Table(entries) = node else { return None };
+    entries.iter().find_map(|(key, item)| match item {
+        Node::Text(name) if key == "file" && name.starts_with(SCRIPTS) => Some(name.as_str()),
+        _ => source(item),
+    })
 }
 
 fn mesh_name(number: i32) -> String {

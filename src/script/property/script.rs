@@ -82,7 +82,7 @@ pub(super) const SCRIPT: &[Accessor] = subject_properties! {
     "scriptState": i64, |s| s.script()?.state();
     "language": String, |s| s.read_script(|o| o.language.clone(), |d| d.language().to_owned())?;
     "code": super::Text, |s| super::Text(s.read_script(|o| o.code.clone(), |d| d.code.clone())?),
-        |s, code| { let (text, copy) = (code.0.clone(), code.0); s.write_script(|o| o.code = text, |d| d.code = copy)? };
+        |s, code| { let (text, copy) = (code.0.clone(), code.0); s.write_script(|o| (o.code, o.source) = (text, None), |d| (d.code, d.source) = (copy, None))? };
     "scriptName": String, |s| s.script_name()?;
     "addOnPath": String, |s| s.read_script(|_| String::new(), |d| d.path.clone())?;
     "addOnMenuPath": String, |s| s.read_script(|_| String::new(), |_| String::new())?;

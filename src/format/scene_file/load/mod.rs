@@ -15,7 +15,7 @@ mod shape;
 
 use std::collections::BTreeMap;
 
-use super::{Loaded, LoadedScript, ScriptCode, read_file};
+use super::{Loaded, LoadedScript, ScriptCode, ScriptSources, read_file};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{File, FileError, FileKind, FileResult, Header};
 use crate::scene::dummy::{Dummy, LinkType};
@@ -37,6 +37,7 @@ type HandleMap = BTreeMap<i32, Handle>;
 pub struct SceneFile {
     file: File,
     kinds: Vec<Kind>,
+    attached_sources: Vec<Option<String>>,
 }
 
 impl SceneFile {
@@ -55,7 +56,18 @@ impl SceneFile {
         let objects = &file.contents.objects;
         objects.iter().try_for_each(stands_somewhere)?;
         let kinds = objects.iter().map(|object| kind_of(&mut context, object)).collect::<Result<_, _>>()?;
-        Ok(Self { file, kinds })
+        Ok(Self { file, kinds, attached_sources: Vec::new() })
+    }
+
+    /// With the names of the files that the texts of its scripts are from.
+    pub fn with_sources(mut self, sources: ScriptSources) -> Self {
+        for (kind, source) in self.kinds.iter_mut().zip(sources.objects) {
+            if let Kind::Script(script) = kind {
+                script.source = source;
+            }
+        }
+        self.attached_sources = sources.attached;
+        self
     }
 
     /// A model, to be added to a scene; not a scene.
@@ -79,7 +91,7 @@ impl SceneFile {
     /// # Errors
     /// When the scene is full.
     pub fn add_to(self, scene: &mut Scene, settings: bool) -> SceneResult<Loaded> {
-        let Self { file, kinds } = self;
+        let Self { file, kinds, attached_sources } = self;
         let context = Context { header: &file.header, file: &file, meshes: Meshes::new(&file) };
         let objects = file.contents.objects.iter().zip(kinds).map(|(object, kind)| add(scene, &context, object, kind));
         let objects = objects.collect::<SceneResult<Vec<Handle>>>()?;
@@ -93,7 +105,11 @@ impl SceneFile {
         for script in &file.contents.scripts {
             script::hand_over(scene, script, &context, &map)?;
         }
-        let scripts = file.contents.scripts.iter().filter_map(|script| script::attached(script, &context, &map));
+        let sources = attached_sources.into_iter().chain(std::iter::repeat(None));
+        let scripts =
+            file.contents.scripts.iter().zip(sources).filter_map(|(script, source)| {
+                Some(LoadedScript { source, ..script::attached(script, &context, &map)? })
+            });
         let filters = file.contents.objects.iter().zip(&objects).filter_map(|(o, handle)| script::filters(o, *handle));
         let scripts: Vec<LoadedScript> = scripts.chain(filters).collect();
         Ok(Loaded { objects, root, scripts })
