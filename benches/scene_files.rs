@@ -34,8 +34,7 @@ fn scene_file(megabytes: usize) -> Vec<u8> {
         let text = MESHES.replace("COUNT", &meshes.to_string());
         sim.add_script(ScriptKind::Customization, "meshes", text.as_bytes()).expect("the script runs");
         assert_eq!(sim.errors(), 0);
-        let bytes = SceneFile::bytes_of(&sim.scene(), &[]).expect("the tree is sound");
-        bytes
+        SceneFile::bytes_of(&sim.scene(), &[]).expect("the tree is sound")
     };
     let each = (file(3).len() - file(1).len()) / 2;
     file((megabytes * 1_000_000).div_ceil(each))
