@@ -313,6 +313,16 @@ function sim.cancelScheduledExecution(id) end
 ---@return table[] originalColors for sim.restoreEntityColor
 function sim.changeEntityColor(entityHandle, color, component) end
 
+--- Whether points are in voxels.
+---@param octreeHandle integer the octree
+---@param options integer 1: points are relative to the octree
+---@param points number[] x, y, z of each
+---@return integer result 1 when all are
+---@return integer tag the number of the voxel, for a single point
+---@return integer locationLow 0
+---@return integer locationHigh 0
+function sim.checkOctreePointOccupancy(octreeHandle, options, points) end
+
 --- Removes a buffer signal.
 ---@param name string of the signal
 ---@return integer result 1 if it existed, else 0
@@ -448,7 +458,7 @@ function sim.createMeshShape(options, shadingAngle, vertices, indices, normals, 
 
 --- A new, empty octree at the world's origin.
 ---@param voxelSize? number edge of a voxel, metres
----@param options? integer for display
+---@param options? integer 2: random colours; others for display
 ---@param pointSize? number for display, pixels
 ---@return integer handle the octree
 function sim.createOctree(voxelSize, options, pointSize) end
@@ -466,7 +476,7 @@ function sim.createPath(ctrlPts, options, subdiv, smoothness, orientationMode, u
 --- A new, empty point cloud at the world's origin.
 ---@param maxVoxelSize? number largest cell, metres
 ---@param maxPtCntPerVoxel? integer most points in a cell
----@param options? integer 8: points are not kept in an octree; others for display
+---@param options? integer 2: random colours, 8: points are not kept in an octree; others for display
 ---@param pointSize? number for display, pixels
 ---@return integer handle the point cloud
 function sim.createPointCloud(maxVoxelSize, maxPtCntPerVoxel, options, pointSize) end
@@ -1232,6 +1242,11 @@ function sim.getObjectsInTree(treeBaseHandle, objectType, options) end
 ---@return integer[] objects breadth first
 function sim.getObjectsWithTag(tag, justModels) end
 
+--- The centres of the voxels, in the frame of the octree.
+---@param octreeHandle integer the octree
+---@return number[] voxels x, y, z of each
+function sim.getOctreeVoxels(octreeHandle) end
+
 --- Configuration at a distance along a path.
 ---@param path number[] flat table of points
 ---@param lengths number[] from sim.getPathLengths, or times
@@ -1258,6 +1273,19 @@ function sim.getPersistentDataTags() end
 ---@param index integer from 0
 ---@return string pluginName nil
 function sim.getPluginName(index) end
+
+--- How a point cloud keeps and shows its points.
+---@param pointCloudHandle integer the point cloud
+---@return number maxVoxelSize largest cell, metres
+---@return integer maxPtCntPerVoxel most points in a cell
+---@return integer options 2: random colours, 8: points are not kept in an octree
+---@return number pointSize pixels
+function sim.getPointCloudOptions(pointCloudHandle) end
+
+--- The points, in the frame of the point cloud, in the order they came.
+---@param pointCloudHandle integer the point cloud
+---@return number[] points x, y, z of each
+function sim.getPointCloudPoints(pointCloudHandle) end
 
 --- Inverse of a pose.
 ---@param pose number[] x, y, z, qx, qy, qz, qw
@@ -1839,6 +1867,24 @@ function sim.includeRel(path) end
 ---@param scriptHandle integer the script
 function sim.initScript(scriptHandle) end
 
+--- Adds points.
+---@param pointCloudHandle integer the point cloud
+---@param options integer 1: points are relative to the point cloud, 2: color holds one for each point
+---@param points number[] x, y, z of each
+---@param color? number[] red, green, blue, 0 to 255; nothing for the colour of the point cloud
+---@param duplicateTolerance? number points this near to another are left out, metres
+---@return integer totalPointCnt how many points there are now
+function sim.insertPointsIntoPointCloud(pointCloudHandle, options, points, color, duplicateTolerance) end
+
+--- Occupies the cells that points are in.
+---@param octreeHandle integer the octree
+---@param options integer 1: points are relative to the octree, 2: color and tag hold one for each point
+---@param points number[] x, y, z of each
+---@param color? number[] red, green, blue, 0 to 255; nothing for the colour of the octree
+---@param tag? any a number for the voxels; only with a color
+---@return integer totalVoxelCnt how many voxels there are now
+function sim.insertVoxelsIntoOctree(octreeHandle, options, points, color, tag) end
+
 --- Matrix between two others: positions on the line, rotations on the shortest arc.
 ---@param matrixIn1 number[] at 0
 ---@param matrixIn2 number[] at 1
@@ -1852,6 +1898,14 @@ function sim.interpolateMatrices(matrixIn1, matrixIn2, interpolFactor) end
 ---@param interpolFactor number not limited to 0 to 1
 ---@return number[] resultPose x, y, z, qx, qy, qz, qw
 function sim.interpolatePoses(poseIn1, poseIn2, interpolFactor) end
+
+--- Keeps only the points that lie near others.
+---@param pointCloudHandle integer the point cloud
+---@param options integer 1: points are relative to the point cloud
+---@param points number[] x, y, z of each
+---@param tolerance number how near, metres
+---@return integer totalPointCnt how many points are left
+function sim.intersectPointsWithPointCloud(pointCloudHandle, options, points, tolerance) end
 
 --- Inverts a matrix in place.
 ---@param matrix number[] is changed
@@ -1908,8 +1962,9 @@ function sim.loadImage(options, filename) end
 
 --- Adds a model to the scene, where it was saved.
 ---@param filenameOrBuffer any a `.ttm` or `.simmodel.xml` file or its bytes
+---@param onlyThumbnails? boolean of no use: nothing is shown
 ---@return integer objectHandle the base of the model
-function sim.loadModel(filenameOrBuffer) end
+function sim.loadModel(filenameOrBuffer, onlyThumbnails) end
 
 --- Loads a plugin of this simulator.
 ---@param name string for instance simIK
@@ -2229,6 +2284,14 @@ function sim.removeObjects(objectHandles, delayedRemoval) end
 ---@param particleObjectHandle integer from sim.addParticleObject, or sim.handle_all
 function sim.removeParticleObject(particleObjectHandle) end
 
+--- Removes the points that lie near others.
+---@param pointCloudHandle integer the point cloud
+---@param options integer 1: points are relative to the point cloud
+---@param points? number[] x, y, z of each; nothing for all points
+---@param tolerance? number how near, metres
+---@return integer totalPointCnt how many points are left
+function sim.removePointsFromPointCloud(pointCloudHandle, options, points, tolerance) end
+
 --- Removes custom data, a signal or a named parameter.
 ---@param target integer object, sim.handle_app or sim.handle_scene
 ---@param propertyName string with its prefix `customData.`, `signal.` or `namedParam.`
@@ -2245,6 +2308,13 @@ function sim.removeReferencedObjects(objectHandle, tag, delayed) end
 ---@deprecated sim.removeObject
 ---@param scriptHandle integer the script
 function sim.removeScript(scriptHandle) end
+
+--- Empties the cells that points are in.
+---@param octreeHandle integer the octree
+---@param options integer 1: points are relative to the octree
+---@param points? number[] x, y, z of each; nothing for all voxels
+---@return integer totalVoxelCnt how many voxels are left
+function sim.removeVoxelsFromOctree(octreeHandle, options, points) end
 
 --- Turns the bounding box of a shape to the axes of another object.
 ---@deprecated sim.alignShapeBB and/or sim.relocateShapeFrame
@@ -2957,6 +3027,14 @@ function sim.setObjectStringParam(objectHandle, parameterId, parameter) end
 ---@param parameterId integer
 ---@param parameter string|table the text
 function sim.setObjectStringParameter(objectHandle, parameterId, parameter) end
+
+--- Changes how a point cloud keeps and shows its points.
+---@param pointCloudHandle integer the point cloud
+---@param maxVoxelSize number largest cell, metres
+---@param maxPtCntPerVoxel integer most points in a cell
+---@param options integer 2: random colours, 8: points are not kept in an octree; others for display
+---@param pointSize number pixels
+function sim.setPointCloudOptions(pointCloudHandle, maxVoxelSize, maxPtCntPerVoxel, options, pointSize) end
 
 --- Sets a property; names below `customData.` and `signal.` are created.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
