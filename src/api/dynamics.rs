@@ -120,13 +120,12 @@ fn is_dynamically_enabled(cx: &Cx, object_handle: Handle) -> Result<bool> {
 fn get_contact_info(cx: &Cx, dynamic_pass: i64, object_handle: i64, index: i64) -> Result<ContactInfo> {
     let shape = if object_handle == special::ALL { None } else { Some(existing(cx, object_handle)?) };
     let dynamics = cx.sim().dynamics.borrow();
-    let contacts = dynamics.as_ref().map(|dynamics| dynamics.contacts()).unwrap_or_default();
+    let contacts = dynamics.iter().flat_map(|dynamics| dynamics.contacts());
     let found = contacts
-        .iter()
         .filter(|contact| dynamic_pass == special::ALL || dynamic_pass == i64::from(contact.pass))
         .filter(|contact| shape.is_none_or(|shape| contact.shapes.contains(&shape)))
         .nth(usize::try_from(index).unwrap_or(usize::MAX));
-    let Some(&contact) = found else { return Ok(Default::default()) };
+    let Some(contact) = found else { return Ok(Default::default()) };
     let contact = shape.map_or(contact, |shape| contact.seen_from(shape));
     Ok((contact.shapes.to_vec(), contact.point.to_vec(), contact.force.to_vec(), contact.normal.to_vec()))
 }

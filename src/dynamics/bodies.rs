@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
     ActiveHooks, CoefficientCombineRule, ColliderBuilder, ColliderHandle, MassProperties, RigidBody, RigidBodyBuilder,
     RigidBodyHandle, RigidBodyType,
@@ -19,9 +20,12 @@ const STILL: (f64, f64) = (1e-5, 0.05 * std::f64::consts::PI / 180.0);
 /// The bodies by shape.
 #[derive(Default)]
 pub(super) struct Bodies {
-    by_shape: BTreeMap<Handle, Body>,
     /// Base-to-tip.
-    order: Vec<Handle>,
+    all: Vec<(Handle, Body)>,
+    /// Index of the body of a shape.
+    places: BTreeMap<Handle, usize>,
+    /// Those that move though they are static.
+    sweeping: Vec<usize>,
 }
 
 /// A shape's body in the engine.
@@ -56,17 +60,22 @@ impl Tag {
 
 impl Bodies {
     pub(super) fn get(&self, shape: Handle) -> Option<&Body> {
-        self.by_shape.get(&shape)
+        Some(&self.all[*self.places.get(&shape)?].1)
     }
 
     /// All bodies, base-to-tip.
     pub(super) fn iter(&self) -> impl Iterator<Item = (Handle, &Body)> {
-        self.order.iter().filter_map(|shape| Some((*shape, self.by_shape.get(shape)?)))
+        self.all.iter().map(|(shape, body)| (*shape, body))
+    }
+
+    /// The same, to be changed.
+    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = (Handle, &mut Body)> {
+        self.all.iter_mut().map(|(shape, body)| (*shape, body))
     }
 
     /// Whether a script moved a shape, or asks for it to be built anew.
     pub(super) fn were_touched(&self, scene: &Scene) -> bool {
-        self.by_shape.iter().any(|(&shape, body)| match scene.object(shape) {
+        self.iter().any(|(shape, body)| match scene.object(shape) {
             Ok(object) => {
                 object.dynamics_reset || (body.build.dynamic && object.pose() != body.local) || is_far(scene, shape)
             }
@@ -76,8 +85,8 @@ impl Bodies {
 
     /// Makes the engine's bodies those of the plan; those whose making is unchanged go on as they are.
     pub(super) fn follow(&mut self, plan: Vec<(Handle, BodyPlan)>, world: &mut World, scene: &mut Scene) {
-        let mut old = std::mem::take(&mut self.by_shape);
-        self.order.clear();
+        let mut old: BTreeMap<Handle, Body> = std::mem::take(&mut self.all).into_iter().collect();
+        self.places = plan.iter().enumerate().map(|(place, (shape, _))| (*shape, place)).collect();
         for (shape, plan) in plan {
             let goes_on = |body: &Body| body.build == plan.build && !wants_rebuild(scene, shape, body);
             // What does not go on stays in `old`, to be removed from the engine.
@@ -86,8 +95,7 @@ impl Bodies {
                 Some(body) => body.with_surface(shape, plan.surface, world),
                 None => Body::insert(shape, plan, world, scene),
             };
-            self.order.push(shape);
-            self.by_shape.insert(shape, body);
+            self.all.push((shape, body));
         }
         for body in old.into_values() {
             world.remove_body(body.rigid);
@@ -216,21 +224,20 @@ fn take_initial_velocity(scene: &mut Scene, shape: Handle) -> crate::scene::Scen
 impl Bodies {
     /// Plans the way of the static bodies over the call: from where the engine has them to where the scene has them.
     pub(super) fn plan_sweeps(&mut self, world: &mut World, scene: &Scene) {
-        for (&shape, body) in self.by_shape.iter_mut().filter(|(_, body)| !body.build.dynamic) {
-            let (Some(from), Ok(to)) = (body.pose(world), scene.world_pose(shape)) else { continue };
+        self.sweeping.clear();
+        for (place, (shape, body)) in self.all.iter_mut().enumerate().filter(|(_, (_, body))| !body.build.dynamic) {
+            let (Some(from), Ok(to)) = (body.pose(world), scene.world_pose(*shape)) else { continue };
             body.sweep = (has_moved(&from, &to) && super::convert::is_finite(&to)).then_some((from, to));
-            if let Some(rigid) = world.bodies.get_mut(body.rigid)
-                && body.sweep.is_some()
-                && rigid.is_fixed()
-            {
-                rigid.set_body_type(RigidBodyType::KinematicPositionBased, true);
+            if body.sweep.is_some() {
+                self.sweeping.push(place);
+                body.let_move(world);
             }
         }
     }
 
     /// Moves the static bodies to `fraction` of their way.
     pub(super) fn sweep(&self, fraction: f64, world: &mut World) {
-        for body in self.by_shape.values() {
+        for body in self.sweeping.iter().filter_map(|&place| Some(&self.all.get(place)?.1)) {
             let Some((from, to)) = &body.sweep else { continue };
             if let Some(rigid) = world.bodies.get_mut(body.rigid) {
                 rigid.set_next_kinematic_position(to_pose(&interpolate(from, to, fraction)));
@@ -238,10 +245,15 @@ impl Bodies {
         }
     }
 
-    /// Gives the bodies the forces scripts ask for, in place of those of the pass before.
+    /// Gives the bodies the forces scripts ask for, in place of those of the pass before. rapier looks again at every body it is asked
+    /// to change, so that those without forces are not touched.
     pub(super) fn apply_forces(&self, world: &mut World, scene: &Scene) {
-        for (&shape, body) in self.by_shape.iter().filter(|(_, body)| body.build.dynamic) {
+        for (shape, body) in self.iter().filter(|(_, body)| body.build.dynamic) {
             let Ok(shape) = scene.object(shape).and_then(|object| object.shape()) else { continue };
+            let is_forced = shape.force != [0.0; 3] || shape.torque != [0.0; 3];
+            if !is_forced && world.bodies.get(body.rigid).is_none_or(is_free) {
+                continue;
+            }
             let Some(rigid) = world.bodies.get_mut(body.rigid) else { continue };
             rigid.reset_forces(false);
             rigid.reset_torques(false);
@@ -251,13 +263,21 @@ impl Bodies {
             }
         }
     }
+}
 
-    /// Remembers where the shape is now, so that a move by a script is noticed.
-    pub(super) fn note_local(&mut self, shape: Handle, local: Pose) {
-        if let Some(body) = self.by_shape.get_mut(&shape) {
-            body.local = local;
+impl Body {
+    /// A static body that begins to move pushes others.
+    fn let_move(&self, world: &mut World) {
+        if let Some(rigid) = world.bodies.get_mut(self.rigid)
+            && rigid.is_fixed()
+        {
+            rigid.set_body_type(RigidBodyType::KinematicPositionBased, true);
         }
     }
+}
+
+fn is_free(rigid: &RigidBody) -> bool {
+    rigid.user_force() == Vector::ZERO && rigid.user_torque() == Vector::ZERO
 }
 
 fn has_moved(from: &Pose, to: &Pose) -> bool {

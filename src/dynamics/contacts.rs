@@ -1,11 +1,11 @@
-//! Contacts: who may touch whom, what scripts say about it, and the list scripts can read afterwards.
+//! Contacts: who may touch whom, what scripts say about it, and what the links learn of them.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
-    ActiveHooks, ColliderSet, ContactData, ContactManifold, ContactModificationContext, ContactPair, PairFilterContext,
+    ActiveHooks, ColliderSet, ContactManifold, ContactModificationContext, ContactPair, PairFilterContext,
     PhysicsHooks, SolverFlags,
 };
 
@@ -13,32 +13,6 @@ use super::bodies::Tag;
 use super::convert::from_vector;
 use super::world::World;
 use crate::scene::Handle;
-
-/// A point where two shapes touched in one sub-step. World axes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Contact {
-    /// Index of the sub-step, from 0.
-    pub pass: u32,
-    pub shapes: [Handle; 2],
-    /// Metres.
-    pub point: [f64; 3],
-    /// What the second shape does to the first, newtons.
-    pub force: [f64; 3],
-    /// Points to the first shape.
-    pub normal: [f64; 3],
-}
-
-impl Contact {
-    /// The contact as seen from `shape`: it comes first.
-    pub(crate) fn seen_from(mut self, shape: Handle) -> Self {
-        if self.shapes[0] != shape {
-            self.shapes.swap(0, 1);
-            self.force = self.force.map(|x| -x);
-            self.normal = self.normal.map(|x| -x);
-        }
-        self
-    }
-}
 
 /// What scripts say about a pair of shapes that may touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,7 +76,8 @@ impl PhysicsHooks for Rules<'_> {
     }
 }
 
-fn tags(
+/// What two colliders are known by.
+pub(super) fn tags(
     colliders: &ColliderSet,
     first: rapier3d_f64::prelude::ColliderHandle,
     second: rapier3d_f64::prelude::ColliderHandle,
@@ -171,41 +146,4 @@ fn expect(world: &World, manifold: &ContactManifold, shapes: [Handle; 2], pushes
         friction += point.data.warmstart_tangent_world / count;
     }
     pushes.push(Push { shapes, point: from_vector(middle), impulse: from_vector(friction) });
-}
-
-fn is_finite(contact: &ContactData) -> bool {
-    contact.impulse.is_finite() && contact.warmstart_tangent_world.is_finite()
-}
-
-/// Adds the contacts of a sub-step of `step` seconds to the list.
-pub(super) fn collect(world: &World, pass: u32, step: f64, list: &mut Vec<Contact>) {
-    for pair in world.narrow_phase.contact_pairs() {
-        if let Some([a, b]) = tags(&world.colliders, pair.collider1, pair.collider2) {
-            collect_pair(world, pair, [a.shape, b.shape], pass, step, list);
-        }
-    }
-}
-
-fn collect_pair(world: &World, pair: &ContactPair, shapes: [Handle; 2], pass: u32, step: f64, list: &mut Vec<Contact>) {
-    for manifold in pair.solver_manifolds() {
-        // rapier's normal points from the first shape to the second.
-        let normal = -manifold.data.normal;
-        // rapier solves the friction of a manifold as one: its points have equal shares.
-        let share = 1.0 / manifold.data.solver_contacts.len() as f64;
-        for contact in &manifold.data.solver_contacts {
-            let Some(data) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
-            if data.data.impulse == 0.0 || !is_finite(&data.data) {
-                continue;
-            }
-            let (a, b) = manifold.data.solver_contact_world_points(contact, &world.bodies);
-            let impulse = normal * data.data.impulse + data.data.warmstart_tangent_world * share;
-            list.push(Contact {
-                pass,
-                shapes,
-                point: from_vector((a + b) * 0.5),
-                force: from_vector(impulse / step),
-                normal: from_vector(normal),
-            });
-        }
-    }
 }

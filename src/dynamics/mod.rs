@@ -8,13 +8,15 @@
 //!
 //! - `plan`: who takes part, decided over the scene alone; compared with what exists, so that only changes touch the engine.
 //! - `bodies`, `colliders`, `links`: plans made real; `articulation`: all links solved at once.
-//! - `motors`: the control law; `load`, `contacts`: what is read back; `frozen`: bodies that could not go on.
+//! - `contacts`: who may touch whom; `motors`: the control law.
+//! - `load`, `contact_log`: what is read back; `frozen`: bodies that could not go on.
 //!
 //! Bodies never fall asleep, though some start so, and no state outlives the run: the same scene gives the same bytes.
 
 mod articulation;
 mod bodies;
 mod colliders;
+mod contact_log;
 mod contacts;
 mod convert;
 mod frozen;
@@ -33,7 +35,7 @@ use rapier3d_f64::math::Vector;
 
 use articulation::Articulation;
 use bodies::Bodies;
-use contacts::Contact;
+use contact_log::{Contact, ContactLog};
 pub(crate) use contacts::{Judge, Verdict};
 use frozen::Frozen;
 use links::Links;
@@ -54,7 +56,7 @@ pub(crate) struct Dynamics {
     bodies: Bodies,
     links: Links,
     articulation: Articulation,
-    contacts: Vec<Contact>,
+    contacts: ContactLog,
     frozen: Frozen,
     /// Roots too far away to be simulated.
     far: Vec<Handle>,
@@ -91,11 +93,22 @@ pub(crate) struct JointRequest {
     pub effort: f64,
 }
 
+/// Which scripts take part in a pass.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Attention {
+    /// Scripts judge contacts.
+    pub judged: bool,
+    /// Scripts run before, during or after the pass, so that they may look at the scene and change it.
+    pub watched: bool,
+}
+
 /// A pass ready to run. Holds the engine, so that a script called meanwhile finds no physics to disturb.
 pub(crate) struct Pass {
     world: World,
     gravity: Vector,
     step: f64,
+    /// Whether somebody can see the scene before the next pass.
+    seen: bool,
 }
 
 impl Pass {
@@ -192,15 +205,18 @@ impl Dynamics {
         }
     }
 
-    /// Readies a pass: forces of scripts, gravity. `asks`: whether somebody wants to judge contacts.
-    pub(crate) fn start_pass(&mut self, scene: &Scene, asks: bool) -> Option<Pass> {
+    /// Readies pass number `pass` (from 1): forces of scripts, gravity.
+    pub(crate) fn start_pass(&mut self, scene: &Scene, pass: u32, attention: Attention) -> Option<Pass> {
         let mut world = self.world.take()?;
         let call = self.call?;
-        if self.asks != asks {
-            self.asks = asks;
-            contacts::ask_about_all(&mut world, asks);
+        if self.asks != attention.judged {
+            self.asks = attention.judged;
+            contacts::ask_about_all(&mut world, self.asks);
         }
-        self.bodies.apply_forces(&mut world, scene);
+        // Nobody else can have changed the forces since the first pass.
+        if pass == 1 || attention.watched {
+            self.bodies.apply_forces(&mut world, scene);
+        }
         for link in self.links.values_mut() {
             link.before_step(&world);
         }
@@ -209,7 +225,8 @@ impl Dynamics {
         if !self.articulation.is_empty() {
             self.articulation.act(&mut self.links, &mut world, gravity, call.step);
         }
-        Some(Pass { world, gravity: convert::to_vector(gravity), step: call.step })
+        let seen = attention.watched || pass == call.passes;
+        Some(Pass { world, gravity: convert::to_vector(gravity), step: call.step, seen })
     }
 
     /// Whether the engine holds this shape, joint or force sensor.
@@ -224,8 +241,8 @@ impl Dynamics {
     }
 
     /// The contacts of the last call, in the order of its passes.
-    pub(crate) fn contacts(&self) -> &[Contact] {
-        &self.contacts
+    pub(crate) fn contacts(&self) -> impl Iterator<Item = Contact> {
+        self.contacts.iter()
     }
 }
 

@@ -9,7 +9,7 @@ use super::load::Load;
 use super::motors::wrap;
 use super::plan::LinkKind;
 use super::world::World;
-use super::{Dynamics, Pass, contacts};
+use super::{Dynamics, Pass};
 use crate::scene::dynamics_report::JointReport;
 use crate::scene::force_sensor::{Filter, ForceSensor};
 use crate::scene::joint::Joint;
@@ -34,10 +34,10 @@ pub(crate) struct Trigger {
 }
 
 impl Dynamics {
-    /// Takes the engine back after pass number `pass` (from 1) and tells the scene: joints and force sensors first, then shapes,
-    /// base-to-tip.
-    pub(crate) fn finish_pass(&mut self, pass: Pass, number: u32, scene: &mut Scene) {
-        let Pass { mut world, step, .. } = pass;
+    /// Takes the engine back after a pass and tells the scene: joints and force sensors first, then shapes, base-to-tip. Shapes only
+    /// when somebody can see them before the next pass, or when the engine gave up on one.
+    pub(crate) fn finish_pass(&mut self, pass: Pass, scene: &mut Scene) {
+        let Pass { mut world, step, seen, .. } = pass;
         if self.call.is_none() {
             return;
         }
@@ -48,23 +48,27 @@ impl Dynamics {
                 report_link(scene, handle, link, moving_side);
             }
         }
+        let stopped = if seen || world.has_given_up() { self.report_bodies(&world, scene) } else { Vec::new() };
+        self.contacts.add_pass(&world, step);
+        self.world = Some(world);
+        self.stop_bodies(&stopped, scene);
+    }
+
+    /// Tells the scene where the bodies are; returns those for which there is no telling.
+    fn report_bodies(&mut self, world: &World, scene: &mut Scene) -> Vec<Handle> {
         let mut stopped = Vec::new();
-        let shapes: Vec<Handle> = self.bodies.iter().filter(|(_, b)| b.build.dynamic).map(|(shape, _)| shape).collect();
-        for shape in shapes {
-            let Some(state) = self.bodies.get(shape).map(|body| state(body, &world)) else { continue };
-            let Some((pose, velocity)) = state else {
+        for (shape, body) in self.bodies.iter_mut().filter(|(_, body)| body.build.dynamic) {
+            let Some((pose, velocity)) = state(body, world) else {
                 stopped.push(shape);
                 continue;
             };
             let pose = (!is_held(&self.links, scene, shape)).then_some(pose);
             // A shape that was removed meanwhile has nothing to be told.
             if let Ok(local) = scene.report_body(shape, pose, velocity) {
-                self.bodies.note_local(shape, local);
+                body.local = local;
             }
         }
-        contacts::collect(&world, number - 1, step, &mut self.contacts);
-        self.world = Some(world);
-        self.stop_bodies(&stopped, scene);
+        stopped
     }
 
     /// Makes bodies static for which the engine found no next state, at once: nothing shall be solved with them any more.

@@ -56,9 +56,9 @@ impl Bench {
             let Some(call) = self.dynamics.begin(&mut self.scene, STEP).expect("not busy") else { continue };
             for number in 1..=call.passes {
                 self.dynamics.prepare(&self.scene, number);
-                let mut pass = self.dynamics.start_pass(&self.scene, false).expect("there is a world");
+                let mut pass = self.dynamics.start_pass(&self.scene, number, Attention::default()).expect("there is a world");
                 pass.run(None);
-                self.dynamics.finish_pass(pass, number, &mut self.scene);
+                self.dynamics.finish_pass(pass, &mut self.scene);
             }
             self.dynamics.end(&mut self.scene);
         }
@@ -130,7 +130,7 @@ fn a_box_rests_on_a_box() {
     let body = bench.shape([0.1; 3], [0.0, 0.0, 0.055], 1.0, true, true);
     bench.run(60);
     near(bench.height(body), 0.05, 5e-4);
-    let force: f64 = bench.dynamics.contacts().iter().map(|contact| contact.seen_from(body).force[2]).sum();
+    let force: f64 = bench.dynamics.contacts().map(|contact| contact.seen_from(body).force[2]).sum();
     near(force / 10.0, 9.81, 0.01);
 }
 

@@ -74,12 +74,18 @@ impl World {
             &(),
         );
         // Only those are touched: rapier looks again at every body somebody may have changed.
-        let fast = self.bodies.iter().filter(|(_, rigid)| turns_fast(rigid, step)).map(|(handle, _)| handle);
+        let awake = self.islands.active_bodies();
+        let fast = awake.filter(|&handle| self.bodies.get(handle).is_some_and(|rigid| turns_fast(rigid, step)));
         for handle in fast.collect::<Vec<_>>() {
             if let Some(rigid) = self.bodies.get_mut(handle) {
                 complete_turn(rigid, step);
             }
         }
+    }
+
+    /// Whether the last step met bodies that have no next state in numbers. rapier leaves them where they were.
+    pub(super) fn has_given_up(&self) -> bool {
+        !self.pipeline.quarantine().is_empty()
     }
 
     /// Removes a body with its colliders and joints.

@@ -7,12 +7,14 @@ use super::callback::SysCall;
 use super::error::{ApiError, ApiResult};
 use super::sim::Sim;
 use super::verbosity;
-use crate::dynamics::{Call, Dynamics, JointRequest, Trigger, Verdict};
+use crate::dynamics::{Attention, Call, Dynamics, JointRequest, Trigger, Verdict};
 use crate::scene::joint::Joint;
 use crate::scene::{Data, Handle, Scene};
 
 /// What scripts are asked by about contacts: the old name first.
 const CONTACT: [SysCall; 2] = [SysCall::ContactCallback, SysCall::Contact];
+/// What scripts are told by before and after a sub-step: the old name first.
+const DYN: [SysCall; 2] = [SysCall::DynCallback, SysCall::Dyn];
 
 impl Sim {
     /// Advances the dynamics by `time_step` seconds; returns the number of sub-steps.
@@ -25,8 +27,8 @@ impl Sim {
         let Some(call) = begun.ok_or_else(busy)?.map_err(|_| busy())? else { return Ok(0) };
         for pass in 1..=call.passes {
             self.dynamics_callback(call, pass, false);
-            self.drive_joints(call, pass);
-            self.dynamics_pass(pass);
+            let asked = self.drive_joints(call, pass);
+            self.dynamics_pass(pass, asked);
             self.dynamics_callback(call, pass, true);
         }
         let triggers = self.with_dynamics(Dynamics::end).unwrap_or_default();
@@ -40,7 +42,7 @@ impl Sim {
     }
 
     fn dynamics_callback(self: &Rc<Self>, call: Call, pass: u32, after_step: bool) {
-        if self.nobody_responds(SysCall::Dyn) && self.nobody_responds(SysCall::DynCallback) {
+        if !self.anybody_responds(&DYN) {
             return;
         }
         let data = Data::map([
@@ -50,16 +52,20 @@ impl Sim {
             ("dynStepSize", call.step.into()),
             ("afterStep", after_step.into()),
         ]);
-        for callback in [SysCall::DynCallback, SysCall::Dyn] {
+        for callback in DYN {
             self.broadcast(callback, std::slice::from_ref(&data));
         }
     }
 
-    /// Sets the motors; joints in callback control are driven as a script answers.
-    fn drive_joints(self: &Rc<Self>, call: Call, pass: u32) {
+    fn anybody_responds(&self, callbacks: &[SysCall]) -> bool {
+        callbacks.iter().any(|&callback| !self.nobody_responds(callback))
+    }
+
+    /// Sets the motors; joints in callback control are driven as a script answers. Returns whether there are any.
+    fn drive_joints(self: &Rc<Self>, call: Call, pass: u32) -> bool {
         let requests = self.with_dynamics(|dynamics, scene| dynamics.prepare(scene, pass)).unwrap_or_default();
-        for request in requests {
-            let Some(data) = self.joint_data(&request, call, pass) else { continue };
+        for request in &requests {
+            let Some(data) = self.joint_data(request, call, pass) else { continue };
             let answer = self.ask_about_joint(request.joint, &[data]);
             let number = |names: [&str; 2]| names.into_iter().find_map(|name| answer.as_ref()?.field(name)?.as_f64());
             let (velocity, force) = (number(["velocity", "vel"]), number(["force", "ctrl"]));
@@ -67,6 +73,7 @@ impl Sim {
                 self.with_dynamics(|dynamics, _| dynamics.drive(request.joint, velocity, force));
             }
         }
+        !requests.is_empty()
     }
 
     /// The scripts of the joint are asked by the old name first.
@@ -85,15 +92,17 @@ impl Sim {
         Some(joint_data(joint, request, call, pass))
     }
 
-    /// One sub-step. The scene is nobody's while the engine works, because it may ask scripts about contacts.
-    fn dynamics_pass(self: &Rc<Self>, number: u32) {
-        let asks = CONTACT.iter().any(|&callback| !self.nobody_responds(callback));
-        let started = self.with_dynamics(|dynamics, scene| dynamics.start_pass(scene, asks));
+    /// One sub-step. The scene is nobody's while the engine works, because it may ask scripts about contacts. `asked`: whether scripts
+    /// drive joints.
+    fn dynamics_pass(self: &Rc<Self>, number: u32, asked: bool) {
+        let judged = self.anybody_responds(&CONTACT);
+        let attention = Attention { judged, watched: asked || judged || self.anybody_responds(&DYN) };
+        let started = self.with_dynamics(|dynamics, scene| dynamics.start_pass(scene, number, attention));
         let Some(mut pass) = started.flatten() else { return };
         let judge = |first: Handle, second: Handle| self.judge_contact(first, second);
-        pass.run(asks.then_some(&judge));
+        pass.run(judged.then_some(&judge));
         let stopped = self.with_dynamics(|dynamics, scene| {
-            dynamics.finish_pass(pass, number, scene);
+            dynamics.finish_pass(pass, scene);
             dynamics.take_frozen()
         });
         stopped.into_iter().flatten().for_each(|shape| self.warn_of_stop(shape));

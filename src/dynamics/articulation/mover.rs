@@ -1,6 +1,7 @@
 //! A body that hangs on links: where it is, how it answers impulses, what velocity it gets.
 
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
+use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{RigidBody, RigidBodyHandle};
 
 use super::rotor::{Rotor, Spin};
@@ -26,6 +27,8 @@ pub(super) struct Mover {
     pub response: Matrix6<f64>,
     pub free: Vector6<f64>,
     pub velocity: Vector6<f64>,
+    /// Forces and torques of scripts.
+    asked: [Vector; 2],
     /// How far it was put back after the sub-step.
     pub shift: Vector6<f64>,
     /// Angular impulse of the gyroscopic torque.
@@ -58,6 +61,7 @@ impl Mover {
             response: Matrix6::zeros(),
             free: Vector6::zeros(),
             velocity: Vector6::zeros(),
+            asked: [Vector::ZERO; 2],
             shift: Vector6::zeros(),
             gyration: Vector3::zeros(),
             rotor: None,
@@ -86,7 +90,9 @@ impl Mover {
             self.free = self.swept(rigid, step);
             return;
         }
-        let push = spatial(from_vector(rigid.user_force()).into(), from_vector(rigid.user_torque()).into()) * step;
+        self.asked = [rigid.user_force(), rigid.user_torque()];
+        let [force, torque] = self.asked.map(|asked| from_vector(asked).into());
+        let push = spatial(force, torque) * step;
         let spin = Vector3::from(from_vector(rigid.angvel()));
         self.gyration = self.rotor_impulse(&spin, step).unwrap_or_else(|| {
             self.world_inertia() * (Vector3::from(from_vector(rigid.angvel_with_gyroscopic_forces(step))) - spin)
@@ -152,6 +158,16 @@ impl Mover {
         let gained = self.rotor.as_ref().map_or(Vector3::zeros(), |rotor| rotor.gained);
         let spin = rigid.angvel() + angular + to_vector(gained.into());
         rigid.set_angvel(spin.clamp_length_max(most), false);
+    }
+
+    /// Takes back the forces of the links: only those of scripts last for more than a sub-step.
+    pub(super) fn forget_links(&self, world: &mut World) {
+        if let Some(rigid) = world.bodies.get_mut(self.rigid).filter(|rigid| rigid.is_dynamic()) {
+            rigid.reset_forces(false);
+            rigid.reset_torques(false);
+            rigid.add_force(self.asked[0], false);
+            rigid.add_torque(self.asked[1], false);
+        }
     }
 
     /// Velocity of a static body that is moved to its next place.

@@ -28,6 +28,7 @@ impl Articulation {
         let spins = self.far_spins(links, world, step);
         for (mover, spin) in self.movers.iter_mut().zip(spins) {
             let before = mover.pose.rotation;
+            mover.forget_links(world);
             mover.place(world);
             mover.shift = Vector6::zeros();
             mover.turn_with_axis(spin, before, step);

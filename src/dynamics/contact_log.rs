@@ -1,0 +1,157 @@
+//! The contacts of a dynamics call, as scripts can ask for them afterwards.
+//!
+//! Every sub-step adds to the log while the engine still knows its impulses. What the log keeps is what differs between points; forces
+//! are only worked out when somebody reads them.
+
+use std::ops::Range;
+
+use rapier3d_f64::math::{Pose as EnginePose, Vector};
+use rapier3d_f64::prelude::{ContactManifold, ContactManifoldData, ContactPair, RigidBodyHandle};
+
+use super::contacts::tags;
+use super::convert::from_vector;
+use super::world::World;
+use crate::scene::Handle;
+
+/// A point where two shapes touched in one sub-step. World axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Contact {
+    /// Index of the sub-step, from 0.
+    pub pass: u32,
+    pub shapes: [Handle; 2],
+    /// Metres.
+    pub point: [f64; 3],
+    /// What the second shape does to the first, newtons.
+    pub force: [f64; 3],
+    /// Points to the first shape.
+    pub normal: [f64; 3],
+}
+
+impl Contact {
+    /// The contact as seen from `shape`: it comes first.
+    pub(crate) fn seen_from(mut self, shape: Handle) -> Self {
+        if self.shapes[0] != shape {
+            self.shapes.swap(0, 1);
+            self.force = self.force.map(|x| -x);
+            self.normal = self.normal.map(|x| -x);
+        }
+        self
+    }
+}
+
+/// The contacts of the passes of one call.
+#[derive(Default)]
+pub(super) struct ContactLog {
+    /// Length of a sub-step, seconds.
+    step: f64,
+    touches: Vec<Touch>,
+    points: Vec<TouchPoint>,
+    /// End of each pass in `touches`.
+    passes: Vec<usize>,
+}
+
+/// Points of two shapes with one normal and one friction.
+struct Touch {
+    shapes: [Handle; 2],
+    /// Points to the first shape.
+    normal: Vector,
+    /// Impulse of the friction at each point: rapier solves it as one, so that the points have equal shares.
+    friction: Vector,
+    /// In `points`.
+    points: Range<usize>,
+}
+
+struct TouchPoint {
+    place: Vector,
+    /// Impulse along the normal.
+    impulse: f64,
+}
+
+impl ContactLog {
+    pub(super) fn clear(&mut self) {
+        self.touches.clear();
+        self.points.clear();
+        self.passes.clear();
+    }
+
+    /// Adds the contacts of the sub-step of `step` seconds the engine has just made.
+    pub(super) fn add_pass(&mut self, world: &World, step: f64) {
+        self.step = step;
+        for pair in world.narrow_phase.contact_pairs() {
+            self.add_pair(world, pair);
+        }
+        self.passes.push(self.touches.len());
+    }
+
+    fn add_pair(&mut self, world: &World, pair: &ContactPair) {
+        let touching = |manifold: &&ContactManifold| !manifold.data.solver_contacts.is_empty();
+        let mut manifolds = pair.solver_manifolds().iter().filter(touching).peekable();
+        if manifolds.peek().is_none() {
+            return;
+        }
+        let Some([a, b]) = tags(&world.colliders, pair.collider1, pair.collider2) else { return };
+        manifolds.for_each(|manifold| self.add_manifold(world, manifold, [a.shape, b.shape]));
+    }
+
+    fn add_manifold(&mut self, world: &World, manifold: &ContactManifold, shapes: [Handle; 2]) {
+        let first = self.touches.len();
+        let sides = Sides::new(world, &manifold.data);
+        // rapier's normal points from the first shape to the second.
+        let normal = -manifold.data.normal;
+        let share = 1.0 / manifold.data.solver_contacts.len() as f64;
+        for contact in &manifold.data.solver_contacts {
+            let Some(found) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
+            let (impulse, tangent) = (found.data.impulse, found.data.warmstart_tangent_world);
+            if impulse == 0.0 || !impulse.is_finite() || !tangent.is_finite() {
+                continue;
+            }
+            self.points.push(TouchPoint { place: sides.middle(contact.anchor1, contact.anchor2), impulse });
+            let (friction, end) = (tangent * share, self.points.len());
+            match self.touches[first..].last_mut().filter(|touch| touch.friction == friction) {
+                Some(touch) => touch.points.end = end,
+                None => self.touches.push(Touch { shapes, normal, friction, points: end - 1..end }),
+            }
+        }
+    }
+
+    /// All contacts, in the order of the passes.
+    pub(super) fn iter(&self) -> impl Iterator<Item = Contact> {
+        let starts = std::iter::once(0).chain(self.passes.iter().copied());
+        let passes = (0..).zip(starts.zip(&self.passes));
+        passes.flat_map(move |(pass, (start, &end))| {
+            self.touches[start..end].iter().flat_map(move |touch| self.contacts_of(pass, touch))
+        })
+    }
+
+    fn contacts_of(&self, pass: u32, touch: &Touch) -> impl Iterator<Item = Contact> {
+        self.points[touch.points.clone()].iter().map(move |point| Contact {
+            pass,
+            shapes: touch.shapes,
+            point: from_vector(point.place),
+            force: from_vector((touch.normal * point.impulse + touch.friction) / self.step),
+            normal: from_vector(touch.normal),
+        })
+    }
+}
+
+/// Where the two sides of a manifold are: what rapier's `solver_contact_world_points` looks up for every point.
+struct Sides([Option<(EnginePose, Vector)>; 2]);
+
+impl Sides {
+    fn new(world: &World, data: &ContactManifoldData) -> Self {
+        let side = |handle: Option<RigidBodyHandle>, is_world: bool| {
+            let rigid = world.bodies.get(handle.filter(|_| !is_world)?)?;
+            Some((*rigid.position(), rigid.mass_properties().local_mprops.local_com))
+        };
+        Self([side(data.rigid_body1, data.relative_dominance > 0), side(data.rigid_body2, data.relative_dominance < 0)])
+    }
+
+    /// Halfway between the two surfaces; anchors are relative to the centres of mass of bodies that move.
+    fn middle(&self, first: Vector, second: Vector) -> Vector {
+        let place = |side: &Option<(EnginePose, Vector)>, anchor: Vector| match side {
+            Some((pose, com)) => *pose * (*com + anchor),
+            None => anchor,
+        };
+        (place(&self.0[0], first) + place(&self.0[1], second)) * 0.5
+    }
+}
