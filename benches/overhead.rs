@@ -1,5 +1,6 @@
 //! What the scene costs beside the engine: the same boxes on the same floor, in raw rapier and in a simulator. A pass is ten sub-steps
-//! of 5 ms in both.
+//! of 5 ms in both. The boxes slide without friction, so slowly that they get nowhere: else the simulator's would fall asleep. Those
+//! that may sleep are measured as well.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use rapier3d_f64::prelude::*;
@@ -7,6 +8,8 @@ use swanilda::{Options, ScriptKind, Simulator};
 
 const SUB_STEPS: usize = 10;
 const HALF: f64 = 0.05;
+/// Metres per second.
+const SLIDING: f64 = 1e-4;
 
 const SCENE: &str = "
 sim = require 'sim'
@@ -16,15 +19,19 @@ for i = 0, COUNT - 1 do
     sim.setObjectInt32Param(box, sim.shapeintparam_static, 0)
     sim.setObjectInt32Param(box, sim.shapeintparam_respondable, 1)
     sim.setShapeMass(box, 1)
+    if SLIDING > 0 then
+        sim.setEngineFloatParam(sim.bullet_body_oldfriction, box, 0)
+        sim.setObjectFloatParam(box, sim.shapefloatparam_init_velocity_x, SLIDING)
+    end
 end
 ";
 
-fn simulator(count: usize) -> Simulator {
+fn simulator(count: usize, sliding: f64) -> Simulator {
     let mut sim = Simulator::new(Options::default());
     sim.scene_mut().add_default_objects().expect("an empty scene has room");
-    let scene = SCENE.replace("COUNT", &count.to_string());
+    let scene = SCENE.replace("COUNT", &count.to_string()).replace("SLIDING", &sliding.to_string());
     sim.add_script(ScriptKind::Customization, "scene", scene.as_bytes()).expect("the scene loads");
-    sim.step(20);
+    sim.step(60);
     sim
 }
 
@@ -71,9 +78,13 @@ impl Raw {
             },
         };
         raw.cuboid(RigidBodyBuilder::fixed().translation(Vector::new(0.0, 0.0, -0.1)), [2.5, 2.5, 0.1]);
+        let slide = Vector::new(SLIDING, 0.0, 0.0);
         for i in 0..count {
             let at = Vector::new((i % 32) as f64 * 0.15 - 2.4, (i / 32) as f64 * 0.15 - 2.4, HALF);
-            raw.cuboid(RigidBodyBuilder::dynamic().translation(at).can_sleep(false), [HALF; 3]);
+            raw.cuboid(
+                RigidBodyBuilder::dynamic().translation(at).linvel(slide).can_sleep(false).allow_fast_rotation(true),
+                [HALF; 3],
+            );
         }
         raw.pass();
         raw
@@ -81,7 +92,7 @@ impl Raw {
 
     fn cuboid(&mut self, body: RigidBodyBuilder, [x, y, z]: [f64; 3]) {
         let body = self.bodies.insert(body);
-        let collider = ColliderBuilder::cuboid(x, y, z).mass(1.0).friction(0.7);
+        let collider = ColliderBuilder::cuboid(x, y, z).mass(1.0).friction(0.0);
         self.colliders.insert_with_parent(collider, body, &mut self.bodies);
     }
 
@@ -110,10 +121,12 @@ fn overhead(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("overhead");
     group.sample_size(20);
     for count in [100, 1000] {
-        let (mut raw, mut sim) = (Raw::new(count), simulator(count));
+        let (mut raw, mut sim) = (Raw::new(count), simulator(count, SLIDING));
         group.bench_function(format!("raw rapier, {count} boxes"), |bencher| bencher.iter(|| raw.pass()));
         group.bench_function(format!("simulator, {count} boxes"), |bencher| bencher.iter(|| sim.pass()));
     }
+    let mut sim = simulator(1000, 0.0);
+    group.bench_function("simulator, 1000 sleeping boxes", |bencher| bencher.iter(|| sim.pass()));
     group.finish();
 }
 

@@ -25,18 +25,6 @@ for i = 0, 99 do
 end
 ";
 
-/// 1000 boxes that lie on the floor.
-const FLOOR: &str = "
-sim = require 'sim'
-for i = 0, 999 do
-    local box = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1})
-    sim.setObjectPosition(box, {i % 32 * 0.15 - 2.4, i // 32 * 0.15 - 2.4, 0.05})
-    sim.setObjectInt32Param(box, sim.shapeintparam_static, 0)
-    sim.setObjectInt32Param(box, sim.shapeintparam_respondable, 1)
-    sim.setShapeMass(box, 1)
-end
-";
-
 /// An arm of seven joints in position control, which a script moves.
 const ARM: &str = "
 sim = require 'sim'
@@ -109,14 +97,12 @@ fn pile(criterion: &mut Criterion) {
     group.finish();
 }
 
-fn bodies(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("bodies");
+fn arm(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("arm");
     group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
-    for (name, scene) in [("1000 boxes on the floor", FLOOR), ("arm of seven joints", ARM)] {
-        let mut sim = running(ScriptKind::Customization, scene);
-        sim.step(20);
-        group.bench_function(name, |bencher| bencher.iter(|| sim.pass()));
-    }
+    let mut sim = running(ScriptKind::Customization, ARM);
+    sim.step(20);
+    group.bench_function("seven joints", |bencher| bencher.iter(|| sim.pass()));
     group.finish();
 }
 
@@ -130,5 +116,5 @@ fn events(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, child_scripts, pile, bodies, events);
+criterion_group!(benches, child_scripts, pile, arm, events);
 criterion_main!(benches);

@@ -17,6 +17,11 @@ use crate::scene::{Field, Handle, Pose, Scene};
 
 /// A static body that moved less than this between two calls has not moved: metres and radians.
 const STILL: (f64, f64) = (1e-5, 0.05 * std::f64::consts::PI / 180.0);
+/// A body of which no point moves faster, metres per second, for so many seconds, falls asleep, with all that it touches.
+const RESTING: (f64, f64) = (1e-5, 1.0);
+/// The threshold of bodies that stay awake.
+const NEVER: f64 = -1.0;
+
 /// The bodies by shape.
 #[derive(Default)]
 pub(super) struct Bodies {
@@ -38,6 +43,8 @@ pub(super) struct Body {
     pub local: Pose,
     /// Where a static body goes during this call: from, to.
     sweep: Option<(Pose, Pose)>,
+    /// Whether it slept when the scene was last told of it.
+    pub slept: bool,
 }
 
 /// What a collider is known by in callbacks: shape, root of its tree, mask.
@@ -124,8 +131,8 @@ impl Body {
             }
         }
         let rigid = world.bodies.insert(rigid);
-        let mut body =
-            Self { rigid, colliders: Vec::new(), build: plan.build, surface: plan.surface, local, sweep: None };
+        let (build, surface) = (plan.build, plan.surface);
+        let mut body = Self { rigid, colliders: Vec::new(), build, surface, local, sweep: None, slept: false };
         body.insert_colliders(shape, world);
         // rapier would only know the mass during the first step, the articulation needs it before.
         if let Some(rigid) = world.bodies.get_mut(rigid) {
@@ -168,10 +175,12 @@ impl Body {
                 collider.set_active_hooks(hooks_for(surface.mask));
                 collider.user_data = tag.pack();
             }
+            world.renew_contacts(handle);
         }
         if let Some(rigid) = world.bodies.get_mut(self.rigid) {
             rigid.set_linear_damping(surface.linear_damping);
             rigid.set_angular_damping(surface.angular_damping);
+            rigid.wake_up(true);
         }
         self
     }
@@ -206,6 +215,27 @@ fn rigid_body(plan: &BodyPlan, pose: &Pose) -> RigidBody {
         .can_sleep(false)
         .allow_fast_rotation(true)
         .build()
+}
+
+impl Bodies {
+    /// Lets bodies sleep when they rest, but for those that `stays_awake` names.
+    pub(super) fn let_sleep(&self, world: &mut World, stays_awake: impl Fn(Handle) -> bool) {
+        for (shape, body) in self.iter().filter(|(_, body)| body.build.dynamic) {
+            let threshold = if stays_awake(shape) { NEVER } else { RESTING.0 };
+            let is_set = |rigid: &RigidBody| rigid.activation().normalized_linear_threshold == threshold;
+            if world.bodies.get(body.rigid).is_some_and(is_set) {
+                continue;
+            }
+            if let Some(rigid) = world.bodies.get_mut(body.rigid) {
+                let activation = rigid.activation_mut();
+                (activation.normalized_linear_threshold, activation.angular_threshold) = (threshold, threshold);
+                activation.time_until_sleep = RESTING.1;
+                if threshold == NEVER {
+                    rigid.wake_up(true);
+                }
+            }
+        }
+    }
 }
 
 fn take_initial_velocity(scene: &mut Scene, shape: Handle) -> crate::scene::SceneResult<crate::scene::shape::Velocity> {
@@ -266,11 +296,12 @@ impl Bodies {
 }
 
 impl Body {
-    /// A static body that begins to move pushes others.
+    /// A static body that begins to move pushes others, and leaves others without support.
     fn let_move(&self, world: &mut World) {
         if let Some(rigid) = world.bodies.get_mut(self.rigid)
             && rigid.is_fixed()
         {
+            // rapier wakes what touches the body.
             rigid.set_body_type(RigidBodyType::KinematicPositionBased, true);
         }
     }

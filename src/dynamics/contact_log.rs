@@ -1,12 +1,13 @@
 //! The contacts of a dynamics call, as scripts can ask for them afterwards.
 //!
 //! Every sub-step adds to the log while the engine still knows its impulses. What the log keeps is what differs between points; forces
-//! are only worked out when somebody reads them.
+//! are only worked out when somebody reads them. Contacts of sleepers are kept once, for as long as they sleep.
 
 use std::ops::Range;
+use std::rc::Rc;
 
 use rapier3d_f64::math::{Pose as EnginePose, Vector};
-use rapier3d_f64::prelude::{ContactManifold, ContactManifoldData, ContactPair, RigidBodyHandle};
+use rapier3d_f64::prelude::{ColliderHandle, ContactManifold, ContactManifoldData, ContactPair, RigidBodyHandle};
 
 use super::contacts::tags;
 use super::convert::from_vector;
@@ -42,12 +43,35 @@ impl Contact {
 /// The contacts of the passes of one call.
 #[derive(Default)]
 pub(super) struct ContactLog {
-    /// Length of a sub-step, seconds.
+    awake: Batch,
+    passes: Vec<SubStep>,
+    resting: Resting,
+}
+
+/// One sub-step: its contacts of bodies that are awake, and those of sleepers.
+struct SubStep {
+    /// In `awake`.
+    touches: Range<usize>,
+    resting: Rc<Batch>,
+}
+
+/// Contacts among sleepers and with what they lie on: they stay as they were when the bodies fell asleep.
+#[derive(Default)]
+struct Resting {
+    contacts: Rc<Batch>,
+    /// The bodies that were awake when this was found out; None when it has to be found out.
+    awake: Option<Vec<RigidBodyHandle>>,
+    /// By index of the collider: whether its body is awake.
+    is_awake: Vec<bool>,
+}
+
+/// Contacts of sub-steps of one length.
+#[derive(Default)]
+struct Batch {
+    /// Seconds.
     step: f64,
     touches: Vec<Touch>,
     points: Vec<TouchPoint>,
-    /// End of each pass in `touches`.
-    passes: Vec<usize>,
 }
 
 /// Points of two shapes with one normal and one friction.
@@ -69,20 +93,70 @@ struct TouchPoint {
 
 impl ContactLog {
     pub(super) fn clear(&mut self) {
-        self.touches.clear();
-        self.points.clear();
+        self.awake.touches.clear();
+        self.awake.points.clear();
         self.passes.clear();
+    }
+
+    /// Bodies came or went.
+    pub(super) fn forget_resting(&mut self) {
+        self.resting.awake = None;
     }
 
     /// Adds the contacts of the sub-step of `step` seconds the engine has just made.
     pub(super) fn add_pass(&mut self, world: &World, step: f64) {
-        self.step = step;
-        for pair in world.narrow_phase.contact_pairs() {
-            self.add_pair(world, pair);
+        self.resting.follow(world, step);
+        let first = self.awake.touches.len();
+        self.awake.step = step;
+        if self.resting.is_anybody_awake() {
+            let pairs = world.narrow_phase.contact_pairs().filter(|pair| self.resting.is_awake(pair));
+            pairs.for_each(|pair| self.awake.add_pair(world, pair));
         }
-        self.passes.push(self.touches.len());
+        let touches = first..self.awake.touches.len();
+        self.passes.push(SubStep { touches, resting: self.resting.contacts.clone() });
     }
 
+    /// All contacts, in the order of the passes.
+    pub(super) fn iter(&self) -> impl Iterator<Item = Contact> {
+        (0..).zip(&self.passes).flat_map(move |(number, pass)| {
+            let awake = self.awake.contacts(pass.touches.clone(), number);
+            awake.chain(pass.resting.contacts(0..pass.resting.touches.len(), number))
+        })
+    }
+}
+
+impl Resting {
+    /// Finds out again who sleeps when that has changed.
+    fn follow(&mut self, world: &World, step: f64) {
+        if self.awake.as_ref().is_some_and(|awake| world.awake().eq(awake.iter().copied())) {
+            return;
+        }
+        self.is_awake.clear();
+        for rigid in world.awake().filter_map(|handle| world.bodies.get(handle)) {
+            for index in rigid.colliders().iter().map(|collider| collider.into_raw_parts().0 as usize) {
+                self.is_awake.resize(self.is_awake.len().max(index + 1), false);
+                self.is_awake[index] = true;
+            }
+        }
+        self.awake = Some(world.awake().collect());
+        let mut contacts = Batch { step, ..Batch::default() };
+        let pairs = world.narrow_phase.contact_pairs().filter(|pair| !self.is_awake(pair));
+        pairs.for_each(|pair| contacts.add_pair(world, pair));
+        self.contacts = Rc::new(contacts);
+    }
+
+    fn is_anybody_awake(&self) -> bool {
+        self.awake.as_ref().is_some_and(|awake| !awake.is_empty())
+    }
+
+    /// Whether one of the two bodies is awake.
+    fn is_awake(&self, pair: &ContactPair) -> bool {
+        let awake = |collider: ColliderHandle| self.is_awake.get(collider.into_raw_parts().0 as usize) == Some(&true);
+        awake(pair.collider1) || awake(pair.collider2)
+    }
+}
+
+impl Batch {
     fn add_pair(&mut self, world: &World, pair: &ContactPair) {
         let touching = |manifold: &&ContactManifold| !manifold.data.solver_contacts.is_empty();
         let mut manifolds = pair.solver_manifolds().iter().filter(touching).peekable();
@@ -114,16 +188,11 @@ impl ContactLog {
         }
     }
 
-    /// All contacts, in the order of the passes.
-    pub(super) fn iter(&self) -> impl Iterator<Item = Contact> {
-        let starts = std::iter::once(0).chain(self.passes.iter().copied());
-        let passes = (0..).zip(starts.zip(&self.passes));
-        passes.flat_map(move |(pass, (start, &end))| {
-            self.touches[start..end].iter().flat_map(move |touch| self.contacts_of(pass, touch))
-        })
+    fn contacts(&self, touches: Range<usize>, pass: u32) -> impl Iterator<Item = Contact> {
+        self.touches[touches].iter().flat_map(move |touch| self.contacts_of(touch, pass))
     }
 
-    fn contacts_of(&self, pass: u32, touch: &Touch) -> impl Iterator<Item = Contact> {
+    fn contacts_of(&self, touch: &Touch, pass: u32) -> impl Iterator<Item = Contact> {
         self.points[touch.points.clone()].iter().map(move |point| Contact {
             pass,
             shapes: touch.shapes,

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
-    ActiveHooks, ColliderSet, ContactManifold, ContactModificationContext, ContactPair, PairFilterContext,
+    ActiveHooks, Collider, ColliderSet, ContactManifold, ContactModificationContext, ContactPair, PairFilterContext,
     PhysicsHooks, SolverFlags,
 };
 
@@ -88,14 +88,17 @@ pub(super) fn tags(
 /// Makes the engine ask about every pair, or only about those with masks of their own. Asking costs: rapier then computes resting
 /// contacts anew in every sub-step.
 pub(super) fn ask_about_all(world: &mut World, all: bool) {
-    for (_, collider) in world.colliders.iter_mut() {
-        let masked = Tag::unpack(collider.user_data).mask != u16::MAX;
-        let hooks = match (all, masked) {
-            (true, _) => ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS,
-            (false, true) => ActiveHooks::FILTER_CONTACT_PAIRS,
-            (false, false) => ActiveHooks::empty(),
-        };
-        collider.set_active_hooks(hooks);
+    let hooks = |collider: &Collider| match (all, Tag::unpack(collider.user_data).mask != u16::MAX) {
+        (true, _) => ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS,
+        (false, true) => ActiveHooks::FILTER_CONTACT_PAIRS,
+        (false, false) => ActiveHooks::empty(),
+    };
+    let others = world.colliders.iter().filter(|(_, collider)| collider.active_hooks() != hooks(collider));
+    for handle in others.map(|(handle, _)| handle).collect::<Vec<_>>() {
+        if let Some(collider) = world.colliders.get_mut(handle) {
+            let hooks = hooks(collider);
+            collider.set_active_hooks(hooks);
+        }
     }
 }
 

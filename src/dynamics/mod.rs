@@ -11,7 +11,8 @@
 //! - `contacts`: who may touch whom; `motors`: the control law.
 //! - `load`, `contact_log`: what is read back; `frozen`: bodies that could not go on.
 //!
-//! Bodies never fall asleep, though some start so, and no state outlives the run: the same scene gives the same bytes.
+//! Free bodies that rest fall asleep, which costs nothing and changes nothing that can be read, until something wakes them. No state
+//! outlives the run: the same scene gives the same bytes.
 
 mod articulation;
 mod bodies;
@@ -29,7 +30,7 @@ mod report;
 mod tests;
 mod world;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d_f64::math::Vector;
 
@@ -169,6 +170,8 @@ impl Dynamics {
         links::follow(&mut self.links, plan.links, &self.bodies, world, scene);
         links::take_resets(&self.links, scene);
         contacts::ask_about_all(world, self.asks);
+        let_sleep(&self.bodies, &self.links, world, self.asks);
+        self.contacts.forget_resting();
         self.articulation.follow(&self.links, &scene.all_breadth_first(), &self.bodies, world);
         self.revision = Some(scene.changes().dynamics_revision());
     }
@@ -212,6 +215,7 @@ impl Dynamics {
         if self.asks != attention.judged {
             self.asks = attention.judged;
             contacts::ask_about_all(&mut world, self.asks);
+            let_sleep(&self.bodies, &self.links, &mut world, self.asks);
         }
         // Nobody else can have changed the forces since the first pass.
         if pass == 1 || attention.watched {
@@ -244,6 +248,12 @@ impl Dynamics {
     pub(crate) fn contacts(&self) -> impl Iterator<Item = Contact> {
         self.contacts.iter()
     }
+}
+
+/// Bodies on links stay awake, and all do while scripts judge contacts: they expect to be asked in every pass.
+fn let_sleep(bodies: &Bodies, links: &Links, world: &mut World, asks: bool) {
+    let linked: BTreeSet<Handle> = links.values().flat_map(|link| [link.plan.first, link.plan.second]).collect();
+    bodies.let_sleep(world, |shape| asks || linked.contains(&shape));
 }
 
 /// Where the master of a joint is; one that nothing in the physics hangs on stands where the scene has it.

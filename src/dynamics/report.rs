@@ -1,6 +1,7 @@
 //! The way back: what the scene learns after a pass and at the end of a call.
 
 use nalgebra::UnitQuaternion;
+use rapier3d_f64::prelude::RigidBody;
 
 use super::bodies::Body;
 use super::convert::{from_pose, from_vector};
@@ -58,6 +59,11 @@ impl Dynamics {
     fn report_bodies(&mut self, world: &World, scene: &mut Scene) -> Vec<Handle> {
         let mut stopped = Vec::new();
         for (shape, body) in self.bodies.iter_mut().filter(|(_, body)| body.build.dynamic) {
+            let sleeps = world.bodies.get(body.rigid).is_some_and(RigidBody::is_sleeping);
+            // Below a parent a sleeper stays where it is when the parent moves, so that its place has to be said again.
+            if std::mem::replace(&mut body.slept, sleeps) && sleeps && is_root(scene, shape) {
+                continue;
+            }
             let Some((pose, velocity)) = state(body, world) else {
                 stopped.push(shape);
                 continue;
@@ -128,6 +134,10 @@ impl Dynamics {
             _ => 0,
         }
     }
+}
+
+fn is_root(scene: &Scene, shape: Handle) -> bool {
+    scene.object(shape).is_ok_and(|object| object.parent().is_none())
 }
 
 /// Whether the shape hangs on a link that is its parent, so that its place in the scene follows from the link.

@@ -1,5 +1,7 @@
 //! The physics on scenes built by hand.
 
+mod sleep;
+
 use super::*;
 use crate::scene::dummy::{Dummy, LinkType};
 use crate::scene::force_sensor::ForceSensor;
@@ -56,7 +58,8 @@ impl Bench {
             let Some(call) = self.dynamics.begin(&mut self.scene, STEP).expect("not busy") else { continue };
             for number in 1..=call.passes {
                 self.dynamics.prepare(&self.scene, number);
-                let mut pass = self.dynamics.start_pass(&self.scene, number, Attention::default()).expect("there is a world");
+                let mut pass =
+                    self.dynamics.start_pass(&self.scene, number, Attention::default()).expect("there is a world");
                 pass.run(None);
                 self.dynamics.finish_pass(pass, &mut self.scene);
             }

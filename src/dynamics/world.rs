@@ -5,9 +5,9 @@
 
 use rapier3d_f64::math::{Rotation, Vector};
 use rapier3d_f64::prelude::{
-    BroadPhaseBvh, CCDSolver, ColliderSet, FrictionModel, ImpulseJointSet, IntegrationParameters, IslandManager,
-    MultibodyJointSet, NarrowPhase, PhysicsHooks, PhysicsPipeline, RigidBody, RigidBodySet, SoftBodySet,
-    SpringCoefficients,
+    BroadPhaseBvh, CCDSolver, ColliderHandle, ColliderSet, FrictionModel, ImpulseJointSet, IntegrationParameters,
+    IslandManager, MultibodyJointSet, NarrowPhase, PhysicsHooks, PhysicsPipeline, RigidBody, RigidBodyHandle,
+    RigidBodySet, SoftBodySet, SpringCoefficients,
 };
 
 /// Sweeps of the solver over all constraints of a sub-step.
@@ -36,6 +36,8 @@ pub(super) struct World {
     ccd: CCDSolver,
     pipeline: PhysicsPipeline,
     parameters: IntegrationParameters,
+    /// Of the step before.
+    gravity: Option<Vector>,
 }
 
 impl World {
@@ -52,12 +54,16 @@ impl World {
             ccd: CCDSolver::new(),
             pipeline: PhysicsPipeline::new(),
             parameters: parameters(),
+            gravity: None,
         }
     }
 
     /// Advances everything by `step` seconds under `gravity` (m/s2).
     pub(super) fn step(&mut self, step: f64, gravity: Vector, hooks: &dyn PhysicsHooks) {
         self.parameters.dt = step;
+        if self.gravity.replace(gravity).is_some_and(|before| before != gravity) {
+            self.wake_all();
+        }
         self.pipeline.step(
             gravity,
             &self.parameters,
@@ -83,13 +89,32 @@ impl World {
         }
     }
 
+    /// Bodies that do not sleep, static ones excepted.
+    pub(super) fn awake(&self) -> impl Iterator<Item = RigidBodyHandle> {
+        self.islands.active_bodies()
+    }
+
+    pub(super) fn wake_all(&mut self) {
+        self.bodies.iter_mut().for_each(|(_, rigid)| rigid.wake_up(true));
+    }
+
+    /// Makes the engine look anew at the contacts of a collider that changed; what touches it wakes up.
+    pub(super) fn renew_contacts(&mut self, collider: ColliderHandle) {
+        if let Some(collider) = self.colliders.get_mut(collider)
+            && let Some(&pose) = collider.position_wrt_parent()
+        {
+            // Even to the same place: rapier uses contacts again, with their friction, while nothing is moved.
+            collider.set_position_wrt_parent(pose);
+        }
+    }
+
     /// Whether the last step met bodies that have no next state in numbers. rapier leaves them where they were.
     pub(super) fn has_given_up(&self) -> bool {
         !self.pipeline.quarantine().is_empty()
     }
 
     /// Removes a body with its colliders and joints.
-    pub(super) fn remove_body(&mut self, body: rapier3d_f64::prelude::RigidBodyHandle) {
+    pub(super) fn remove_body(&mut self, body: RigidBodyHandle) {
         self.bodies.remove(
             body,
             &mut self.islands,
