@@ -12,6 +12,7 @@ use crate::format::scene_file::SceneFile;
 use crate::io::ZmqServer;
 use crate::scene::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, Scene};
+use crate::script::coverage::LineCounts;
 use crate::script::{
     ApiError, Console, Detached, Options, SceneSource, Script, Silent, Sim, SimulationState, SysCall, TestBench,
 };
@@ -268,6 +269,11 @@ impl Simulator {
     /// How many errors scripts have raised that nobody caught.
     pub fn errors(&self) -> u64 {
         self.sim.errors.get()
+    }
+
+    /// How often lines of scripts ran since the last time, where `Options::count_lines` asks for that.
+    pub fn take_line_counts(&mut self) -> LineCounts {
+        self.sim.take_line_counts()
     }
 
     /// Whether a script asked to end the program.

@@ -10,6 +10,7 @@ use super::setup::seconds;
 use crate::Options;
 use crate::testing::{self, Allowance, Config, Summary};
 
+mod coverage;
 mod failure;
 mod init;
 mod paint;
@@ -71,6 +72,9 @@ pub(super) struct Args {
     /// Where plots of golden traces go that differ
     #[arg(long, value_name = "FOLDER", default_value = "test-results")]
     artifacts: PathBuf,
+    /// Count the lines of scripts and Lua files that run, and write them in the format of LCOV [default FILE: lcov.info]
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "lcov.info")]
+    coverage: Option<PathBuf>,
     /// Run the tests again whenever a file beside or below them changes
     #[arg(long)]
     watch: bool,
@@ -106,6 +110,10 @@ pub(super) fn test(args: &Args) -> ExitCode {
 fn run(args: &Args, config: &Config) -> Result<u8, String> {
     let summary = testing::run(config, &mut args.reports.reporter()).map_err(|error| error.to_string())?;
     args.reports.write(&summary)?;
+    if let (Some(coverage), Some(file)) = (&summary.coverage, &config.coverage) {
+        coverage.write(file).map_err(|error| error.to_string())?;
+        args.reports.tell(&coverage::summary(coverage, file));
+    }
     Ok(exit_code(config, &summary))
 }
 
@@ -141,6 +149,7 @@ impl Args {
             fail_fast: self.fail_fast,
             update_golden: self.update_golden,
             artifacts: self.artifacts.clone(),
+            coverage: self.coverage.clone(),
             allowance: Allowance {
                 wall: Duration::from_secs_f64(self.timeout),
                 simulated: self.sim_timeout,

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::{Rc, Weak};
 
 use super::callback::SysCall;
+use super::coverage::Coverage;
 use super::events::Filters;
 use super::instance::Script;
 use super::lua::{FunctionRef, Stack, State};
@@ -32,6 +33,8 @@ pub(crate) struct Env {
     pub library_data: RefCell<HashMap<TypeId, Rc<dyn Any>>>,
     warned: RefCell<HashSet<&'static str>>,
     watched: bool,
+    /// What counts the lines that run, if they are counted.
+    pub coverage: Option<Coverage>,
 }
 
 /// May code of this state yield, and when is it made to?
@@ -78,6 +81,7 @@ impl Env {
             library_data: RefCell::default(),
             warned: RefCell::default(),
             watched: sim.options.limits.is_some(),
+            coverage: sim.options.count_lines.then(Coverage::new),
         }
     }
 
@@ -127,6 +131,14 @@ impl Env {
     pub(crate) fn has_hooks(&self, call: SysCall) -> bool {
         let hooks = self.hooks.borrow();
         [&hooks.before, &hooks.after].iter().any(|list| list.get(&call).is_some_and(|hooks| !hooks.is_empty()))
+    }
+}
+
+impl Drop for Env {
+    fn drop(&mut self) {
+        if let Some(sim) = self.sim.upgrade() {
+            sim.keep_line_counts(self);
+        }
     }
 }
 

@@ -13,6 +13,7 @@ mod calls;
 pub(crate) mod cbor;
 mod clock;
 mod console;
+pub mod coverage;
 mod cx;
 mod data;
 mod data_changes;

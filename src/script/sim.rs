@@ -13,6 +13,7 @@ use super::binding::Registry;
 use super::by_handle::ByHandle;
 use super::clock::Clock;
 use super::console::{Console, LogLine};
+use super::coverage::LineCounts;
 use super::events::EventStream;
 use super::instance::{Detached, Script};
 use super::lua::Budget;
@@ -55,6 +56,8 @@ pub struct Options {
     pub stop: Arc<AtomicBool>,
     /// What scripts may use up; None: whatever they like.
     pub limits: Option<Limits>,
+    /// Whether to count the lines of scripts that run. Scripts are slower meanwhile.
+    pub count_lines: bool,
     /// Where servers of scripts listen.
     pub listen_address: IpAddr,
     /// Origins of web pages that may use the remote API, besides those of this machine; `*` for all.
@@ -74,6 +77,7 @@ impl Default for Options {
             exec_unsafe_ext: true,
             stop: Arc::default(),
             limits: None,
+            count_lines: false,
             listen_address: Ipv4Addr::LOCALHOST.into(),
             web_origins: Vec::new(),
         }
@@ -135,6 +139,8 @@ pub(crate) struct Sim {
     pub zmq_users: Rc<()>,
     /// Where a test's runner waits.
     pub test_bench: OnceCell<Rc<TestBench>>,
+    /// What states have counted that are gone.
+    pub line_counts: RefCell<LineCounts>,
     next_detached: Cell<i64>,
     once: RefCell<HashSet<(String, i64, String)>>,
     started: std::time::Instant,
@@ -174,6 +180,7 @@ impl Sim {
             zmq_context: OnceCell::new(),
             zmq_users: Rc::default(),
             test_bench: OnceCell::new(),
+            line_counts: RefCell::default(),
             next_detached: Cell::new(FIRST_DETACHED),
             once: RefCell::default(),
             started: super::wall_clock::now(),

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use super::excerpt::Excerpt;
 use super::golden::Comparison;
+use crate::script::coverage::LineCounts;
 use crate::script::test_bench::{ConsoleLine, Golden};
 
 /// One test of a file.
@@ -87,6 +88,8 @@ pub struct Outcome {
     pub comparisons: Vec<Comparison>,
     /// What a run of a batch came to.
     pub results: BTreeMap<String, String>,
+    /// The lines that ran, where they are counted.
+    pub line_counts: LineCounts,
 }
 
 impl Outcome {
@@ -108,6 +111,7 @@ impl Outcome {
             goldens: Vec::new(),
             comparisons: Vec::new(),
             results: BTreeMap::new(),
+            line_counts: LineCounts::default(),
         }
     }
 

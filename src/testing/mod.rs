@@ -5,6 +5,7 @@
 
 pub mod batch;
 mod case;
+mod coverage;
 mod discover;
 mod excerpt;
 mod golden;
@@ -19,10 +20,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 pub use case::{Outcome, Status, TestCase};
+pub use coverage::{Coverage, Record};
 pub use discover::find_files;
 pub use excerpt::Excerpt;
 pub use golden::{Comparison, Difference, Divergence, Verdict};
 
+use crate::script::coverage::LineCounts;
 use golden::Claims;
 use plan::Plan;
 use workers::{Message, Task, work};
@@ -47,6 +50,8 @@ pub struct Config {
     pub update_golden: bool,
     /// Where pictures of golden traces go that differ.
     pub artifacts: PathBuf,
+    /// The file for the report of which lines ran, if that is wanted.
+    pub coverage: Option<PathBuf>,
     /// What a test may use up.
     pub allowance: Allowance,
     /// Becomes true when the user wants an end.
@@ -111,6 +116,8 @@ pub struct Summary {
     /// Whether the user wanted an end before all tests had run.
     pub interrupted: bool,
     pub wall: Duration,
+    /// What lines of the tested scripts did, if that was wanted.
+    pub coverage: Option<Coverage>,
 }
 
 impl Summary {
@@ -140,12 +147,14 @@ pub fn list(config: &Config) -> std::io::Result<Vec<Arc<TestCase>>> {
 pub fn run(config: &Config, reporter: &mut dyn Reporter) -> std::io::Result<Summary> {
     #[allow(clippy::disallowed_methods, reason = "how long tests take is what their user wants to know")]
     let begun = std::time::Instant::now();
+    let files = find_files(&config.paths)?;
     let plan = plan(config)?;
     reporter.begin(&plan.all());
     let mut outcomes = plan.broken;
     outcomes.iter().for_each(|outcome| reporter.outcome(outcome));
+    let mut counts = LineCounts::default();
     if !config.fail_fast || outcomes.is_empty() {
-        run_tests(config, plan.jobs, reporter, &mut outcomes);
+        run_tests(config, plan.jobs, reporter, &mut outcomes, &mut counts);
     }
     let ran = outcomes.iter().filter(|outcome| outcome.test.index > 0).count();
     outcomes.sort_by_key(|outcome| outcome.test.key());
@@ -153,6 +162,7 @@ pub fn run(config: &Config, reporter: &mut dyn Reporter) -> std::io::Result<Summ
         not_run: plan.tests.len().saturating_sub(ran),
         deselected: plan.deselected,
         interrupted: config.interrupted.load(Ordering::Relaxed),
+        coverage: config.coverage.as_ref().map(|report| Coverage::new(report, &files, counts)),
         outcomes,
         wall: begun.elapsed(),
     };
@@ -174,12 +184,19 @@ fn plan(config: &Config) -> std::io::Result<Plan> {
     Ok(Plan::new(config, collected))
 }
 
-fn run_tests(config: &Config, jobs: Vec<plan::Job>, reporter: &mut dyn Reporter, outcomes: &mut Vec<Outcome>) {
+fn run_tests(
+    config: &Config,
+    jobs: Vec<plan::Job>,
+    reporter: &mut dyn Reporter,
+    outcomes: &mut Vec<Outcome>,
+    counts: &mut LineCounts,
+) {
     let tasks = jobs.into_iter().map(Task::Run).collect();
     let mut claims = Claims::default();
     let mut recorded = Vec::new();
     work(config, tasks, &mut |message| {
         let Message::Finished(mut outcome) = message else { return true };
+        counts.merge(std::mem::take(&mut outcome.line_counts));
         golden::judge(&mut outcome, config.update_golden);
         claims.note(&outcome);
         let go_on = !(config.fail_fast && outcome.is_bad());

@@ -29,6 +29,7 @@ impl Session {
             seed,
             stop,
             limits: Some(Limits { memory: config.allowance.memory }),
+            count_lines: config.coverage.is_some(),
             package_dirs: vec![folder.to_owned()],
             ..Options::default()
         };
@@ -110,6 +111,11 @@ impl Session {
         if let (Some(line), Ok(source)) = (outcome.line, std::fs::read(&outcome.test.file)) {
             outcome.excerpts.extend(Excerpt::of(&self.bench.file, &source, line));
         }
+    }
+
+    /// Hands over the lines that ran since the last time.
+    pub(super) fn take_line_counts(&mut self, outcome: &mut Outcome) {
+        outcome.line_counts = self.sim.take_line_counts();
     }
 
     fn call(&mut self, function: &str, args: &[Data]) -> Option<Data> {

@@ -282,6 +282,7 @@ impl Worker {
             if tests.is_empty() {
                 session.finish(&mut outcome);
             }
+            session.take_line_counts(&mut outcome);
             self.finished(outcome);
         }
         tests

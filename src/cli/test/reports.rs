@@ -57,6 +57,16 @@ impl ReportArgs {
         Reports { terminal: (!is_silent).then(|| Terminal::new(wishes)), stream }
     }
 
+    /// Tells the user something that belongs to no report: where it does not disturb one.
+    pub(super) fn tell(&self, text: &str) {
+        // A reader that closes the pipe has seen enough, which is no error.
+        let _ = match (self.tap || self.json, std::io::stdout().is_terminal()) {
+            (true, true) => Ok(()),
+            (true, false) => std::io::stderr().lock().write_all(text.as_bytes()),
+            (false, _) => std::io::stdout().lock().write_all(text.as_bytes()),
+        };
+    }
+
     /// Writes the reports that need to know everything.
     ///
     /// # Errors

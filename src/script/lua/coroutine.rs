@@ -1,12 +1,13 @@
-//! The count hook: it pre-empts coroutines, and ends code that may not go on.
+//! The hook: every so many instructions it pre-empts coroutines and ends code that may not go on; at every line it counts, where lines are
+//! counted.
 
 use std::ffi::c_int;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use mlua_sys as ffi;
 
-use super::Stack;
 use super::callback::panic_message;
+use super::{Stack, lines};
 
 /// How many virtual machine instructions pass between two looks at the budget.
 pub(crate) const HOOK_INTERVAL: c_int = 1000;
@@ -31,10 +32,9 @@ pub(crate) fn install_coroutine_hooks(stack: Stack<'_>, on_count: OnCount) {
         stack.raw_set_field(-2, name);
     }
     stack.pop(1);
-    if stack.owner().is_watched() {
-        // SAFETY: the main coroutine of a living state.
-        unsafe { set_hook(stack.raw(), HOOK_INTERVAL) };
-    }
+    let interval = if stack.owner().is_watched() { HOOK_INTERVAL } else { 0 };
+    // SAFETY: the main coroutine of a living state.
+    unsafe { set_hook(stack.raw(), interval) };
 }
 
 /// Switches the count hook of the running coroutine on or off. The main coroutine keeps what it has, and so does a watched state.
@@ -58,12 +58,13 @@ fn set_interval(stack: Stack<'_>, interval: c_int) {
     }
 }
 
-/// Sets the count hook, or with an interval of 0 takes it away.
+/// Sets the hook: for every `interval` instructions, with an interval of 0 for none; and for every line, where lines are counted.
 unsafe fn set_hook(raw: *mut ffi::lua_State, interval: c_int) {
-    let (hook, mask): (Option<ffi::lua_Hook>, _) =
-        if interval > 0 { (Some(count), ffi::LUA_MASKCOUNT) } else { (None, 0) };
     // SAFETY: `raw` is a coroutine of a living state.
-    unsafe { ffi::lua_sethook(raw, hook, mask, interval) }
+    unsafe {
+        let mask = lines::mask(Stack::from_raw(raw)) | if interval > 0 { ffi::LUA_MASKCOUNT } else { 0 };
+        ffi::lua_sethook(raw, (mask != 0).then_some(hook as ffi::lua_Hook), mask, interval);
+    }
 }
 
 unsafe extern "C-unwind" fn create(raw: *mut ffi::lua_State) -> c_int {
@@ -109,10 +110,13 @@ pub(crate) enum Verdict {
     Fail(&'static str),
 }
 
-/// The hook: yields, with no values, or raises when the host says so.
-unsafe extern "C-unwind" fn count(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
+/// The hook: counts a line; or yields, with no values, or raises when the host says so.
+unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, record: *mut ffi::lua_Debug) {
     // SAFETY: Lua calls the hook of a running coroutine. Yields and errors leave it by `longjmp`; nothing is owned here.
     unsafe {
+        if (*record).event != ffi::LUA_HOOKCOUNT && !lines::note(raw, record) {
+            return;
+        }
         match ask(Stack::from_raw(raw), ffi::lua_isyieldable(raw) != 0) {
             Step::GoOn => {}
             Step::Yield => drop(ffi::lua_yield(raw, 0)),

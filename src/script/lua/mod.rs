@@ -18,6 +18,7 @@ mod callback;
 mod calls;
 mod coroutine;
 mod file;
+mod lines;
 mod object;
 mod pool;
 mod stack;

@@ -1,0 +1,234 @@
+//! The lines of a Lua text that can run, as Lua's compiler sees them: the lines of the instructions of all its functions.
+//!
+//! They are read from the compiled text, whose format is that of Lua 5.4. Left out is what is no statement of the text: the return that
+//! ends every function, and lines with nothing but `end`, `else` and brackets, where the compiler puts instructions of the lines around.
+
+use std::collections::BTreeSet;
+
+/// A function of a text.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Function {
+    /// Where it begins; 0 for the text as a whole.
+    pub line: u32,
+    /// The lines of its body that can run, in the order of the text.
+    pub lines: Vec<u32>,
+    /// As the text calls it, if it does.
+    pub name: Option<String>,
+}
+
+/// What of a text can run: all functions that can run something, by their first lines. None when it does not compile.
+pub fn executable(text: &[u8]) -> Option<Vec<Function>> {
+    let mut text = text.to_vec();
+    if text.first() == Some(&b'#') {
+        // As `lua` does for the first line of a file.
+        text.splice(0..0, *b"--");
+    }
+    let bytecode = super::super::compile(&text, "=").ok()?;
+    let mut reader = Reader(bytecode.get(HEADER_SIZE..)?);
+    let mut found = Vec::new();
+    let source: Vec<&[u8]> = text.split(|&byte| byte == b'\n').collect();
+    reader.function(&mut found, &source)?;
+    found.sort();
+    Some(found)
+}
+
+/// Signature, version, format, check data, sizes, two check numbers, number of upvalues.
+const HEADER_SIZE: usize = 4 + 1 + 1 + 6 + 3 + 8 + 8 + 1;
+
+/// In place of a difference between lines: the line is given in full.
+const ABSOLUTE: i8 = -0x80;
+
+/// Types of constants.
+const FLOAT: u8 = 0x13;
+const INTEGER: u8 = 0x03;
+const SHORT_STRING: u8 = 0x04;
+const LONG_STRING: u8 = 0x14;
+
+struct Reader<'a>(&'a [u8]);
+
+impl<'a> Reader<'a> {
+    fn take(&mut self, size: usize) -> Option<&'a [u8]> {
+        let (taken, rest) = self.0.split_at_checked(size)?;
+        self.0 = rest;
+        Some(taken)
+    }
+
+    fn byte(&mut self) -> Option<u8> {
+        self.take(1).map(|bytes| bytes[0])
+    }
+
+    /// Seven bits a byte, the highest first; the last byte is marked.
+    fn size(&mut self) -> Option<usize> {
+        let mut size = 0_usize;
+        loop {
+            let byte = self.byte()?;
+            size = size.checked_mul(0x80)? | usize::from(byte & 0x7f);
+            if byte & 0x80 != 0 {
+                return Some(size);
+            }
+        }
+    }
+
+    fn string(&mut self) -> Option<()> {
+        let size = self.size()?;
+        self.take(size.saturating_sub(1)).map(drop)
+    }
+
+    /// Reads a function with those inside of it.
+    fn function(&mut self, found: &mut Vec<Function>, source: &[&[u8]]) -> Option<()> {
+        self.string()?;
+        let (first, _last) = (self.size()?, self.size()?);
+        let (_parameters, is_vararg, _registers) = (self.byte()?, self.byte()? != 0, self.byte()?);
+        let instructions = self.size()?;
+        self.take(instructions.checked_mul(4)?)?;
+        self.constants()?;
+        let upvalues = self.size()?;
+        self.take(upvalues.checked_mul(3)?)?;
+        for _ in 0..self.size()? {
+            self.function(found, source)?;
+        }
+        let mut lines = self.lines(first)?;
+        self.names()?;
+        lines.pop();
+        // The first instruction of a function with `...` only arranges its arguments.
+        let lines = lines.into_iter().skip(usize::from(is_vararg)).filter(|&line| is_statement(source, line));
+        let lines: BTreeSet<u32> = lines.collect();
+        let line = u32::try_from(first).ok()?;
+        if !lines.is_empty() {
+            found.push(Function { line, lines: lines.into_iter().collect(), name: name(line_of(source, line)) });
+        }
+        Some(())
+    }
+
+    fn constants(&mut self) -> Option<()> {
+        for _ in 0..self.size()? {
+            match self.byte()? {
+                FLOAT | INTEGER => drop(self.take(8)?),
+                SHORT_STRING | LONG_STRING => self.string()?,
+                _ => {}
+            }
+        }
+        Some(())
+    }
+
+    /// The line of each instruction.
+    fn lines(&mut self, defined: usize) -> Option<Vec<u32>> {
+        let count = self.size()?;
+        let differences = self.take(count)?;
+        let mut absolute = Vec::new();
+        for _ in 0..self.size()? {
+            absolute.push((self.size()?, self.size()?));
+        }
+        let mut absolute = absolute.into_iter();
+        let mut line = defined as i64;
+        let mut lines = Vec::with_capacity(count);
+        for &difference in differences {
+            line = match difference as i8 {
+                ABSOLUTE => absolute.next()?.1 as i64,
+                difference => line + i64::from(difference),
+            };
+            lines.push(u32::try_from(line).ok()?);
+        }
+        Some(lines)
+    }
+
+    /// Names of local variables and upvalues.
+    fn names(&mut self) -> Option<()> {
+        for _ in 0..self.size()? {
+            self.string()?;
+            self.size()?;
+            self.size()?;
+        }
+        for _ in 0..self.size()? {
+            self.string()?;
+        }
+        Some(())
+    }
+}
+
+fn line_of<'a>(source: &[&'a [u8]], line: u32) -> &'a [u8] {
+    source.get(line.wrapping_sub(1) as usize).copied().unwrap_or_default()
+}
+
+/// Whether a line has more than `end`, `else` and brackets.
+fn is_statement(source: &[&[u8]], line: u32) -> bool {
+    let text = String::from_utf8_lossy(line_of(source, line));
+    let code = text.split("--").next().unwrap_or_default();
+    let words = code.split(|c: char| c.is_whitespace() || ")]},;".contains(c));
+    words.filter(|word| !word.is_empty()).any(|word| !matches!(word, "end" | "else"))
+}
+
+/// The name in `function name(`, or in `name = function(`.
+fn name(line: &[u8]) -> Option<String> {
+    let text = String::from_utf8_lossy(line);
+    let (before, after) = text.split_once("function")?;
+    let is_part = |c: char| c.is_alphanumeric() || "_.:".contains(c);
+    let after = after.split('(').next().unwrap_or_default().trim();
+    let before = before.trim_end().strip_suffix('=').unwrap_or_default().trim_end();
+    let start =
+        before.rfind(|c: char| !is_part(c)).map_or(0, |at| at + before[at..].chars().next().map_or(1, char::len_utf8));
+    let name = if after.is_empty() { &before[start..] } else { after };
+    (!name.is_empty() && name.chars().all(is_part)).then(|| name.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::{executable, name};
+
+    fn lines(text: &str) -> Vec<u32> {
+        let functions = executable(text.as_bytes()).expect("it compiles");
+        let lines: BTreeSet<u32> = functions.into_iter().flat_map(|function| function.lines).collect();
+        lines.into_iter().collect()
+    }
+
+    #[test]
+    fn statements_count_and_ends_do_not() {
+        assert_eq!(lines("local x = 1\n\n-- nothing\nif x then\n  x = 2\nelse\n  x = 3\nend\n"), [1, 4, 5, 7]);
+        assert_eq!(lines("for i = 1, 2 do\n  print(i)\nend\nwhile x do\n  x = nil\nend"), [1, 2, 4, 5]);
+        assert_eq!(lines("f(\n  1,\n  a\n)\nlocal t = {\n  x = 1,\n  y = a,\n}\n"), [1, 2, 3, 5, 6, 7]);
+        assert_eq!(lines(""), []);
+        assert_eq!(lines("#!/usr/bin/lua\nprint(1)"), [2]);
+    }
+
+    #[test]
+    fn functions_inside_of_functions_are_read() {
+        let text = "function a(...)\n  local function b()\n    return 1\n  end\n  return b, ...\nend\nM.c = function()\n  x = 1.5\nend\n";
+        let found = executable(text.as_bytes()).expect("it compiles");
+        let functions: Vec<_> = found.iter().map(|f| (f.line, f.lines.as_slice(), f.name.as_deref())).collect();
+        let expected: [(u32, &[u32], Option<&str>); 4] =
+            [(0, &[1, 7], None), (1, &[5], Some("a")), (2, &[3], Some("b")), (7, &[8], Some("M.c"))];
+        assert_eq!(functions, expected);
+    }
+
+    #[test]
+    fn a_return_that_cannot_be_reached_is_not_missed() {
+        assert_eq!(
+            lines("local function f(x)\n  if x then\n    return 1\n  else\n    return 2\n  end\nend"),
+            [2, 3, 5]
+        );
+    }
+
+    #[test]
+    fn lines_far_apart_are_found() {
+        let text = "x = 1\n".to_owned() + &"\n".repeat(1000) + &"y = 2 z = 3\n".repeat(300);
+        let found = lines(&text);
+        assert_eq!((found[0], found[1], found.len()), (1, 1002, 301));
+    }
+
+    #[test]
+    fn what_does_not_compile_has_no_lines() {
+        assert_eq!(executable(b"if"), None);
+        assert_eq!(executable(b"\x1bLua"), None);
+    }
+
+    #[test]
+    fn names_are_those_of_the_text() {
+        assert_eq!(name(b"local function f(x)").as_deref(), Some("f"));
+        assert_eq!(name(b"function M.a:b (x)").as_deref(), Some("M.a:b"));
+        assert_eq!(name(b"  t.x = function()").as_deref(), Some("t.x"));
+        assert_eq!(name(b"f(function()"), None);
+        assert_eq!(name("\u{e4} = function()".as_bytes()).as_deref(), Some("\u{e4}"));
+    }
+}

@@ -1,0 +1,135 @@
+//! Which lines of scripts run, and how often.
+//!
+//! A state counts the lines of its script's own text and of Lua files that were loaded by name (`@file`); what comes with the simulator is
+//! not counted. Here is what one state counts, and what a simulator collects from its states. Lua tells the lines (`lua::lines`); which
+//! lines there are to run says `executable`. Reports are made elsewhere.
+
+mod executable;
+mod functions;
+mod state;
+mod text;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+pub use executable::{Function, executable};
+pub(crate) use functions::{FunctionCache, Place};
+pub(crate) use state::Coverage;
+pub use text::read_text;
+
+use super::env::Env;
+use super::instance::Script;
+use super::sim::Sim;
+use crate::scene::Kind;
+use crate::scene::script_object::ScriptType;
+
+/// A text whose lines are counted.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub enum CountedText {
+    /// A Lua file, by the name it was loaded with.
+    File(PathBuf),
+    /// A script of the scene.
+    Script {
+        /// The path of the scene's file; empty when it has none.
+        scene: String,
+        /// The object's path in the scene.
+        path: String,
+        text: Arc<[u8]>,
+    },
+}
+
+/// How often lines ran: the first entry is that of line 1. Lines after the last entry never did.
+pub type Counts = Vec<u64>;
+
+/// The counts of many texts.
+#[derive(Debug, Clone, Default)]
+pub struct LineCounts {
+    pub texts: BTreeMap<CountedText, Counts>,
+    /// How often Lua stopped to tell a line, a call or a return, which is what counting costs.
+    pub events: u64,
+}
+
+impl LineCounts {
+    /// Adds what another simulator, or another state, has counted.
+    pub fn merge(&mut self, other: Self) {
+        self.events += other.events;
+        other.texts.into_iter().for_each(|(text, counts)| self.add(text, &counts));
+    }
+
+    fn add(&mut self, text: CountedText, counts: &[u64]) {
+        let sums = self.texts.entry(text).or_default();
+        if sums.len() < counts.len() {
+            sums.resize(counts.len(), 0);
+        }
+        sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum = sum.saturating_add(*count));
+    }
+}
+
+impl Sim {
+    /// Takes over what a state has counted that is going to end.
+    pub(crate) fn keep_line_counts(&self, env: &Env) {
+        if let Some(coverage) = &env.coverage
+            && let Ok(mut kept) = self.line_counts.try_borrow_mut()
+        {
+            kept.merge(coverage.take(self, &env.script));
+        }
+    }
+
+    /// Hands over what all states have counted since the last time. Scripts of the scene that have not run are there without counts.
+    pub(crate) fn take_line_counts(&self) -> LineCounts {
+        let running: Vec<_> = self.scripts.borrow().values().filter_map(|script| script.current_runtime()).collect();
+        running.iter().for_each(|runtime| self.keep_line_counts(&runtime.env));
+        let mut counts = self.line_counts.take();
+        let idle = self.countable_objects();
+        idle.into_iter().for_each(|text| counts.add(text, &[]));
+        counts
+    }
+
+    fn countable_objects(&self) -> Vec<CountedText> {
+        let scene = self.scene.borrow();
+        let scripts = scene.objects().filter_map(|object| match &object.kind {
+            Kind::Script(script) if script.language == "lua" => {
+                let path = scene.short_path(object.handle()).ok()?;
+                let text = script.code.as_slice().into();
+                Some(CountedText::Script { scene: scene.settings().path.clone(), path, text })
+            }
+            _ => None,
+        });
+        scripts.collect()
+    }
+
+    /// A script's text is going to run in its state.
+    pub(crate) fn begin_coverage(&self, script: &Script, env: &Env, chunk_name: &str, text: &[u8]) {
+        if let Some(coverage) = &env.coverage
+            && self.counts_text_of(script, text)
+        {
+            coverage.begin(chunk_name, self.path_of_script(script).unwrap_or_default(), text);
+        }
+    }
+
+    /// Whether lines of that script's own text count: those of the scene do, unless they came with the simulator.
+    fn counts_text_of(&self, script: &Script, text: &[u8]) -> bool {
+        match script.script_type {
+            ScriptType::Sandbox | ScriptType::AddOn => false,
+            ScriptType::Main => text != self.registry.modules["main"].source.as_bytes(),
+            _ => true,
+        }
+    }
+
+    /// What a script is called in reports; None when it is no longer in the scene.
+    fn path_of_script(&self, script: &Script) -> Option<String> {
+        let scene = self.scene.try_borrow().ok()?;
+        match (script.object, script.owner()) {
+            (Some(object), _) => scene.short_path(object).ok(),
+            (None, Some(owner)) => {
+                Some(scene.short_path(owner).ok()? + super::attached::log_suffix(script.script_type))
+            }
+            (None, None) => Some(format!("/{}", script.detached.borrow().name)),
+        }
+    }
+
+    fn scene_path(&self) -> String {
+        self.scene.try_borrow().map(|scene| scene.settings().path.clone()).unwrap_or_default()
+    }
+}

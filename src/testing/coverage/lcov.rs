@@ -1,0 +1,65 @@
+//! The report in the format of LCOV, as genhtml and the services of CI read it.
+
+use std::collections::{BTreeMap, HashSet};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use super::Record;
+
+/// All records, in the order of their names.
+pub(super) fn text(records: &BTreeMap<PathBuf, Record>) -> String {
+    let mut text = String::new();
+    for (path, record) in records {
+        // Writing to a string does not fail.
+        let _ = write_record(&mut text, path, record);
+    }
+    text
+}
+
+fn write_record(text: &mut String, path: &Path, record: &Record) -> std::fmt::Result {
+    writeln!(text, "TN:\nSF:{}", path.display())?;
+    write_functions(text, record)?;
+    for (line, count) in &record.lines {
+        writeln!(text, "DA:{line},{count}")?;
+    }
+    writeln!(text, "LF:{}\nLH:{}\nend_of_record", record.lines.len(), record.hit())
+}
+
+fn write_functions(text: &mut String, record: &Record) -> std::fmt::Result {
+    let names = names(record);
+    for (function, name) in record.functions.iter().zip(&names) {
+        writeln!(text, "FN:{},{name}", function.line)?;
+    }
+    for (function, name) in record.functions.iter().zip(&names) {
+        writeln!(text, "FNDA:{},{name}", record.calls(function))?;
+    }
+    let hit = record.functions.iter().filter(|function| record.calls(function) > 0).count();
+    writeln!(text, "FNF:{}\nFNH:{hit}", record.functions.len())
+}
+
+/// LCOV knows functions by their names, so each must have one of its own.
+fn names(record: &Record) -> Vec<String> {
+    let mut known = HashSet::new();
+    let name = |function: &crate::script::coverage::Function| {
+        let name = function.name.clone().unwrap_or_else(|| format!("anonymous@{}", function.line));
+        if known.insert(name.clone()) { name } else { format!("{name}@{}", function.line) }
+    };
+    record.functions.iter().map(name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Record;
+    use super::text;
+    use crate::script::coverage::executable;
+
+    #[test]
+    fn the_format_is_that_of_lcov() {
+        let source = b"function f(x)\n  if x then\n    x = 1\n  end\nend\nf()\nlocal f = function()\n  f()\nend\n";
+        let mut record = Record::new(executable(source).expect("it compiles"));
+        record.add(&[1, 1, 0, 0, 0, 1]);
+        let expected = "TN:\nSF:a/b.lua\nFN:1,f\nFN:7,f@7\nFNDA:1,f\nFNDA:0,f@7\nFNF:2\nFNH:1\n\
+            DA:1,1\nDA:2,1\nDA:3,0\nDA:6,1\nDA:8,0\nLF:5\nLH:3\nend_of_record\n";
+        assert_eq!(text(&[("a/b.lua".into(), record)].into()), expected);
+    }
+}

@@ -1,0 +1,74 @@
+//! Line coverage: what the tests ran of the scripts and files they test.
+//!
+//! Counts of all tests are summed here, so that it does not matter which test ran where. A text is reported under the name of the file that
+//! has it; a script that is inside of a scene file under that of a copy, which is written beside the report.
+
+mod cost;
+mod lcov;
+mod place;
+mod record;
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+pub use record::Record;
+
+use crate::script::coverage::{CountedText, LineCounts, executable};
+use place::Places;
+
+/// What the lines of all texts did.
+#[derive(Debug, Default)]
+pub struct Coverage {
+    /// By the name of the file.
+    pub records: BTreeMap<PathBuf, Record>,
+    /// Copies to write of the texts that have no file.
+    copies: BTreeMap<PathBuf, Vec<u8>>,
+    /// How many lines and calls were told, of these and of other texts.
+    pub events: u64,
+    /// What that took of the time of the tests, as far as it can be told; all threads together.
+    pub cost: Option<Duration>,
+}
+
+impl Coverage {
+    /// What to report in the file `report` of `counts`; the tests themselves, `tests`, are left out.
+    pub(super) fn new(report: &Path, tests: &[PathBuf], counts: LineCounts) -> Self {
+        let mut coverage = Self { events: counts.events, ..Self::default() };
+        coverage.cost = cost::of_an_event().map(|cost| cost.mul_f64(counts.events as f64));
+        let mut places = Places::new(report, tests);
+        for (text, counts) in counts.texts {
+            coverage.add(&mut places, &text, &counts);
+        }
+        coverage
+    }
+
+    fn add(&mut self, places: &mut Places, text: &CountedText, counts: &[u64]) {
+        let Some(place) = places.of(text) else { return };
+        let Some(functions) = executable(&place.text).filter(|functions| !functions.is_empty()) else { return };
+        let record = self.records.entry(place.path.clone()).or_insert_with(|| Record::new(functions));
+        record.add(counts);
+        if place.is_copy {
+            self.copies.insert(place.path, place.text);
+        }
+    }
+
+    /// Writes the report, and the copies it refers to.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn write(&self, report: &Path) -> io::Result<()> {
+        for (path, text) in &self.copies {
+            write_file(path, text)?;
+        }
+        write_file(report, lcov::text(&self.records).as_bytes())
+    }
+}
+
+fn write_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let about = |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(about)?;
+    }
+    std::fs::write(path, bytes).map_err(about)
+}
