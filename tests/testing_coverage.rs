@@ -181,9 +181,9 @@ fn lines_of_scenes_scripts_and_modules_are_counted() {
 #[test]
 fn the_report_does_not_depend_on_the_number_of_threads() {
     let project = project();
-    run(project.path(), &["--coverage=out/report.info", "-j", "3", "--repeat", "2"]);
-    let report = read(project.path(), "out/report.info");
-    assert!(report.starts_with("TN:\nSF:out/coverage/scenes/robot.ttt/robot/script.lua\n"), "{report}");
+    run(project.path(), &["--coverage=report.info", "-j", "3", "--repeat", "2"]);
+    let report = read(project.path(), "report.info");
+    assert!(report.starts_with("TN:\nSF:coverage/scenes/robot.ttt/robot/script.lua\n"), "{report}");
     // Each test ran twice.
     let doubled = REPORT.lines().map(|line| match line.rsplit_once(',') {
         Some((start, count)) if start.starts_with("DA:") => {

@@ -71,6 +71,7 @@ impl Config {
             fail_fast: false,
             update_golden: false,
             artifacts: PathBuf::new(),
+            coverage: None,
             allowance,
             interrupted,
         }
