@@ -104,6 +104,7 @@ pub(super) mod sample {
             ],
             not_run: 2,
             deselected: 1,
+            coverage: None,
             interrupted: false,
             wall: Duration::from_secs(3),
         }
