@@ -148,8 +148,8 @@ fn line(row: &Row) -> String {
 
 /// A number where the text is one that is written so.
 fn typed(text: &str) -> Value {
-    let number = serde_json::from_str::<Value>(text).ok().filter(|value| value.is_number());
-    number.filter(|value| value.to_string() == text).unwrap_or_else(|| Value::from(text))
+    let is_written_so = |number: &serde_json::Number| number.to_string().as_str() == text;
+    serde_json::from_str(text).ok().filter(is_written_so).map_or_else(|| Value::from(text), Value::Number)
 }
 
 fn untyped(value: &Value) -> String {
