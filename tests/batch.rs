@@ -87,3 +87,18 @@ fn wrong_usage_is_told() {
         assert_eq!(batch(dir.path(), &wrong).0, 2, "{wrong:?}");
     }
 }
+
+#[test]
+fn scenes_of_coppeliasim_are_run() {
+    let dir = tempfile::tempdir().expect("a folder");
+    for scene in ["robot.ttt", "kinds.simscene.xml"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scene_files").join(scene);
+        let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+        command.arg("batch").arg(path).args(["--time", "0.1", "--out", scene]).current_dir(dir.path());
+        let (_, output) = run_for_code(&mut command, Duration::from_secs(120)).expect("it ends");
+        assert!(output.contains("1 of 1 runs done"), "{output}");
+        let row = &table(dir.path(), scene)[1];
+        assert!(!row.contains("[string"), "no Lua error of a file read as Lua: {row}");
+        assert!(row.split(',').any(|value| value.starts_with("0.")), "it simulates: {row}");
+    }
+}

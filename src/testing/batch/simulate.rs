@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::super::Config;
 use super::super::case::{Outcome, Status, TestCase};
-use crate::format::scene_file::SceneFile;
-use crate::format::ttt;
+use crate::format::scene_file::{SceneFile, is_scene, read_file};
+use crate::format::ttt::FileResult;
 use crate::script::TestBench;
 use crate::{Limits, Options, ScriptKind, SimulationState, Simulator};
 
@@ -39,23 +39,30 @@ impl Scene {
         let about =
             |error: &dyn std::fmt::Display| io::Error::other(format!("cannot read {}: {error}", path.display()));
         let bytes = std::fs::read(path).map_err(|error| about(&error))?;
-        if ttt::is_binary(&bytes) {
-            SceneFile::read(&bytes).map_err(|error| about(&error))?;
+        let scene = Self { path: std::path::absolute(path)?, bytes };
+        scene.file().map_err(|error| about(&error))?;
+        Ok(scene)
+    }
+
+    /// What a file of CoppeliaSim holds; None for a Lua file.
+    fn file(&self) -> FileResult<Option<SceneFile>> {
+        if !is_scene(&self.bytes) {
+            return Ok(None);
         }
-        Ok(Self { path: std::path::absolute(path)?, bytes })
+        SceneFile::new(read_file(&self.bytes, self.path.parent())?).map(Some)
     }
 
     fn put_into(&self, sim: &mut Simulator) -> Result<(), String> {
         sim.scene_mut().modify_settings(|settings| settings.path = self.path.to_string_lossy().into_owned());
-        if !ttt::is_binary(&self.bytes) {
+        let file = self.file().map_err(|error| error.to_string())?;
+        if file.as_ref().is_none_or(SceneFile::is_model) {
+            // An empty scene has room for them.
             let _ = sim.scene_mut().add_default_objects();
-            return sim
-                .add_script(ScriptKind::Customization, "Script", &self.bytes)
-                .map(drop)
-                .map_err(|e| e.to_string());
         }
-        let file = SceneFile::read(&self.bytes).map_err(|error| error.to_string())?;
-        sim.load(file).map_err(|error| error.to_string())
+        if let Some(file) = file {
+            return sim.load(file).map_err(|error| error.to_string());
+        }
+        sim.add_script(ScriptKind::Customization, "Script", &self.bytes).map(drop).map_err(|error| error.to_string())
     }
 }
 
