@@ -3,7 +3,7 @@ Bootstrap of a fresh Lua state; runs once, before any user code.
 
 Does: the wrapped standard functions (require, pcall, tonumber, assert, string.*), buffers, the thread of a script
 (global sysCall_thread), and cheap stand-ins for everything a script may use but usually does not.
-Does not: hold any of those other functions (display.lua, functional.lua, console.lua, ...), nor the sim table.
+Does not: hold any of those other functions (swanilda/display.lua, functional.lua, ...), nor the sim table.
 
 A thousand states run this file: every closure and table here is paid for by each of them.
 ]]
@@ -150,7 +150,7 @@ local function removeProxies(name)
 end
 
 function require(name)
-    if math.type(name) == 'integer' and package.loaded.sim then return quietRequire('modload').fromScript(name) end
+    if math.type(name) == 'integer' and package.loaded.sim then return quietRequire('swanilda.modload').fromScript(name) end
     local module = quietRequire(name)
     if proxied and proxied[name] and not loadingImplicitly then removeProxies(name) end
     usedModule(name)
@@ -175,16 +175,16 @@ local function standIns(module, names)
     end
 end
 
-standIns('display', {'print', 'printf', 'printToConsole', 'getAsString', 'getAsDisplayString'})
+standIns('swanilda.display', {'print', 'printf', 'printToConsole', 'getAsString', 'getAsDisplayString'})
 standIns('functional', {
     'map', 'filter', 'foreach', 'reduce', 'range', 'zip', 'any', 'all', 'sum', 'prod', 'partial', 'apply', 'iter',
     'identity', 'negate', 'reify',
 })
-standIns('console', {
+standIns('swanilda.console', {
     'help', 'printBytes', 'hexdump', '_evalExec', '_evalExecRet', '_getCompletion', '_getCalltip',
 })
 standIns('var', {'getvar', 'setvar', 'getlocals'})
-standIns('modload', {'import', 'rerequire'})
+standIns('swanilda.modload', {'import', 'rerequire'})
 
 -- A library of the standard whose extensions are copied in when the first missing name is asked for.
 local function extendable(library, module)

@@ -1,6 +1,30 @@
 --[[
-The dialogs and shapes of paths, which their customization scripts ask for. There is no display: a path keeps the points it was saved
-with, and its script may define `shaping` in the table this returns.
+What the customization script of a path object does: `path = require('path_customization')`. The path follows its control points, dummies
+below it, while no simulation runs and when one begins. `path.shaping(points, closed, upVector)` may make the shape along it.
+
+Does not open the dialog of a path: there is no display.
 ]]
 
-return {}
+local model = require 'swanilda.pathmodel'
+local sim = package.loaded.sim or require 'sim'
+local path = {}
+
+-- The script is an object below the path; in scenes from before there were such, it belongs to the path itself.
+local function owner()
+    local object = sim.getObject('.')
+    local isScript = sim.getObjectType(object) == sim.sceneobject_script
+    return isScript and sim.getObjectParent(object) or object
+end
+
+local function update() model.update(owner(), path.shaping) end
+
+function sysCall_nonSimulation() update() end
+
+function sysCall_beforeSimulation()
+    update()
+    model.setHidden(owner(), true)
+end
+
+function sysCall_afterSimulation() model.setHidden(owner(), false) end
+
+return path

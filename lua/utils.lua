@@ -6,11 +6,11 @@ Old home of a few helpers for interactive use, which are global functions now.
     apropos(input, pos)                 what a line being typed may go on with
 ]]
 
-local console = require 'console'
+local console = require 'swanilda.console'
 
 return {
     hexdump = console.hexdump,
     printbytes = console.printBytes,
-    rerequire = require('modload').rerequire,
+    rerequire = require('swanilda.modload').rerequire,
     apropos = console._getCompletion,
 }

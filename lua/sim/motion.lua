@@ -6,19 +6,9 @@ Does not plan a trajectory itself (sim.ruckigPos does), nor move poses (pose.lua
 
 local sim = ...
 local M = {}
-local motion = require 'trajectory'
+local motion = require 'swanilda.trajectory'
 
-local PHASE_SYNC_DEFAULT <const> = -1
-local RUNNING <const>, ABORTED <const> = 0, 2
-
--- Deep copy, except of what the caller handed over to get it back: auxData and functions.
-local function copyParams(params)
-    local data = {}
-    for key, value in pairs(params) do
-        data[key] = key == 'auxData' and value or motion.copy(value)
-    end
-    return data
-end
+local ABORTED <const> = 2
 
 local function positionsOf(joints)
     local positions = {}
@@ -26,22 +16,37 @@ local function positionsOf(joints)
     return positions
 end
 
+local function isJoint(handle)
+    handle = math.tointeger(handle)
+    return handle and sim.isHandle(handle) and sim.getObjectType(handle) == sim.sceneobject_joint
+end
+
+local function checkJoints(joints, count)
+    if type(joints) ~= 'table' or #joints ~= (count or math.max(1, #joints)) then return false end
+    for _, joint in ipairs(joints) do
+        if not isJoint(joint) then return false end
+    end
+    return true
+end
+
 local function checkStart(data, level)
     if data.joints == nil and data.pos == nil then
         error("missing field: either 'pos' or 'joints' is required.", level)
     end
-    if data.joints ~= nil and (type(data.joints) ~= 'table' or data.pos and #data.joints ~= #data.pos) then
+    if data.pos and not motion.isList(data.pos, 1, true) then
+        error("invalid 'pos' field.", level)
+    end
+    if data.joints ~= nil and not checkJoints(data.joints, data.pos and #data.pos) then
         error("invalid 'joints' field.", level)
     end
     data.pos = data.pos or positionsOf(data.joints)
-    if type(data.targetPos) ~= 'table' or #data.targetPos ~= #data.pos then
-        error("missing or invalid 'targetPos' field.", level)
-    end
+    if not motion.isList(data.targetPos, #data.pos) then error("missing or invalid 'targetPos' field.", level) end
+    if data.cyclicJoints ~= nil and type(data.cyclicJoints) ~= 'table' then error("invalid 'cyclicJoints' field.", level) end
 end
 
 local function unwrapTargets(data)
-    for i, cyclic in ipairs(data.cyclicJoints or {}) do
-        if cyclic then
+    for i = 1, data.cyclicJoints and #data.pos or 0 do
+        if data.cyclicJoints[i] then
             local turns = (data.targetPos[i] - data.pos[i]) / (2 * math.pi)
             data.targetPos[i] = data.targetPos[i] - 2 * math.pi * math.floor(turns + 0.5)
         end
@@ -49,17 +54,12 @@ local function unwrapTargets(data)
 end
 
 local function init(params, level)
-    local data = copyParams(params)
+    local data = motion.copyParams(params, level + 1)
     checkStart(data, level + 1)
     local n = #data.pos
-    for _, field in ipairs{'vel', 'accel', 'targetVel'} do
-        data[field] = data[field] or motion.fill(0.0, n)
-        if type(data[field]) ~= 'table' or #data[field] < n then error("invalid '" .. field .. "' field.", level) end
-    end
     motion.completeLimits(data, n, false, level + 1)
+    motion.completeParams(data, n, level + 1)
     unwrapTargets(data)
-    data.flags = data.flags or PHASE_SYNC_DEFAULT
-    data.timeLeft = 0
     data.ruckigObj = motion.start(data, n, {data.pos, data.vel, data.accel}, data.targetPos, data.targetVel)
     return data
 end
@@ -89,16 +89,10 @@ local function step(data)
     return result, data
 end
 
-local function run(data)
-    local stepping = sim.setStepping(true)
-    local result
-    repeat
-        result = step(data)
-        if result >= 0 then sim.step() end
-    until result ~= RUNNING
-    motion.finish(data)
-    sim.setStepping(stepping)
-    return result
+local function checkMotion(data, level)
+    if type(data) ~= 'table' or not data.ruckigObj then
+        error('not a motion under way: sim.moveToConfig_init begins one.', level)
+    end
 end
 
 local LEGACY_ARGS = {
@@ -112,6 +106,7 @@ local LEGACY_ARGS = {
 local function fromLegacyArgs(...)
     local flags, pos, vel, accel, maxVel, maxAccel, maxJerk, targetPos, targetVel, callback, aux, cyclic, timeStep =
         require('checkargs').checkargsEx({level = 1}, LEGACY_ARGS, ...)
+    motion.checkCallback(callback, 4)
     local n = #pos
     local params = {
         flags = flags, pos = pos, vel = vel, accel = accel, auxData = aux, cyclicJoints = cyclic, timeStep = timeStep,
@@ -140,12 +135,17 @@ end
 -- @param motionObject from sim.moveToConfig_init
 -- @return result 0 moving, 1 arrived, 2 stopped by the callback, negative: error
 -- @return motionObject with the new pos, vel and accel
-function M.moveToConfig_step(motionObject) return step(motionObject) end
+function M.moveToConfig_step(motionObject)
+    checkMotion(motionObject, 3)
+    return step(motionObject)
+end
 
 --- Ends a motion started with sim.moveToConfig_init.
 -- @api sim.moveToConfig_cleanup(map motionObject)
 -- @param motionObject from sim.moveToConfig_init
-function M.moveToConfig_cleanup(motionObject) motion.finish(motionObject) end
+function M.moveToConfig_cleanup(motionObject)
+    if type(motionObject) == 'table' then motion.finish(motionObject) end
+end
 
 --- Moves joints or a set of numbers to a target, with limited velocity, acceleration and jerk.
 -- Blocks in a thread. The older form takes flags, pos, vel, accel, maxVel, maxAccel, maxJerk, targetPos, targetVel,
@@ -157,7 +157,7 @@ function M.moveToConfig(params, ...)
     local legacy = type(params) ~= 'table'
     if legacy then params = fromLegacyArgs(params, ...) end
     local data = init(params, 3)
-    local result = run(data)
+    local result = motion.run(data, step, motion.finish)
     if result < 0 then error('sim.moveToConfig_step returned error code ' .. result, 2) end
     if legacy then return data.pos, data.vel, data.accel, data.timeLeft end
     return data

@@ -6,7 +6,7 @@ Does not follow a path: that is a loop over sim.getPathInterpolatedConfig in the
 
 local sim = ...
 local M = {}
-local quaternion = require 'quaternion'
+local quaternion = require 'swanilda.quaternion'
 
 local LINEAR <const>, CYCLIC <const>, QUATERNION <const> = 0, 1, 2
 local END_GAP <const> = 1e-8 -- 4.10 never reaches the end of a path, it stops this much before
@@ -20,12 +20,24 @@ local function wrap(angle)
     return angle - ROUND * math.floor((angle + math.pi) / ROUND)
 end
 
+-- Numbers per point; an error where path and lengths cannot belong together.
+local function dofOf(path, lengths, level)
+    local dof = #path // math.max(1, #lengths)
+    if dof < 1 then error('Bad table size.', level + 1) end
+    return dof
+end
+
 local function config(path, dof, index) return table.move(path, (index - 1) * dof + 1, index * dof, 1, {}) end
 
 local function pointDistance(a, b, dof)
     local sum = 0
     for i = 1, math.min(3, dof) do sum = sum + (b[i] - a[i]) * (b[i] - a[i]) end
     return math.sqrt(sum)
+end
+
+local function isCallable(value)
+    local meta = type(value) == 'table' and getmetatable(value)
+    return type(value) == 'function' or type(meta) == 'table' and meta.__call ~= nil
 end
 
 local LENGTHS_ARGS = {{type = 'table', item_type = 'float', size = '2..*'}, {type = 'int'}, {type = 'any', default_nil = true}}
@@ -39,17 +51,30 @@ local LENGTHS_ARGS = {{type = 'table', item_type = 'float', size = '2..*'}, {typ
 -- @return total the last of them
 function M.getPathLengths(...)
     local path, dof, distance = check(LENGTHS_ARGS, ...)
-    if type(distance) == 'string' then distance = require('var').getvar(distance) end
+    if type(distance) == 'string' then distance = require('var').getvar(distance) or distance end
+    if not (distance == nil or isCallable(distance)) then error('distCallback is not a function.', 2) end
     distance = distance or pointDistance
-    local count = #path // dof
+    local count = dof > 0 and #path // dof or 0
     if count < 2 then error('Bad table size.', 2) end
     local lengths, total = {0}, 0
     for i = 2, count do
-        total = total + distance(config(path, dof, i - 1), config(path, dof, i), dof)
+        local step = distance(config(path, dof, i - 1), config(path, dof, i), dof)
+        total = total + (type(step) == 'number' and step or error('distCallback has to return a number.', 2))
         lengths[i] = total
     end
     return lengths, total
 end
+
+local function closed(path, lengths, level)
+    local dof = dofOf(path, lengths, level + 1)
+    local first, last = config(path, dof, 1), config(path, dof, #lengths)
+    local closedPath = table.move(first, 1, dof, #path + 1, table.move(path, 1, #path, 1, {}))
+    local closedLengths = table.move(lengths, 1, #lengths, 1, {})
+    closedLengths[#lengths + 1] = lengths[#lengths] + pointDistance(last, first, dof)
+    return closedPath, closedLengths
+end
+
+local CLOSE_ARGS = {{type = 'table', item_type = 'float', size = '1..*'}, {type = 'table', item_type = 'float', size = '1..*'}}
 
 --- Appends the first point of a path to its end.
 -- @api float[] path, float[] lengths = sim.closePath(float[] path, float[] lengths)
@@ -57,13 +82,20 @@ end
 -- @param lengths from sim.getPathLengths
 -- @return path with one more point
 -- @return lengths with one more value
-function M.closePath(path, lengths)
-    local dof = #path // #lengths
-    local first, last = config(path, dof, 1), config(path, dof, #lengths)
-    local closedPath = table.move(first, 1, dof, #path + 1, table.move(path, 1, #path, 1, {}))
-    local closedLengths = table.move(lengths, 1, #lengths, 1, {})
-    closedLengths[#lengths + 1] = lengths[#lengths] + pointDistance(last, first, dof)
-    return closedPath, closedLengths
+function M.closePath(...)
+    local path, lengths = check(CLOSE_ARGS, ...)
+    return closed(path, lengths, 2)
+end
+
+-- Whether every quaternion of the types has its four numbers.
+local function fits(types, dof)
+    local i = 1
+    while i <= dof do
+        local size = types[i] == QUATERNION and 4 or 1
+        if i + size - 1 > dof then return false end
+        i = i + size
+    end
+    return true
 end
 
 local DISTANCE_ARGS = {
@@ -81,6 +113,7 @@ local DISTANCE_ARGS = {
 function M.getConfigDistance(...)
     local a, b, metric, types = check(DISTANCE_ARGS, ...)
     metric, types = metric or {}, types or {}
+    if #a ~= #b or not fits(types, #a) then error('Bad table size.', 2) end
     local sum, i = 0, 1
     while i <= #a do
         local kind, difference = types[i] or LINEAR, nil
@@ -114,12 +147,13 @@ local function blend(a, b, t, types)
 end
 
 -- A path ready to be asked for points. Segment k goes from point k to point k + 1.
-local function curve(path, lengths, method, types)
-    if method and method.closed then path, lengths = M.closePath(path, lengths) end
-    local dof = #path // #lengths
+local function curve(path, lengths, method, types, level)
+    if method and method.closed then path, lengths = closed(path, lengths, level + 1) end
+    local dof = dofOf(path, lengths, level + 1)
+    if types and not fits(types, dof) then error('Bad table size.', level) end
     local self = {path = path, lengths = lengths, dof = dof, types = types, segments = #lengths - 1}
     if method and method.type == 'quadraticBezier' then
-        self.width = math.max(0.05, method.strength or 1)
+        self.width = math.max(0.05, tonumber(method.strength) or 1)
         self.loop = not method.forceOpen and pointDistance(config(path, dof, 1), config(path, dof, #lengths), dof) < 1e-6
     end
     return self
@@ -177,8 +211,15 @@ local INTERPOLATION_ARGS = {
     {type = 'table', nullable = true}, {type = 'table', item_type = 'int', nullable = true, size = '1..*'},
 }
 
-local function plainlyValid(path, lengths, t)
-    return type(path) == 'table' and type(lengths) == 'table' and type(t) == 'number' and #path >= 2 and #lengths >= 2
+local function isListOfNumbers(value)
+    return type(value) == 'table' and #value >= 2 and type(value[1]) == 'number' and type(value[#value]) == 'number'
+end
+
+local function isTableOrNil(value) return value == nil or type(value) == 'table' end
+
+local function plainlyValid(path, lengths, t, method, types)
+    local numbers = isListOfNumbers(path) and isListOfNumbers(lengths) and type(t) == 'number'
+    return numbers and isTableOrNil(method) and isTableOrNil(types)
 end
 
 --- Configuration at a distance along a path.
@@ -193,7 +234,9 @@ function M.getPathInterpolatedConfig(...)
     -- Called at every step with long paths: the full check of every element is left to the doubtful cases.
     if not plainlyValid(...) then check(INTERPOLATION_ARGS, ...) end
     local path, lengths, t, method, types = ...
-    return pointAt(curve(path, lengths, method, types), t)
+    if t ~= t then error('invalid data.', 2) end
+    local point = pointAt(curve(path, lengths, method, types, 3), t)
+    return point
 end
 
 local MOST_POINTS <const> = 1000000 -- beyond, a mistyped number would keep the script busy for minutes
@@ -213,7 +256,7 @@ local RESAMPLE_ARGS = {
 function M.resamplePath(...)
     local path, lengths, count, method, types = check(RESAMPLE_ARGS, ...)
     if count > MOST_POINTS then error('sim.resamplePath: at most ' .. MOST_POINTS .. ' points can be made', 2) end
-    local self, result = curve(path, lengths, method, types), {}
+    local self, result = curve(path, lengths, method, types, 3), {}
     local total = self.lengths[#self.lengths]
     for i = 1, count do
         local point = pointAt(self, count > 1 and total * (i - 1) / (count - 1) or 0)
@@ -234,14 +277,21 @@ local function projection(a, b, p)
     return u, distance
 end
 
+local CLOSEST_ARGS = {
+    {type = 'table', item_type = 'float', size = '3..*'}, {type = 'table', item_type = 'float', size = '1..*'},
+    {type = 'table', item_type = 'float', size = 3},
+}
+
 --- Distance along a path to its point closest to a given one.
 -- @api float t = sim.getClosestPosOnPath(float[] path, float[] lengths, float[3] position)
 -- @param path flat table of points; their first three coordinates count
 -- @param lengths from sim.getPathLengths
 -- @param position the given point
 -- @return t for sim.getPathInterpolatedConfig
-function M.getClosestPosOnPath(path, lengths, position)
-    local dof = #path // #lengths
+function M.getClosestPosOnPath(...)
+    local path, lengths, position = check(CLOSEST_ARGS, ...)
+    local dof = dofOf(path, lengths, 2)
+    if dof < 3 then error('Bad table size.', 2) end
     local best, closest = math.huge, 0.0
     for segment = 1, #lengths - 1 do
         local u, distance = projection(config(path, dof, segment), config(path, dof, segment + 1), position)
@@ -256,6 +306,9 @@ end
 -- @api float[4] quaternion = sim.getQuaternionInverse(float[4] quaternion)
 -- @param quaternion x, y, z, w
 -- @return quaternion the opposite rotation
-function M.getQuaternionInverse(q) return quaternion.inverse(q) end
+function M.getQuaternionInverse(...)
+    local q = check({{type = 'table', item_type = 'float', size = 4}}, ...)
+    return quaternion.inverse(q)
+end
 
 return M

@@ -1,64 +1,15 @@
 --[[
-Path objects (a dummy that carries control points and a sampled path as custom data), and configurations of joints.
+sim.createPath, and configurations of joints.
 
-Does not draw a path nor give it the script that would do so.
+What a path object is stands in swanilda/pathmodel.lua.
 ]]
 
 local sim = ...
 local M = {}
-local quaternion = require 'quaternion'
-
-local CLOSED <const>, COMPUTE_ORIENTATION <const> = 2, 16 -- the other options are about what is drawn
-local TYPES <const> = {0, 0, 0, 2, 2, 2, 2}
 local MAX_ALTERNATIVES <const> = 10000
 
 -- A tail call: its own frame is gone when checkargs looks for the checked function.
 local function check(types, ...) return require('checkargs').checkargsEx({level = 0}, types, ...) end
-
-local function normalized(v)
-    local norm = math.sqrt(v[1] ^ 2 + v[2] ^ 2 + v[3] ^ 2)
-    return norm > 1e-12 and {v[1] / norm, v[2] / norm, v[3] / norm} or nil
-end
-
-local function cross(a, b)
-    return {a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1]}
-end
-
--- Which axes point along the path and up, by orientation mode.
-local AXES <const> = {[0] = {'x', 'y'}, {'x', 'z'}, {'y', 'x'}, {'y', 'z'}, {'z', 'x'}, {'z', 'y'}}
-
-local function orientationAlong(direction, up, mode)
-    local along = normalized(direction)
-    local side = along and normalized(cross(up, along))
-    if not side then return nil end
-    local axes, names = {}, AXES[mode] or AXES[0]
-    axes[names[1]], axes[names[2]] = along, cross(along, side)
-    axes.x = axes.x or cross(axes.y, axes.z)
-    axes.y = axes.y or cross(axes.z, axes.x)
-    axes.z = axes.z or cross(axes.x, axes.y)
-    return quaternion.fromAxes(axes.x, axes.y, axes.z)
-end
-
-local function orientAlongPath(path, closed, up, mode)
-    local count = #path // 7
-    local function position(i)
-        i = closed and (i - 1) % count + 1 or math.max(1, math.min(count, i))
-        return path[7 * i - 6], path[7 * i - 5], path[7 * i - 4]
-    end
-    for i = 1, count do
-        local ax, ay, az = position(i - 1)
-        local bx, by, bz = position(i + 1)
-        local q = orientationAlong({bx - ax, by - ay, bz - az}, up, mode)
-        if q then table.move(q, 1, 4, 7 * i - 3, path) end
-    end
-end
-
-local function samplePath(ctrlPts, closed, subdiv, smoothness)
-    local lengths = sim.getPathLengths(ctrlPts, 7)
-    local method = {type = 'quadraticBezier', strength = smoothness, forceOpen = not closed, closed = closed}
-    if lengths[#lengths] == 0 then return table.move(ctrlPts, 1, 7 * math.min(subdiv, #lengths), 1, {}) end
-    return sim.resamplePath(ctrlPts, lengths, subdiv, method, TYPES)
-end
 
 local CREATE_ARGS = {
     {type = 'table', item_type = 'float', size = '14..*'}, {type = 'int', default = 0}, {type = 'int', default = 100},
@@ -77,17 +28,13 @@ local CREATE_ARGS = {
 -- @return pathHandle a dummy, with custom data PATHCTRLPTS and PATH (seven doubles per point)
 function M.createPath(...)
     local ctrlPts, options, subdiv, smoothness, mode, up = check(CREATE_ARGS, ...)
-    local closed = options & CLOSED ~= 0
-    local path = samplePath(ctrlPts, closed, subdiv, smoothness)
-    if options & COMPUTE_ORIENTATION ~= 0 and mode >= 0 then
-        orientAlongPath(path, closed, up, mode)
-    end
-    local handle = sim.createDummy(0.04)
-    sim.setObjectAlias(handle, 'Path')
-    sim.setBoolProperty(handle, 'modelBase', true)
-    sim.setBufferProperty(handle, 'customData.PATHCTRLPTS', sim.packDoubleTable(ctrlPts))
-    sim.setBufferProperty(handle, 'customData.PATH', sim.packDoubleTable(path))
-    return handle
+    if subdiv < 2 then error('subdiv has to be 2 at least.', 2) end
+    local model = require 'swanilda.pathmodel'
+    local path = model.create(ctrlPts, {
+        bitCoded = options, pointCnt = subdiv, smoothing = smoothness, autoOrientation = mode, upVector = up,
+    })
+    model.addShape(path)
+    return path
 end
 
 local function turnsWithin(position, low, range)

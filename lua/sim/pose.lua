@@ -6,10 +6,10 @@ Does not plan a trajectory itself (sim.ruckigPos does), nor solve inverse kinema
 
 local sim = ...
 local M = {}
-local motion = require 'trajectory'
-local quaternion = require 'quaternion'
+local motion = require 'swanilda.trajectory'
+local quaternion = require 'swanilda.quaternion'
 
-local RUNNING <const>, ARRIVED <const>, ABORTED <const> = 0, 1, 2
+local ARRIVED <const>, ABORTED <const> = 1, 2
 local NO_ROTATION <const> = 1e-5 * math.pi -- below, the angle between the poses has no axis worth following
 local NO_DISTANCE <const> = 1e-6
 
@@ -29,10 +29,12 @@ end
 
 local function startIk(data, level)
     local ik = data.ik
-    if math.type(ik.tip) ~= 'integer' or math.type(ik.target) ~= 'integer' then
+    if type(ik) ~= 'table' then error("invalid 'ik' field.", level) end
+    if not (math.tointeger(ik.tip) and math.tointeger(ik.target)) then
         error("missing or invalid 'tip' or 'target' field in 'ik'.", level)
     end
-    local simIK = require 'simIK'
+    local found, simIK = pcall(require, 'simIK')
+    if not found then error("not implemented in Swanilda: simIK, which the field 'ik' needs.", level) end
     sim.setObjectPose(ik.target, sim.getObjectPose(ik.tip))
     local env = simIK.createEnvironment()
     local group = simIK.createGroup(env)
@@ -56,25 +58,33 @@ end
 
 ---------------------------------------------------------------- init, step, cleanup
 
+local function asPose(value)
+    if motion.isList(value, 12) then return sim.matrixToPose(value) end
+    return motion.isList(value, 7) and value or nil
+end
+
 local function checkTarget(data, level)
     if not (data.pose or data.object or data.ik) then
         error("missing field: either 'pose', 'object' or 'ik' is required.", level)
     end
-    if type(data.targetPose) == 'table' and #data.targetPose == 12 then
-        data.targetPose = sim.matrixToPose(data.targetPose)
-    end
-    if type(data.targetPose) ~= 'table' or #data.targetPose ~= 7 then
-        error("missing or invalid 'targetPose' field.", level)
-    end
+    data.targetPose = asPose(data.targetPose) or error("missing or invalid 'targetPose' field.", level)
+    if data.metric and not motion.isList(data.metric, 4) then error("invalid 'metric' field.", level) end
+end
+
+local function isObject(value)
+    local handle = math.tointeger(value)
+    return handle and sim.isHandle(handle)
 end
 
 local function findStart(data, level)
     data.relObject = data.relObject or sim.handle_world
     if data.pose then
         data.mover = 'callback'
-        if #data.pose == 12 then data.pose = sim.matrixToPose(data.pose) end
+        data.pose = asPose(data.pose) or error("invalid 'pose' field.", level)
     elseif data.object then
         data.mover = 'object'
+        if not isObject(data.object) then error("invalid 'object' field.", level) end
+        if data.relObject ~= sim.handle_world and not isObject(data.relObject) then error("invalid 'relObject' field.", level) end
         data.pose = sim.getObjectPose(data.object, data.relObject)
     else
         data.mover = 'ik'
@@ -103,15 +113,13 @@ local function coordinates(data)
 end
 
 local function init(params, level)
-    local data = {}
-    for key, value in pairs(params) do data[key] = key == 'auxData' and value or motion.copy(value) end
+    local data = motion.copyParams(params, level + 1)
     checkTarget(data, level + 1)
-    findStart(data, level + 1)
     local n = data.metric and 1 or 4
     motion.completeLimits(data, n, true, level + 1)
+    motion.completeParams(data, n, level + 1)
+    findStart(data, level + 1)
     local from, to = coordinates(data)
-    for _, field in ipairs{'vel', 'accel', 'targetVel'} do data[field] = data[field] or motion.fill(0.0, n) end
-    data.flags, data.timeLeft = data.flags or -1, 0
     if not data.metric or data.distance > NO_DISTANCE then
         data.ruckigObj = motion.start(data, n, {from, data.vel, data.accel}, to, data.targetVel)
     end
@@ -148,7 +156,7 @@ local function step(data)
         data.vel = table.move(state, n + 1, 2 * n, 1, {})
         data.accel = table.move(state, 2 * n + 1, 3 * n, 1, {})
     else
-        data.pose = motion.copy(data.targetPose)
+        data.pose = table.move(data.targetPose, 1, 7, 1, {})
     end
     data.matrix = sim.poseToMatrix(data.pose)
     if apply(data) then return ABORTED, data end
@@ -157,20 +165,15 @@ end
 
 local function cleanup(data)
     motion.finish(data)
+    data.startPose = nil
     if data.ik and data.ik.env then require('simIK').eraseEnvironment(data.ik.env) end
     if data.ik then data.ik.env = nil end
 end
 
-local function run(data)
-    local stepping = sim.setStepping(true)
-    local result
-    repeat
-        result = step(data)
-        if result >= 0 then sim.step() end
-    until result ~= RUNNING
-    cleanup(data)
-    sim.setStepping(stepping)
-    return result
+local function checkMotion(data, level)
+    if type(data) ~= 'table' or not data.startPose then
+        error('not a motion under way: sim.moveToPose_init begins one.', level)
+    end
 end
 
 local FLOATS = {type = 'table', item_type = 'float'}
@@ -182,6 +185,7 @@ local LEGACY_ARGS = {
 local function fromLegacyArgs(...)
     local flags, pose, maxVel, maxAccel, maxJerk, targetPose, callback, aux, metric, timeStep =
         require('checkargs').checkargsEx({level = 1}, LEGACY_ARGS, ...)
+    motion.checkCallback(callback, 4)
     local n = metric and 1 or 4
     local shape = #pose == 12 and 'matrix' or 'pose'
     local params = {
@@ -210,12 +214,17 @@ end
 -- @param motionObject from sim.moveToPose_init
 -- @return result 0 moving, 1 arrived, 2 stopped by the callback, negative: error
 -- @return motionObject with the new pose, vel and accel
-function M.moveToPose_step(motionObject) return step(motionObject) end
+function M.moveToPose_step(motionObject)
+    checkMotion(motionObject, 3)
+    return step(motionObject)
+end
 
 --- Ends a motion started with sim.moveToPose_init.
 -- @api sim.moveToPose_cleanup(map motionObject)
 -- @param motionObject from sim.moveToPose_init
-function M.moveToPose_cleanup(motionObject) cleanup(motionObject) end
+function M.moveToPose_cleanup(motionObject)
+    if type(motionObject) == 'table' then cleanup(motionObject) end
+end
 
 --- Moves a pose, an object or the tip of a robot to a target pose, with limited velocity, acceleration and jerk.
 -- Blocks in a thread. The older form takes flags, pose or matrix, maxVel, maxAccel, maxJerk, target, callback, auxData,
@@ -227,7 +236,7 @@ function M.moveToPose(params, ...)
     local shape
     if type(params) ~= 'table' then params, shape = fromLegacyArgs(params, ...) end
     local data = init(params, 3)
-    local result = run(data)
+    local result = motion.run(data, step, cleanup)
     if result < 0 then error('sim.moveToPose_step returned error code ' .. result, 2) end
     if shape then return data[shape], data.timeLeft end
     return data

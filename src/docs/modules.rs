@@ -7,9 +7,7 @@ use crate::api;
 /// Files of the library for its own use.
 const INNER: &[&str] = &[
     "base",
-    "console",
     "deprecate",
-    "display",
     "json_scanner",
     "defaultMainScript",
     "luassert/arguments",
@@ -32,12 +30,10 @@ const INNER: &[&str] = &[
     "matrix/linear",
     "matrix/maths",
     "matrix/space",
-    "modload",
     "no_exit",
     "no_unsafe",
     "old_calls",
     "org/conman/cbor_tags",
-    "quaternion",
     "remote/namespaces",
     "remote/restrict",
     "remote/ws_codecs",
@@ -47,7 +43,12 @@ const INNER: &[&str] = &[
     "remote/zmq_functions",
     "simZMQ/constants",
     "simZMQ/proxy",
-    "trajectory",
+    "swanilda/console",
+    "swanilda/display",
+    "swanilda/modload",
+    "swanilda/pathmodel",
+    "swanilda/quaternion",
+    "swanilda/trajectory",
 ];
 
 /// `docs/api/modules.md`.

@@ -53,8 +53,9 @@ fn scrambled(seed: u32) -> i64 {
     (bits ^ (bits >> 31)).cast_signed()
 }
 
-/// Modules that CoppeliaSim has not, or no longer: a script's own file of that name goes first.
-const LAST: &[&str] = &["cbor", "class", "json", "say"];
+/// Modules that CoppeliaSim has not, or no longer, and files that are no modules: a script's own file of that name goes first.
+const LAST: &[&str] =
+    &["base", "cbor", "class", "deprecate", "json", "main", "no_exit", "no_unsafe", "old_calls", "say"];
 
 /// Puts the scene's folders first into `package.path` and `package.cpath`, and the embedded library into `package.searchers`.
 fn install_package(sim: &Sim, stack: Stack<'_>) {

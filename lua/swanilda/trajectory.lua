@@ -1,5 +1,5 @@
 --[[
-Shared by sim/motion.lua and sim/pose.lua: limits of a motion, and the trajectory object behind it.
+Shared by sim/motion.lua and sim/pose.lua: checks and limits of a motion, the trajectory object behind it, and following it to its end.
 
 Not a group of sim functions: those are in lua/sim.
 ]]
@@ -11,6 +11,8 @@ local M = {}
 local UNLIMITED <const> = {maxVel = 9999.0, maxAccel = 99999.0, maxJerk = 9999999.0}
 local UNLIMITED_STEP <const> = 10.0
 local BASE_CYCLE <const> = 0.0001
+local PHASE_SYNC_DEFAULT <const> = -1
+local RUNNING <const> = 0
 
 function M.fill(value, n)
     local result = {}
@@ -18,25 +20,65 @@ function M.fill(value, n)
     return result
 end
 
-function M.copy(value)
-    if type(value) ~= 'table' then return value end
-    local result = {}
-    for key, item in pairs(value) do result[key] = M.copy(item) end
-    return setmetatable(result, getmetatable(value))
+local function isCallable(value)
+    local meta = type(value) == 'table' and getmetatable(value)
+    return type(value) == 'function' or type(meta) == 'table' and meta.__call ~= nil
 end
 
+--- The function that a callback means: itself, or the one of that name when it is called.
 function M.functionOf(callback)
-    if type(callback) == 'string' then return require('var').getvar(callback) end
+    if type(callback) == 'string' then
+        local found = require('var').getvar(callback)
+        return isCallable(found) and found or error("the callback '" .. callback .. "' is not a function.", 0)
+    end
     return callback or function() end
+end
+
+local function invalid(field, level) error("invalid '" .. field .. "' field.", level + 1) end
+
+--- Whether a value is a table of n finite numbers, or of at least n of them.
+function M.isList(value, n, orMore)
+    if type(value) ~= 'table' or #value < n or #value > n and not orMore then return false end
+    for i = 1, #value do
+        local x = value[i]
+        if type(x) ~= 'number' or x - x ~= 0 then return false end
+    end
+    return true
+end
+
+local function isNumber(value) return M.isList({value}, 1) end
+
+--- Raises an error unless a callback is a function, or perhaps the name of one.
+function M.checkCallback(callback, level)
+    if callback and type(callback) ~= 'string' and not isCallable(callback) then invalid('callback', level) end
+end
+
+--- A copy of the parameters, but for auxData, which the caller gets back as it is.
+function M.copyParams(params, level)
+    if type(params) ~= 'table' then error('the parameters of a motion are a table.', level) end
+    local aux = params.auxData
+    return require('copy').deepcopy(params, nil, type(aux) == 'table' and {[aux] = aux} or nil)
+end
+
+--- Checks and fills in what all motions have besides their limits: vel, accel and targetVel of n axes, flags, timeStep, callback.
+function M.completeParams(data, n, level)
+    for _, field in ipairs{'vel', 'accel', 'targetVel'} do
+        data[field] = data[field] or M.fill(0.0, n)
+        if not M.isList(data[field], n, true) then invalid(field, level) end
+    end
+    data.flags = math.tointeger(data.flags or PHASE_SYNC_DEFAULT) or invalid('flags', level)
+    if not isNumber(data.timeStep) or data.timeStep < 0 then invalid('timeStep', level) end
+    M.checkCallback(data.callback, level + 1)
+    data.timeLeft = 0
 end
 
 local function completeMaximum(data, field, n, scalar, level)
     local value = data[field]
     if value == nil then error("missing '" .. field .. "' field.", level) end
-    if type(value) == 'number' and scalar then
+    if isNumber(value) and scalar then
         data[field] = M.fill(value, n)
-    elseif type(value) ~= 'table' or #value ~= n then
-        error("invalid '" .. field .. "' field.", level)
+    elseif not M.isList(value, n) then
+        invalid(field, level)
     end
 end
 
@@ -45,10 +87,10 @@ local function completeMinimum(data, field, maximum, n, level)
     if value == nil then
         data[field] = {}
         for i = 1, n do data[field][i] = -maximum[i] end
-    elseif type(value) == 'number' then
+    elseif isNumber(value) then
         data[field] = M.fill(value, n)
-    elseif type(value) ~= 'table' or #value ~= n then
-        error("invalid '" .. field .. "' field.", level)
+    elseif not M.isList(value, n) then
+        invalid(field, level)
     end
 end
 
@@ -110,6 +152,21 @@ end
 function M.finish(data)
     if data.ruckigObj then sim.ruckigRemove(data.ruckigObj) end
     data.ruckigObj = nil
+end
+
+--- Follows a motion to its end, a time step per simulation step. What it holds is given back also when a callback fails.
+function M.run(data, step, cleanup)
+    local stepping = sim.setStepping(true)
+    local ending <close> = setmetatable({}, {__close = function()
+        cleanup(data)
+        sim.setStepping(stepping)
+    end})
+    local result
+    repeat
+        result = step(data)
+        if result >= 0 then sim.step() end
+    until result ~= RUNNING
+    return result
 end
 
 return M

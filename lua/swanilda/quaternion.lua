@@ -34,6 +34,7 @@ function M.slerp(a, b, t)
     local q = {}
     for i = 1, 4 do q[i] = u * a[i] + sign * v * b[i] end
     local norm = sqrt(dot(q, q))
+    if norm == 0 then return {0.0, 0.0, 0.0, 1.0} end -- of no orientations at all
     for i = 1, 4 do q[i] = q[i] / norm end
     return q
 end
