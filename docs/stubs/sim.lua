@@ -446,15 +446,19 @@ function sim.createHeightfieldShape(options, shadingAngle, xPointCount, yPointCo
 function sim.createJoint(jointType, jointMode, options, sizes) end
 
 --- A new shape from a mesh given in world coordinates; its frame is the world's.
+---
+--- 8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
 ---@deprecated sim.createShape
----@param options integer 1: back faces culled, 2: edges visible, 128: keep duplicate vertices
+---@param options integer 1: back faces culled, 2: edges visible, 128: keep duplicate vertices; for the texture 4: pixels are not interpolated,
 ---@param shadingAngle number edges sharper than this show, rad
 ---@param vertices number[] three coordinates each, metres
 ---@param indices integer[] three vertices per triangle, from 0
 ---@param normals? number[] nine numbers per triangle
----@param ...? any
+---@param textureCoordinates? number[] two for each index; the texture needs them
+---@param texture? string|table red, green, blue of each pixel, the top row first
+---@param textureResolution? number[] width and height
 ---@return integer shapeHandle the shape
-function sim.createMeshShape(options, shadingAngle, vertices, indices, normals, ...) end
+function sim.createMeshShape(options, shadingAngle, vertices, indices, normals, textureCoordinates, texture, textureResolution) end
 
 --- A new, empty octree at the world's origin.
 ---@param voxelSize? number edge of a voxel, metres
@@ -516,14 +520,31 @@ function sim.createPureShape(primitiveType, options, sizes, mass, precision) end
 function sim.createScript(scriptType, scriptText, options, lang) end
 
 --- A new shape from a mesh given in world coordinates; its frame is the world's.
----@param options integer 1: back faces culled, 2: edges visible, 128: keep duplicate vertices
+---
+--- 8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
+---@param options integer 1: back faces culled, 2: edges visible, 128: keep duplicate vertices; for the texture 4: pixels are not interpolated,
 ---@param shadingAngle number edges sharper than this show, rad
 ---@param vertices number[] three coordinates each, metres
 ---@param indices integer[] three vertices per triangle, from 0
 ---@param normals? number[] nine numbers per triangle
----@param ...? any
+---@param textureCoordinates? number[] two for each index; the texture needs them
+---@param texture? string|table red, green, blue of each pixel, the top row first
+---@param textureResolution? number[] width and height
 ---@return integer shapeHandle the shape
-function sim.createShape(options, shadingAngle, vertices, indices, normals, ...) end
+function sim.createShape(options, shadingAngle, vertices, indices, normals, textureCoordinates, texture, textureResolution) end
+
+--- A new plane with an image on it, from a file or white.
+---@param fileName string PNG, JPEG, BMP or TGA; an empty text for a new image
+---@param options integer 1: pixels are not interpolated, 2: applied as a decal, 4: repeated along u, 8: repeated along v
+---@param planeSizes? number[] of the plane, metres; nothing: one metre wide, as high as the image says
+---@param scalingUv? number[]
+---@param xyG? number[]
+---@param fixedResolution? integer 1: the image of a file is brought to the resolution too
+---@param resolution? number[] of a new image, pixels; 256 times 256 if nothing is said
+---@return integer shapeHandle the plane
+---@return integer textureId of the image
+---@return integer[] resolution pixels
+function sim.createTexture(fileName, options, planeSizes, scalingUv, xyG, fixedResolution, resolution) end
 
 --- A new vision sensor at the world's origin; it looks along z.
 ---@param options? integer 1: explicit handling, 2: perspective
@@ -1558,10 +1579,15 @@ function sim.getShapeMassAndInertia(shapeHandle, transformation) end
 ---@return number[] normals nine numbers per triangle
 function sim.getShapeMesh(shapeHandle) end
 
+--- The texture on a shape.
+---@param shapeHandle integer the shape; of a compound the first mesh counts
+---@return integer textureId a texture, the handle of a vision sensor whose picture it is, or -1
+function sim.getShapeTextureId(shapeHandle) end
+
 --- What one mesh of a shape looks like.
 ---@param shapeHandle integer the shape
 ---@param itemIndex integer which mesh, from 0
----@return any data vertices, indices, normals, colors, shadingAngle, transparency, options; nothing past the last mesh
+---@return any data vertices, indices, normals, colors, shadingAngle, transparency, options, texture; nothing past the last mesh
 function sim.getShapeViz(shapeHandle, itemIndex) end
 
 --- Names of the signals one by one; nothing past the last one.
@@ -1647,6 +1673,12 @@ function sim.getSystemTimeInMs(previousTime) end
 ---@param options? table noError: nothing instead of an error
 ---@return table propertyState
 function sim.getTableProperty(target, propertyName, options) end
+
+--- The texture with a name: that of its file, without folder and ending.
+---@param textureName string the first one with that name counts
+---@return integer textureId -1 when there is none
+---@return integer[] resolution pixels
+function sim.getTextureId(textureName) end
 
 --- Whether the running coroutine may be pre-empted.
 ---@deprecated
@@ -2214,6 +2246,16 @@ function sim.readCustomTableData(handle, tag, options) end
 ---@return number[] forceVector newtons
 ---@return number[] torqueVector newton metres
 function sim.readForceSensor(objectHandle) end
+
+--- Reads a part of a texture.
+---@param textureId integer the texture
+---@param options integer not used
+---@param posX? integer first column
+---@param posY? integer first row, from the bottom
+---@param sizeX? integer columns; 0 for the whole texture
+---@param sizeY? integer rows; 0 for the whole texture
+---@return string|table textureData red, green, blue of each pixel, the bottom row first
+function sim.readTexture(textureId, options, posX, posY, sizeX, sizeY) end
 
 --- Takes what sim.sendData left.
 ---@deprecated
@@ -3150,6 +3192,16 @@ function sim.setShapeMassAndInertia(shapeHandle, mass, inertiaMatrix, centerOfMa
 ---@return integer result -1 for a preset, 1 for another shape
 function sim.setShapeMaterial(shapeHandle, materialIdOrShapeHandle) end
 
+--- Puts an image on all meshes of a shape.
+---@param shapeHandle integer the shape
+---@param textureId integer a texture, or a vision sensor whose picture it is; -1 takes the image away
+---@param mappingMode integer sim.texturemap_*
+---@param options integer 1: pixels are not interpolated, 2: applied as a decal, 4: repeated along u, 8: repeated along v
+---@param uvScaling number[] size of the image, metres
+---@param position? number[] of the projection
+---@param orientation? number[] of the projection, Euler angles
+function sim.setShapeTexture(shapeHandle, textureId, mappingMode, options, uvScaling, position, orientation) end
+
 --- Gives an object the name of another one with something appended.
 ---@param handle integer the object
 ---@param original string name of the other
@@ -3448,6 +3500,17 @@ function sim.writeCustomStringData(objectHandle, tagName, data) end
 ---@param data table empty: removes the tag
 ---@param options? table dataType: table (default) or cbor
 function sim.writeCustomTableData(handle, tag, data, options) end
+
+--- Writes a part of a texture, on all shapes it is on.
+---@param textureId integer the texture
+---@param options integer not used
+---@param textureData string|table red, green, blue of each pixel, the bottom row first
+---@param posX? integer first column
+---@param posY? integer first row, from the bottom
+---@param sizeX? integer columns; 0 for the whole texture
+---@param sizeY? integer rows; 0 for the whole texture
+---@param interpol? number how much of the old colours stays, 0 to 1
+function sim.writeTexture(textureId, options, textureData, posX, posY, sizeX, sizeY, interpol) end
 
 --- From yaw, pitch and roll to the angles of sim.getObjectOrientation.
 ---@param yaw number about z, first

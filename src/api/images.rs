@@ -20,7 +20,7 @@ mod option {
     pub const FLIP_Y: i64 = 4;
 }
 
-fn failure(error: PictureError) -> ApiError {
+pub(super) fn failure(error: PictureError) -> ApiError {
     ApiError::Other(error.to_string())
 }
 
@@ -44,7 +44,7 @@ fn load_image(_cx: &Cx, options: i64, filename: Bytes) -> Result<(Bytes, IntPair
     Ok((Bytes(picture.into_bytes()), resolution))
 }
 
-fn read_file(name: &[u8]) -> Result<Vec<u8>> {
+pub(super) fn read_file(name: &[u8]) -> Result<Vec<u8>> {
     let name = String::from_utf8_lossy(name);
     std::fs::read(&*name).map_err(|error| ApiError::Other(format!("cannot read {name}: {error}.")))
 }

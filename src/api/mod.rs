@@ -49,6 +49,7 @@ mod simulation;
 mod socket;
 mod subprocess;
 mod testing;
+mod texture;
 mod thread;
 mod time;
 mod trajectory;
@@ -94,6 +95,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Groups of shapes", shape_group::FUNCTIONS),
     ("Convex and extruded shapes", shape_convex::FUNCTIONS),
     ("Colours", colour::FUNCTIONS),
+    ("Textures", texture::FUNCTIONS),
     ("Joints", joint::FUNCTIONS),
     ("Joint motion", joint_motion::FUNCTIONS),
     ("Old functions of joints and shapes", joint_shape_old::FUNCTIONS),

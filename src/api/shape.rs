@@ -1,17 +1,15 @@
 //! `sim.*`: creating shapes, their meshes and boxes.
-//!
-//! Textures are accepted and not kept: nothing is drawn.
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use super::{ApiFn, Cx, Result, functions, texture};
 use crate::scene::mesh::{Mesh, MeshError};
 use crate::scene::pose::{pose_from_array, pose_to_array};
 use crate::scene::primitive::PrimitiveKind;
 use crate::scene::shape::{Appearance, Part, Shape};
 use crate::scene::shape_build::PrimitiveOptions;
-use crate::scene::{Data, Handle, Kind, SceneError};
-use crate::script::{Number, Rest};
+use crate::scene::{Data, Handle, Key, Kind, Scene, SceneError};
+use crate::script::{Bytes, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     create_primitive_shape,
@@ -82,14 +80,18 @@ fn create_pure_shape(
 
 /// A new shape from a mesh given in world coordinates; its frame is the world's.
 ///
-/// @param options 1: back faces culled, 2: edges visible, 128: keep duplicate vertices
+/// @param options 1: back faces culled, 2: edges visible, 128: keep duplicate vertices; for the texture 4: pixels are not interpolated,
+/// 8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
 /// @param shadingAngle edges sharper than this show, rad
 /// @param vertices three coordinates each, metres
 /// @param indices three vertices per triangle, from 0
 /// @param normals nine numbers per triangle
-/// @param texture textureCoordinates, texture and textureResolution: not kept
+/// @param textureCoordinates two for each index; the texture needs them
+/// @param texture red, green, blue of each pixel, the top row first
+/// @param textureResolution width and height
 /// @return shapeHandle the shape
 #[api("sim.createShape")]
+#[expect(clippy::too_many_arguments, reason = "the reference has them")]
 fn create_shape(
     cx: &mut Cx,
     options: Number,
@@ -97,18 +99,25 @@ fn create_shape(
     vertices: Vec<f64>,
     indices: Vec<i64>,
     #[default(None)] normals: Option<Vec<f64>>,
-    #[default(Rest(Vec::new()))] texture: Rest,
+    #[default(None)] texture_coordinates: Option<Vec<f64>>,
+    #[default(None)] texture: Option<Bytes>,
+    #[default(None)] texture_resolution: Option<[f64; 2]>,
 ) -> Result<Handle> {
     let mut mesh = Mesh::from_flat(&vertices, &indices, normals.as_deref()).map_err(refusal)?;
-    let textured = texture.0.iter().any(|value| *value != Data::Nil);
-    if options.0 & 128 == 0 && !textured {
+    let image = texture.zip(texture_resolution);
+    let texture = texture_coordinates.zip(image);
+    if options.0 & 128 == 0 && texture.is_none() {
         mesh.merge_duplicates(SAME_VERTEX);
     }
     let appearance = mesh_looks(Shape::mesh_appearance(), options.0, shading_angle);
     if normals.is_none() {
         mesh.compute_normals(appearance.shading_angle);
     }
-    let shape = Shape::from_mesh(mesh, appearance)?;
+    let mut shape = Shape::from_mesh(mesh, appearance)?;
+    if let Some((coordinates, (pixels, size))) = texture {
+        let mapping = texture::of_mesh(cx, options.0, &coordinates[..], indices.len(), pixels.0, size)?;
+        shape.parts[0].texture = Some(Box::new(mapping));
+    }
     add(cx, "shape", shape)
 }
 
@@ -206,20 +215,20 @@ fn get_shape_geom_info(cx: &Cx, shape_handle: Handle) -> Result<(i64, i64, [f64;
 ///
 /// @param shapeHandle the shape
 /// @param itemIndex which mesh, from 0
-/// @return data vertices, indices, normals, colors, shadingAngle, transparency, options; nothing past the last mesh
+/// @return data vertices, indices, normals, colors, shadingAngle, transparency, options, texture; nothing past the last mesh
 #[api("sim.getShapeViz")]
 fn get_shape_viz(cx: &Cx, shape_handle: Handle, item_index: Number) -> Result<Option<Data>> {
     let scene = cx.scene();
     let shape = scene.object(shape_handle)?.shape()?;
-    Ok(usize::try_from(item_index.0).ok().and_then(|index| shape.parts.get(index)).map(viz))
+    Ok(usize::try_from(item_index.0).ok().and_then(|index| shape.parts.get(index)).map(|part| viz(&scene, part)))
 }
 
-fn viz(part: &Part) -> Data {
+fn viz(scene: &Scene, part: &Part) -> Data {
     let mut mesh = Mesh::default();
     mesh.append(&part.mesh, &part.pose);
     let looks = &part.appearance;
     let colours = [looks.colour.ambient_diffuse, looks.colour.specular, looks.colour.emission].as_flattened().to_vec();
-    Data::map([
+    let mut viz = Data::map([
         ("vertices", mesh.flat_vertices().into()),
         ("indices", mesh.flat_indices().into()),
         ("normals", mesh.flat_normals().into()),
@@ -227,7 +236,11 @@ fn viz(part: &Part) -> Data {
         ("shadingAngle", looks.shading_angle.into()),
         ("transparency", (1.0 - f64::from(looks.colour.opacity)).into()),
         ("options", (i64::from(looks.culling) | i64::from(looks.wireframe) << 1).into()),
-    ])
+    ]);
+    if let (Data::Map(entries), Some(texture)) = (&mut viz, texture::viz(scene, part)) {
+        entries.push((Key::Text(b"texture".to_vec()), texture));
+    }
+    viz
 }
 
 /// Moves the frame of a shape; geometry and children stay where they are.

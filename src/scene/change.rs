@@ -23,6 +23,8 @@ pub enum Field {
     Dynamics,
     Geometry,
     Appearance,
+    /// The image on a mesh.
+    Texture,
     /// What kind of joint it is: mode, limits, master.
     Joint,
     /// What a joint is to do: targets, gains, limits of its motor. The physics reads these in every pass.
@@ -89,7 +91,7 @@ impl Changes {
         self.counters.count(&change);
         match change {
             Change::Modified(_, Field::Pose | Field::Measured | Field::JointPosition | Field::JointControl) => {}
-            Change::Modified(_, Field::Alias | Field::Appearance | Field::Kept) => {}
+            Change::Modified(_, Field::Alias | Field::Appearance | Field::Texture | Field::Kept) => {}
             Change::Selection | Change::Settings | Change::Stored { .. } => {}
             Change::Modified(_, Field::Script | Field::Priority) => self.tree_revision += 1,
             Change::Added(_) | Change::Removed(..) | Change::Modified(_, Field::Parent | Field::ModelProperty) => {

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::poses::normalized;
 use super::script_object::ScriptObject;
 use super::shape::Velocity;
+use super::texture_mapping::TextureSource;
 use super::{CustomData, Handle, Kind, Measured, NOT_MODEL, Object, Scene, SceneResult};
 
 /// The option bits of `sim.copyPasteObjects`.
@@ -16,6 +17,7 @@ impl CopyOptions {
     const NO_SCRIPTS: i64 = 2;
     const NO_CUSTOM_DATA: i64 = 4;
     const NO_REFERENCES: i64 = 8;
+    const NO_TEXTURES: i64 = 16;
     const NO_MODEL_TAGS: i64 = 32;
 
     fn has(self, bit: i64) -> bool {
@@ -115,6 +117,9 @@ fn start_anew(object: &mut Object, options: CopyOptions) {
         Kind::Shape(shape) => {
             shape.velocity = Velocity::default();
             (shape.force, shape.torque) = ([0.0; 3], [0.0; 3]);
+            if options.has(CopyOptions::NO_TEXTURES) {
+                shape.parts.iter_mut().for_each(|part| part.texture = None);
+            }
         }
         Kind::ForceSensor(sensor) => (sensor.raw, sensor.filtered, sensor.error) = (None, None, None),
         Kind::ProximitySensor(sensor) => sensor.detection = None,
@@ -139,6 +144,13 @@ fn redirect(object: &mut Object, copies: &BTreeMap<Handle, Handle>) {
         Kind::Joint(joint) => {
             joint.dependency =
                 joint.dependency.and_then(|law| Some(super::joint::Dependency { master: copy_of(law.master)?, ..law }));
+        }
+        Kind::Shape(shape) => {
+            for texture in shape.parts.iter_mut().filter_map(|part| part.texture.as_mut()) {
+                if let TextureSource::Sensor(sensor) = texture.source {
+                    texture.source = TextureSource::Sensor(copy_of(sensor).unwrap_or(sensor));
+                }
+            }
         }
         Kind::Dummy(dummy) => dummy.link = dummy.link.and_then(copy_of),
         Kind::Camera(camera) => camera.tracked = camera.tracked.and_then(copy_of),

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use super::mesh::Mesh;
 
 impl Mesh {
-    /// The connected pieces, in the order of their first triangles.
-    pub fn islands(&self) -> Vec<Mesh> {
+    /// The connected pieces, in the order of their first triangles: lists of triangles.
+    pub fn islands(&self) -> Vec<Vec<usize>> {
         let mut group: Vec<usize> = (0..self.vertices.len()).collect();
         for &[a, b, c] in &self.triangles {
             let root = find(&mut group, a as usize);
@@ -25,11 +25,11 @@ impl Mesh {
             }
             triangles[piece].push(index);
         }
-        triangles.iter().map(|piece| self.part(piece)).collect()
+        triangles
     }
 
     /// The mesh of some of the triangles, with the vertices they use.
-    fn part(&self, triangles: &[usize]) -> Mesh {
+    pub fn of_triangles(&self, triangles: &[usize]) -> Mesh {
         let mut part = Mesh::default();
         let mut new_index: BTreeMap<u32, u32> = BTreeMap::new();
         for &index in triangles {
@@ -65,7 +65,7 @@ mod tests {
         let mut mesh = tessellate(PrimitiveKind::Cuboid, [1.0; 3], false).unwrap();
         let other = mesh.clone();
         mesh.append(&other, &Pose::translation(3.0, 0.0, 0.0));
-        let islands = mesh.islands();
+        let islands: Vec<_> = mesh.islands().iter().map(|triangles| mesh.of_triangles(triangles)).collect();
         assert_eq!(islands.len(), 2);
         assert_eq!((islands[1].vertices.len(), islands[1].normals.len()), (8, 36));
     }

@@ -64,6 +64,8 @@ mod shape_params;
 pub mod spline;
 mod store;
 pub mod surroundings;
+pub mod texture;
+pub mod texture_mapping;
 pub mod time_optimal;
 mod tree;
 mod value_type;

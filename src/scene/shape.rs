@@ -7,6 +7,7 @@ use super::mass::MassProperties;
 use super::mesh::Mesh;
 use super::mesh_box::BoundingBox;
 use super::primitive::PrimitiveKind;
+use super::texture_mapping::TextureMapping;
 use super::{Kept, Pose, Uid};
 
 /// Frictions of the presets that hold things, in the order of [`Material::of_frictions`].
@@ -46,8 +47,7 @@ pub struct Part {
     /// Of a group of groups: the number of the member it is in, then of the member of that member, and so on.
     pub group: Vec<u32>,
     pub appearance: Appearance,
-    /// Settings of its texture: there are no textures.
-    pub kept: Kept,
+    pub texture: Option<Box<TextureMapping>>,
 }
 
 #[derive(Debug, Clone, PartialEq)]

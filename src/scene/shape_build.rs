@@ -8,7 +8,7 @@ use super::mesh::Mesh;
 use super::mesh_box::BoundingBox;
 use super::primitive::{PrimitiveKind, bounding_size, clamp_size, has_pure_size, heightfield, tessellate};
 use super::shape::{Appearance, HeightField, Material, Part, Primitive, Shape, ShapeDynamics, Velocity};
-use super::{Kept, SceneError, SceneResult};
+use super::{SceneError, SceneResult};
 
 /// Density of new primitives, kg/m3.
 const DENSITY: f64 = 500.0;
@@ -70,7 +70,7 @@ impl Shape {
             mass: MassProperties::of_primitive_at_creation(kind, size, DENSITY),
             group: Vec::new(),
             appearance,
-            kept: Kept::default(),
+            texture: None,
         };
         let bounding_box = BoundingBox { size: bounding_size(kind, size), pose: Pose::identity() };
         let mut shape = Self::simple(part, bounding_box);
@@ -141,7 +141,7 @@ fn mesh_part(mesh: Mesh, appearance: Appearance) -> Part {
         mass: MassProperties::default(),
         group: Vec::new(),
         appearance,
-        kept: Kept::default(),
+        texture: None,
     }
 }
 

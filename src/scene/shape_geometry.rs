@@ -15,6 +15,9 @@ impl Part {
     /// Turns the mesh inside out; what physics takes for a solid is the same.
     pub fn flip_faces(&mut self) {
         Rc::make_mut(&mut self.mesh).flip();
+        if let Some(texture) = &mut self.texture {
+            texture.flip();
+        }
     }
 }
 

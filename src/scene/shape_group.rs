@@ -183,11 +183,13 @@ impl Scene {
             return Ok(None);
         }
         let mut pieces = Vec::new();
-        for mesh in islands {
+        for triangles in islands {
+            let mesh = part.mesh.of_triangles(&triangles);
+            let texture = part.texture.as_ref().map(|texture| Box::new(texture.of_triangles(&triangles)));
             let frame = self.object(handle)?.pose();
             let convex = mesh.is_convex();
             let mass = MassProperties::default();
-            let island = Part { mesh: Rc::new(mesh), primitive: None, convex, mass, ..part.clone() };
+            let island = Part { mesh: Rc::new(mesh), primitive: None, convex, mass, texture, ..part.clone() };
             pieces.push(self.add_piece(handle, &shape, &island, frame)?);
         }
         Ok(Some(pieces))
@@ -214,7 +216,7 @@ fn grouped(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
     Ok(Shape { parts, mass, bounding_box, ..master.clone() })
 }
 
-/// One mesh in the master's frame, with the master's looks and mass.
+/// One mesh in the master's frame, with the master's looks, texture and mass.
 fn merged(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
     let mut mesh = Mesh::default();
     placed.iter().for_each(|(pose, shape)| mesh.append(&shape.mesh(), pose));
@@ -224,6 +226,9 @@ fn merged(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
     (shape.mass, shape.parts[0].mass) = (master.mass, master.mass);
     shape.dynamics = master.dynamics.clone();
     shape.material = master.material.clone();
+    // Coordinates of corners are not: the other meshes have none.
+    let projected = master.parts.first().and_then(|part| part.texture.clone()).filter(|t| t.coordinates.is_empty());
+    shape.parts[0].texture = projected;
     Ok(shape)
 }
 

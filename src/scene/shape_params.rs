@@ -1,6 +1,8 @@
 //! The numbered parameters of shapes (`sim.shapeintparam_*`, `sim.shapefloatparam_*`).
 
+use super::euler::{rotation_from_euler, rotation_to_euler};
 use super::shape::{Appearance, Shape};
+use super::texture_mapping::TextureMapping;
 
 impl Shape {
     fn first_appearance(&self) -> Option<&Appearance> {
@@ -9,6 +11,14 @@ impl Shape {
 
     fn each_appearance(&mut self, change: impl FnMut(&mut Appearance)) {
         self.parts.iter_mut().map(|part| &mut part.appearance).for_each(change);
+    }
+
+    fn first_texture(&self) -> Option<&TextureMapping> {
+        self.parts.first()?.texture.as_deref()
+    }
+
+    fn each_texture(&mut self, change: impl FnMut(&mut TextureMapping)) {
+        self.parts.iter_mut().filter_map(|part| part.texture.as_deref_mut()).for_each(change);
     }
 
     /// The value of an integer parameter; None when shapes have no such parameter.
@@ -57,6 +67,7 @@ impl Shape {
         Some(match id {
             3000..=3002 => initial.linear[(id - 3000) as usize],
             3005 => self.mass.mass,
+            3006..=3013 => self.first_texture().map_or(0.0, |texture| texture.param(id)),
             3020..=3022 => initial.angular[(id - 3020) as usize],
             3025 => angle(|a| a.shading_angle),
             3026 => angle(|a| a.edge_angle),
@@ -73,12 +84,40 @@ impl Shape {
         match id {
             3000..=3002 => initial.linear[(id - 3000) as usize] = value,
             3005 => self.mass.set_mass(value),
+            3006..=3013 => self.each_texture(|texture| texture.set_param(id, value)),
             3020..=3022 => initial.angular[(id - 3020) as usize] = value,
             3025 => self.each_appearance(|a| a.shading_angle = value),
             3026 => self.each_appearance(|a| a.edge_angle = value),
             _ => return false,
         }
         true
+    }
+}
+
+impl TextureMapping {
+    /// Where the image is projected from: x, y, z, then Euler angles; then its size.
+    fn param(&self, id: i64) -> f64 {
+        match id {
+            3006..=3008 => self.frame.translation.vector[(id - 3006) as usize],
+            3009..=3011 => rotation_to_euler(&self.frame.rotation)[(id - 3009) as usize],
+            3012 => self.scale[0],
+            _ => self.scale[1],
+        }
+    }
+
+    /// Infinite values change nothing.
+    fn set_param(&mut self, id: i64, value: f64) {
+        match id {
+            _ if !value.is_finite() => {}
+            3006..=3008 => self.frame.translation.vector[(id - 3006) as usize] = value,
+            3009..=3011 => {
+                let mut angles = rotation_to_euler(&self.frame.rotation);
+                angles[(id - 3009) as usize] = value;
+                self.frame.rotation = rotation_from_euler(&angles);
+            }
+            3012 => self.scale[0] = value,
+            _ => self.scale[1] = value,
+        }
     }
 }
 

@@ -37,6 +37,7 @@ pub struct Scene {
     pub custom_data: CustomData,
     /// Signals of the scene itself; they are not saved.
     pub signals: CustomData,
+    pub(super) textures: BTreeMap<i64, super::texture::Texture>,
     /// Values of the scene itself that have no effect here, as scripts set them.
     pub kept: Kept,
 }
@@ -108,7 +109,9 @@ impl Scene {
     /// # Errors
     /// When the object is no shape.
     pub fn morph_shape(&mut self, handle: Handle, mut shape: Shape) -> SceneResult<()> {
-        let old: Vec<Uid> = self.object(handle)?.shape()?.parts.iter().map(|part| part.uid).collect();
+        let own = self.object(handle)?.shape()?;
+        let old: Vec<Uid> = own.parts.iter().map(|part| part.uid).collect();
+        let textures: Vec<i64> = own.texture_ids().collect();
         self.name_parts(handle, &mut shape);
         for uid in old {
             self.meshes.remove(&uid);
@@ -116,7 +119,9 @@ impl Scene {
         self.reshape(handle, |own| {
             *own = shape;
             Ok(())
-        })
+        })?;
+        self.forget_unused_textures(&textures);
+        Ok(())
     }
 
     /// The shape a mesh belongs to, and which of its meshes it is.
@@ -205,6 +210,7 @@ impl Scene {
                 for part in &shape.parts {
                     self.meshes.remove(&part.uid);
                 }
+                self.forget_unused_textures(&shape.texture_ids().collect::<Vec<_>>());
             }
             self.changes.note(Change::Removed(handle, object.uid()));
         }

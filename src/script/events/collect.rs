@@ -138,12 +138,21 @@ impl Sim {
             self.collect_differences(watched, Some(field));
             watched.meshes.iter_mut().for_each(|mesh| self.collect_differences(mesh, Some(field)));
         }
-        if field == Field::Geometry {
-            self.collect_meshes(watch, handle);
+        match field {
+            Field::Geometry => self.collect_meshes(watch, handle),
+            Field::Texture => self.collect_textures(watch, handle),
+            _ => {}
         }
         if field == Field::Alias {
             self.collect_orders(watch, parent);
         }
+    }
+
+    /// A shape has another image on it.
+    fn collect_textures(self: &Rc<Self>, watch: &Watch, handle: Handle) {
+        let meshes = watch.objects.get(&handle).map_or(&[][..], |watched| &watched.meshes);
+        let events = meshes.iter().flat_map(|mesh| mesh.large(self, Field::Texture));
+        events.for_each(|event| self.push_event(event));
     }
 
     /// A shape has another geometry: meshes went, came, or look different.
@@ -158,7 +167,7 @@ impl Sim {
         watched.meshes = now;
         for mesh in &mut watched.meshes {
             if in_list(&before, mesh.source.uid) {
-                mesh.geometry(self).into_iter().for_each(|event| self.push_event(event));
+                mesh.large(self, Field::Geometry).into_iter().for_each(|event| self.push_event(event));
                 mesh.refresh(self);
             } else {
                 let entries = mesh.describe(self);

@@ -40,8 +40,9 @@ const SILENT: &[&str] = &[
     "selectionHandles",
 ];
 
-/// Too large to remember what was told of them: they are told when the geometry changes.
-const LARGE: &[&str] = &["vertices", "indices", "normals", "textureCoordinates", "rawTexture"];
+/// Too large to remember what was told of them: they are told when this changes, and with the geometry.
+const LARGE: &[(Field, &[&str])] =
+    &[(Field::Geometry, &["vertices", "indices", "normals"]), (Field::Texture, &["textureCoordinates", "rawTexture"])];
 
 /// Properties that are told in one event.
 const PAIRS: &[[&str; 2]] = &[["bbPose", "bbHSize"], ["parentUid", "parentHandle"]];
@@ -88,8 +89,8 @@ pub(super) struct Told {
     pub row: &'static Row,
     /// Index of the one told in the same event.
     pub partner: Option<usize>,
-    /// Not remembered, told when the geometry changes.
-    pub large: bool,
+    /// Not remembered, told when this or the geometry changes.
+    pub large: Option<Field>,
     /// Name and meaning in protocol 4.
     pub renamed: (&'static str, Meaning),
 }
@@ -120,7 +121,7 @@ impl Keys {
         let told = rows.iter().map(|row| Told {
             row,
             partner: partner(row.name),
-            large: LARGE.contains(&row.name),
+            large: LARGE.iter().find(|(_, names)| names.contains(&row.name)).map(|(field, _)| *field),
             renamed: renamed(row.class, row.name),
         });
         let told = told.collect();

@@ -9,7 +9,7 @@ use super::keys::{Keys, keys};
 use super::protocol::Protocol;
 use super::queue::{Class, Entry, Event, Source};
 use crate::scene::script_object::ScriptType;
-use crate::scene::{Data, Handle, Namespace, Object, ValueType};
+use crate::scene::{Data, Field, Handle, Namespace, Object, ValueType};
 use crate::script::instance::Script;
 use crate::script::property::{
     Class as PropertyClass, Target, app_class, mesh_class, object_class, scene_class, script_class,
@@ -102,7 +102,7 @@ impl Watched {
     }
 
     fn remembers(&self, index: usize) -> bool {
-        self.wanted[index] && !self.keys.told[index].large
+        self.wanted[index] && self.keys.told[index].large.is_none()
     }
 
     /// Everything about the target, which counts as told from now on.
@@ -118,9 +118,10 @@ impl Watched {
         entries
     }
 
-    /// What is not remembered, as it is now: one event each.
-    pub(super) fn geometry(&self, sim: &Rc<Sim>) -> Vec<Event> {
-        let large = (0..self.told.len()).filter(|&index| self.wanted[index] && self.keys.told[index].large);
+    /// What is not remembered and a change of `field` concerns, as it is now: one event each.
+    pub(super) fn large(&self, sim: &Rc<Sim>, field: Field) -> Vec<Event> {
+        let concerned = |of: Option<Field>| of.is_some_and(|of| of == field || field == Field::Geometry);
+        let large = (0..self.told.len()).filter(|&index| self.wanted[index] && concerned(self.keys.told[index].large));
         let values = large.filter_map(|index| Some((index, self.read(sim, index)?)));
         let entries = values.filter(|(_, value)| !is_empty(value)).map(|(index, value)| self.entry(index, &value));
         entries.map(|entry| Event::changed(self.source, vec![entry])).collect()

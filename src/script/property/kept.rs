@@ -1,7 +1,7 @@
 //! Properties that are only kept: reading and writing them.
 
 use super::{Sim, Target};
-use crate::scene::{Data, Field};
+use crate::scene::Data;
 use crate::script::error::{ApiError, ApiResult};
 
 impl Sim {
@@ -11,8 +11,7 @@ impl Sim {
             Target::App => Ok(self.app.borrow().kept.get(name).cloned()),
             Target::Scene => Ok(self.scene.borrow().kept(None, name)?.cloned()),
             Target::Object(handle) => Ok(self.scene.borrow().kept(Some(*handle), name)?.cloned()),
-            Target::Mesh(uid) => self.with_mesh(*uid, |_, part| part.kept.get(name).cloned()),
-            Target::Script(_) => Ok(None),
+            Target::Mesh(_) | Target::Script(_) => Ok(None),
         }
     }
 
@@ -24,13 +23,7 @@ impl Sim {
             }
             Target::Scene => self.scene.borrow_mut().keep(None, name, value)?,
             Target::Object(handle) => self.scene.borrow_mut().keep(Some(*handle), name, value)?,
-            Target::Mesh(uid) => {
-                let mut scene = self.scene.borrow_mut();
-                scene
-                    .modify_mesh(*uid, Field::Kept, |part| part.kept.set(name, value))
-                    .ok_or(ApiError::NoSuchTarget)?;
-            }
-            Target::Script(_) => return Err(ApiError::PropertyNotWritable),
+            Target::Mesh(_) | Target::Script(_) => return Err(ApiError::PropertyNotWritable),
         }
         Ok(())
     }

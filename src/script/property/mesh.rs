@@ -1,10 +1,13 @@
-//! Properties of the meshes shapes consist of. Textures are not kept: their properties tell of none.
+//! Properties of the meshes shapes consist of. What is said of a texture holds while there is one.
 
 use super::access::{Accessor, Subject, finite, subject_properties};
-use super::{Target, Text};
+use super::{IntPair, Target, Text};
 use crate::scene::mesh::Mesh;
 use crate::scene::shape::Part;
+use crate::scene::texture::Texture;
+use crate::scene::texture_mapping::TextureMapping;
 use crate::scene::{Field, Object, Uid};
+use crate::script::args::Bytes;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::sim::Sim;
 
@@ -39,6 +42,42 @@ impl Subject<'_> {
         })
     }
 }
+
+impl Subject<'_> {
+    /// What `of` tells about the texture on the mesh; `none` where there is none.
+    fn texture<R>(&self, none: R, of: impl FnOnce(&TextureMapping) -> R) -> ApiResult<R> {
+        self.with_mesh(|_, part| part.texture.as_deref().map_or(none, of))
+    }
+
+    /// Changes how the texture lies on the mesh. Without one there is nothing to change.
+    fn change_texture(&self, change: impl FnOnce(&mut TextureMapping)) -> ApiResult<()> {
+        self.change_mesh(|part| {
+            part.texture.as_deref_mut().map(change);
+        })
+    }
+
+    /// What `of` tells about the image; `none` where there is none, or it is that of a sensor.
+    fn image<R>(&self, none: R, of: impl FnOnce(&Texture) -> R) -> ApiResult<R> {
+        let id = self.texture(-1, |texture| texture.source.raw())?;
+        Ok(self.sim.scene.borrow().texture(id).map_or(none, of))
+    }
+}
+
+pub(super) const TEXTURE: &[Accessor] = subject_properties! {
+    "textureResolution": IntPair, |s| IntPair(s.image([0; 2], |image| image.size().map(i64::from))?);
+    "textureCoordinates": Vec<f64>,
+        |s| s.texture(Vec::new(), |texture| texture.coordinates.iter().copied().map(f64::from).collect())?;
+    "textureApplyMode": i64, |s| s.texture(0, |texture| texture.apply_mode)?,
+        |s, mode| s.change_texture(|texture| texture.apply_mode = mode)?;
+    "textureRepeatU": bool, |s| s.texture(true, |texture| texture.repeat[0])?,
+        |s, on| s.change_texture(|texture| texture.repeat[0] = on)?;
+    "textureRepeatV": bool, |s| s.texture(true, |texture| texture.repeat[1])?,
+        |s, on| s.change_texture(|texture| texture.repeat[1] = on)?;
+    "textureInterpolate": bool, |s| s.texture(true, |texture| texture.interpolate)?,
+        |s, on| s.change_texture(|texture| texture.interpolate = on)?;
+    "rawTexture": Bytes, |s| Bytes(s.image(Vec::new(), Texture::rgba)?);
+    "textureID": i64, |s| s.texture(-1, |texture| texture.source.raw())?;
+};
 
 pub(super) const MESH: &[Accessor] = subject_properties! {
     "vertices": Vec<f64>, |s| s.geometry(Mesh::flat_vertices)?;

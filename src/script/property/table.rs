@@ -327,6 +327,7 @@ const FILES: &[(&str, &[Accessor])] = &[
     ("rayColour", colour::RAY_COLOUR),
     ("lightColour", colour::LIGHT_COLOUR),
     ("mesh", mesh::MESH),
+    ("mesh", mesh::TEXTURE),
     ("proximitySensor", proximity_sensor::PROXIMITY_SENSOR),
     ("volume", proximity_sensor::VOLUME),
     ("viewable", view::VIEWABLE),

@@ -30,7 +30,7 @@ sim.setBoolProperty(a, 'flipFaces', true)
 local after = sim.getProperty(one[1], 'normals')
 print(#before == #after, before[1] == -after[1], before[2] == -after[2], before[3] == -after[3])
 print(pcall(sim.getBoolProperty, a, 'flipFaces'))
--- no textures are kept
+-- without a texture
 print(#sim.getProperty(one[1], 'rawTexture'), #sim.getProperty(one[1], 'textureCoordinates'), sim.getProperty(one[1], 'textureID'))
 -- meshes of compounds, and of copies, are their own
 local c = sim.copyPasteObjects({a}, 0)[1]

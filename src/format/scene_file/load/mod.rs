@@ -12,6 +12,7 @@ mod script;
 mod sensors;
 mod settings;
 mod shape;
+mod texture;
 
 use std::collections::BTreeMap;
 
@@ -20,8 +21,10 @@ use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{File, FileError, FileKind, FileResult, Header};
 use crate::scene::dummy::{Dummy, LinkType};
 use crate::scene::poses::is_place;
+use crate::scene::shape::Shape;
 use crate::scene::{Handle, Kind, Scene, SceneResult};
 use mesh::Meshes;
+use texture::TextureMap;
 
 /// What is needed to understand a chunk beyond the chunk.
 struct Context<'a> {
@@ -93,12 +96,14 @@ impl SceneFile {
     pub fn add_to(self, scene: &mut Scene, settings: bool) -> SceneResult<Loaded> {
         let Self { file, kinds, attached_sources } = self;
         let context = Context { header: &file.header, file: &file, meshes: Meshes::new(&file) };
+        let textures = texture::add(scene, &file.contents.textures)?;
         let objects = file.contents.objects.iter().zip(kinds).map(|(object, kind)| add(scene, &context, object, kind));
         let objects = objects.collect::<SceneResult<Vec<Handle>>>()?;
         let known = file.contents.objects.iter().zip(&objects);
         let map: HandleMap = known.filter_map(|(object, handle)| Some((object.common.handles?[0], *handle))).collect();
         let root = place(scene, &file, &objects, &map)?;
         references::connect(scene, &file, &objects, &map)?;
+        connect_textures(scene, &objects, &textures, &map)?;
         if settings {
             settings::apply(scene, &file)?;
         }
@@ -120,6 +125,16 @@ fn add(scene: &mut Scene, context: &Context<'_>, object: &FileObject, kind: Kind
     let handle = scene.add(&common::alias(&object.common), kind)?;
     common::fill(scene, context, handle, object)?;
     Ok(handle)
+}
+
+fn connect_textures(scene: &mut Scene, objects: &[Handle], textures: &TextureMap, map: &HandleMap) -> SceneResult<()> {
+    for &handle in objects {
+        let textured = |shape: &Shape| shape.parts.iter().any(|part| part.texture.is_some());
+        if scene.object(handle)?.shape().is_ok_and(textured) {
+            texture::connect(scene, handle, textures, map)?;
+        }
+    }
+    Ok(())
 }
 
 /// The object's type with its data. Types that are gone, or not yet known, become dummies, so that the tree stays whole.

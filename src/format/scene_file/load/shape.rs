@@ -6,16 +6,17 @@ use nalgebra::Matrix3;
 
 use super::mesh::is_nearly_convex;
 use super::sensors::colour;
-use super::{Context, material};
+use super::{Context, material, texture};
 use crate::format::ttt::PositionFirst;
 use crate::format::ttt::chunks::{MeshData, MeshNode, Shape as Chunk, ShapeGeometry};
 use crate::format::ttt::tree::{Mesh as FileMesh, MeshTree};
+use crate::scene::Pose;
 use crate::scene::mass::MassProperties;
 use crate::scene::mesh::Mesh;
 use crate::scene::mesh_box::BoundingBox;
 use crate::scene::primitive::PrimitiveKind;
 use crate::scene::shape::{Appearance, HeightField, Part, Primitive, Shape, ShapeDynamics, Velocity};
-use crate::scene::{Kept, Pose};
+use crate::scene::texture_mapping::TextureMapping;
 
 /// Smallest moment of inertia per kilogram (m2) that counts.
 const SMALLEST_MOMENT: f64 = 1e-8;
@@ -99,6 +100,9 @@ fn part(context: &mut Context<'_>, mesh: &FileMesh, frame: &Pose, simple: bool) 
     let centred = primitive.as_ref().is_some_and(|p| p.kind != PrimitiveKind::Heightfield);
     let triangles = context.meshes.mesh(data, if centred { &IDENTITY } else { &vertices })?;
     let (triangles, convex) = convexity(node, data, triangles);
+    let corners = 6 * triangles.triangles.len();
+    let fits = |t: &TextureMapping| t.coordinates.is_empty() || t.coordinates.len() == corners;
+    let texture = data.texture.as_ref().and_then(texture::mapping).filter(fits).map(Box::new);
     let in_node = if centred { vertices } else { Pose::identity() };
     Ok(Part {
         uid: 0,
@@ -109,7 +113,7 @@ fn part(context: &mut Context<'_>, mesh: &FileMesh, frame: &Pose, simple: bool) 
         mass: mass(node, frame).reexpressed(&in_node.inverse()),
         group: Vec::new(),
         appearance: appearance(data),
-        kept: Kept::default(),
+        texture,
     })
 }
 

@@ -14,6 +14,7 @@ mod script;
 mod sensors;
 mod settings;
 mod shape;
+mod texture;
 
 use std::collections::BTreeSet;
 
@@ -21,6 +22,7 @@ use super::LoadedScript;
 use crate::format::ttt::chunks::ModelInfo;
 use crate::format::ttt::tree::{Class, Contents, Object as FileObject};
 use crate::format::ttt::{File, FileKind, Header};
+use crate::scene::shape::Shape;
 use crate::scene::{Handle, Kind, Object, Pose, Scene, SceneResult};
 use mesh::Pool;
 
@@ -86,13 +88,25 @@ fn contents(scene: &Scene, order: &[Handle], base: Option<Handle>, scripts: &[Lo
     let mut context = Context { scene, saved: order.iter().copied().collect(), pool: Pool::default() };
     let objects = order.iter().map(|handle| object(&mut context, *handle, base)).collect::<SceneResult<Vec<_>>>()?;
     let attached = scripts.iter().filter(|script| script.owner.is_some_and(|owner| context.saved.contains(&owner)));
+    let textures = match base {
+        None => texture::all(scene, |_| true),
+        Some(_) => {
+            let used: BTreeSet<i64> = shapes(scene, order).flat_map(Shape::texture_ids).collect();
+            texture::all(scene, |id| used.contains(&id))
+        }
+    };
     Ok(Contents {
+        textures,
         scripts: attached.map(script::attached).collect(),
         collections: settings::collections(&context),
         objects,
         mesh_pool: Some(context.pool.chunk),
         ..Contents::default()
     })
+}
+
+fn shapes<'a>(scene: &'a Scene, order: &[Handle]) -> impl Iterator<Item = &'a Shape> {
+    order.iter().filter_map(|handle| scene.object(*handle).ok()?.shape().ok())
 }
 
 fn object(context: &mut Context<'_>, handle: Handle, base: Option<Handle>) -> SceneResult<FileObject> {

@@ -1,6 +1,6 @@
 //! Shapes: one mesh, or a group of meshes, each in the frame of its box.
 
-use super::{Context, colour};
+use super::{Context, colour, texture};
 use crate::format::ttt::chunks::{Material as MaterialChunk, MeshData, MeshNode, Shape as Chunk, ShapeGeometry};
 use crate::format::ttt::tree::{Mesh as FileMesh, MeshTree};
 use crate::format::ttt::{EngineBlock, Heights};
@@ -145,6 +145,7 @@ fn mesh(context: &mut Context<'_>, part: &Part, place: Place) -> FileMesh {
         switches: Some(drawing(&part.appearance)),
         switches_2: Some(part.convex.into()),
         heightfield: Some(heights(part.primitive.as_ref())),
+        texture: part.texture.as_deref().map(|mapping| texture::mapping(context, mapping)),
         ..MeshData::default()
     };
     appearance(&mut data, &part.appearance);

@@ -1,0 +1,282 @@
+//! `sim.*`: images on shapes. They are kept for scripts and files; nothing is drawn.
+
+use std::rc::Rc;
+
+use api_macro::api;
+
+use super::images::{failure, read_file};
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::format::picture::{Layout, Picture};
+use crate::scene::euler::rotation_from_euler;
+use crate::scene::primitive::PrimitiveKind;
+use crate::scene::shape::{Part, Shape};
+use crate::scene::texture::Texture;
+use crate::scene::texture_mapping::{TextureMapping, TextureSource};
+use crate::scene::{Data, Handle, Kind, Pose, Scene, SceneError};
+use crate::script::{Bytes, IntPair, Number};
+
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![create_texture, get_texture_id, get_shape_texture_id, set_shape_texture, read_texture, write_texture];
+
+/// Pixels of a new texture whose size nobody said.
+const USUAL_SIDE: f64 = 256.0;
+const WHITE: u8 = 255;
+/// `sim.textureapplymode_decal`.
+const DECAL: i64 = 1;
+/// The name of what is from no file.
+const NAME: &str = "texture";
+/// Bits of `sim.createShape` for its texture.
+mod shape_option {
+    pub const NOT_INTERPOLATED: i64 = 4;
+    pub const DECAL: i64 = 8;
+    pub const RGBA: i64 = 16;
+    pub const FLIP_X: i64 = 32;
+    pub const KEEP_ROWS: i64 = 64;
+}
+
+/// A new plane with an image on it, from a file or white.
+///
+/// @param fileName PNG, JPEG, BMP or TGA; an empty text for a new image
+/// @param options 1: pixels are not interpolated, 2: applied as a decal, 4: repeated along u, 8: repeated along v
+/// @param planeSizes of the plane, metres; nothing: one metre wide, as high as the image says
+/// @param scalingUV size of the image, metres; nothing for that of the plane
+/// @param xy_g where the image lies on the plane: x, y and perhaps an angle, metres and radians
+/// @param fixedResolution 1: the image of a file is brought to the resolution too
+/// @param resolution of a new image, pixels; 256 times 256 if nothing is said
+/// @return shapeHandle the plane
+/// @return textureId of the image
+/// @return resolution pixels
+#[api("sim.createTexture")]
+#[expect(clippy::too_many_arguments, reason = "the reference has them")]
+fn create_texture(
+    cx: &mut Cx,
+    file_name: String,
+    options: Number,
+    #[default(None)] plane_sizes: Option<[f64; 2]>,
+    #[default(None)] scaling_uv: Option<[f64; 2]>,
+    #[default(None)] xy_g: Option<Vec<f64>>,
+    #[default(0)] fixed_resolution: Number,
+    #[default(None)] resolution: Option<[f64; 2]>,
+) -> Result<(Handle, i64, IntPair)> {
+    let texture = match file_name.as_str() {
+        "" => blank(resolution.unwrap_or([USUAL_SIDE; 2]))?,
+        name => of_file(name, resolution.filter(|_| fixed_resolution.0 != 0))?,
+    };
+    let [width, height] = texture.size();
+    let plane = plane_sizes.unwrap_or([1.0, f64::from(height) / f64::from(width)]);
+    let shape = Shape::primitive(PrimitiveKind::Plane, [plane[0], plane[1], 0.0], Default::default())?;
+    let [x, y, angle] = std::array::from_fn(|i| xy_g.as_ref().and_then(|xy_g| xy_g.get(i)).copied().unwrap_or(0.0));
+    let (scale, frame) = (finite(scaling_uv.unwrap_or(plane))?, frame([x, y, 0.0], [0.0, 0.0, angle])?);
+    let id = cx.scene_mut().add_texture(texture)?;
+    let mapping =
+        TextureMapping { scale, frame, ..with_options(TextureMapping::new(TextureSource::Texture(id)), options.0) };
+    let sim = cx.sim().clone();
+    let handle = sim.scene.borrow_mut().add(PrimitiveKind::Plane.alias(), Kind::Shape(Box::new(shape)))?;
+    cx.scene_mut().set_shape_texture(handle, Some(mapping))?;
+    sim.announce_created(&[handle]);
+    Ok((handle, id, IntPair([width.into(), height.into()])))
+}
+
+fn blank(resolution: [f64; 2]) -> Result<Texture> {
+    let size = resolution.map(|side| side as u32);
+    let refused = || ApiError::Other("invalid arguments.".into());
+    let bytes = u64::from(size[0]) * u64::from(size[1]) * 3;
+    let bytes = usize::try_from(bytes).ok().filter(|_| size.iter().all(|side| *side <= Texture::MAX_SIDE));
+    Texture::new(NAME, size, false, &vec![WHITE; bytes.ok_or_else(refused)?]).ok_or_else(refused)
+}
+
+/// The image of a file, named after it; files begin with the top row.
+fn of_file(name: &str, resolution: Option<[f64; 2]>) -> Result<Texture> {
+    let picture = Picture::decode(&read_file(name.as_bytes())?, Layout::Rgba).map_err(failure)?;
+    let picture = match resolution {
+        Some(size) => picture.scaled(size.map(|side| side as i64), false, Layout::Rgba).map_err(failure)?,
+        None => picture,
+    };
+    let stem = std::path::Path::new(name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    of_picture(&stem, picture.flipped(false, true), true)
+}
+
+fn of_picture(name: &str, picture: Picture, has_alpha: bool) -> Result<Texture> {
+    let size = picture.resolution().map(|side| side as u32);
+    Texture::new(name, size, has_alpha, &picture.into_bytes()).ok_or(SceneError::InvalidData.into())
+}
+
+fn with_options(mapping: TextureMapping, options: i64) -> TextureMapping {
+    let bit = |bit: i64| options & bit != 0;
+    TextureMapping {
+        interpolate: !bit(1),
+        apply_mode: if bit(2) { DECAL } else { 0 },
+        repeat: [bit(4), bit(8)],
+        ..mapping
+    }
+}
+
+fn frame(position: [f64; 3], orientation: [f64; 3]) -> Result<Pose> {
+    let (position, orientation) = (finite(position)?, finite(orientation)?);
+    Ok(Pose::from_parts(position.into(), rotation_from_euler(&orientation)))
+}
+
+fn finite<const N: usize>(numbers: [f64; N]) -> Result<[f64; N]> {
+    if numbers.iter().all(|n| n.is_finite()) { Ok(numbers) } else { Err(SceneError::InvalidData.into()) }
+}
+
+/// The texture with a name: that of its file, without folder and ending.
+///
+/// @param textureName the first one with that name counts
+/// @return textureId -1 when there is none
+/// @return resolution pixels
+#[api("sim.getTextureId")]
+fn get_texture_id(cx: &Cx, texture_name: String) -> Result<(i64, Option<IntPair>)> {
+    let scene = cx.scene();
+    let found = scene.textures().find(|(_, texture)| texture.name == texture_name);
+    Ok(found.map_or((-1, None), |(id, texture)| (id, Some(IntPair(texture.size().map(i64::from))))))
+}
+
+/// The texture on a shape.
+///
+/// @param shapeHandle the shape; of a compound the first mesh counts
+/// @return textureId a texture, the handle of a vision sensor whose picture it is, or -1
+#[api("sim.getShapeTextureId")]
+fn get_shape_texture_id(cx: &Cx, shape_handle: Handle) -> Result<i64> {
+    let scene = cx.scene();
+    let first = scene.object(shape_handle)?.shape()?.parts.first();
+    Ok(first.and_then(|part| part.texture.as_ref()).map_or(-1, |texture| texture.source.raw()))
+}
+
+/// Puts an image on all meshes of a shape.
+///
+/// @param shapeHandle the shape
+/// @param textureId a texture, or a vision sensor whose picture it is; -1 takes the image away
+/// @param mappingMode sim.texturemap_*
+/// @param options 1: pixels are not interpolated, 2: applied as a decal, 4: repeated along u, 8: repeated along v
+/// @param uvScaling size of the image, metres
+/// @param position of the projection
+/// @param orientation of the projection, Euler angles
+#[api("sim.setShapeTexture")]
+#[expect(clippy::too_many_arguments, reason = "the reference has them")]
+fn set_shape_texture(
+    cx: &mut Cx,
+    shape_handle: Handle,
+    texture_id: Number,
+    mapping_mode: Number,
+    options: Number,
+    uv_scaling: [f64; 2],
+    #[default(None)] position: Option<[f64; 3]>,
+    #[default(None)] orientation: Option<[f64; 3]>,
+) -> Result<()> {
+    if texture_id.0 == -1 {
+        return Ok(cx.scene_mut().set_shape_texture(shape_handle, None)?);
+    }
+    let source = TextureSource::from_raw(texture_id.0).ok_or(SceneError::InvalidArgument)?;
+    let mode = i32::try_from(mapping_mode.0).ok().filter(|mode| (0..=3).contains(mode));
+    let mapping = TextureMapping {
+        mode: mode.ok_or(SceneError::InvalidArgument)?,
+        scale: finite(uv_scaling)?,
+        frame: frame(position.unwrap_or_default(), orientation.unwrap_or_default())?,
+        ..with_options(TextureMapping::new(source), options.0)
+    };
+    Ok(cx.scene_mut().set_shape_texture(shape_handle, Some(mapping))?)
+}
+
+/// Reads a part of a texture.
+///
+/// @param textureId the texture
+/// @param options not used
+/// @param posX first column
+/// @param posY first row, from the bottom
+/// @param sizeX columns; 0 for the whole texture
+/// @param sizeY rows; 0 for the whole texture
+/// @return textureData red, green, blue of each pixel, the bottom row first
+#[api("sim.readTexture")]
+fn read_texture(
+    cx: &Cx,
+    texture_id: i64,
+    options: i64,
+    #[default(0)] pos_x: Number,
+    #[default(0)] pos_y: Number,
+    #[default(0)] size_x: Number,
+    #[default(0)] size_y: Number,
+) -> Result<Bytes> {
+    let _ = options;
+    let scene = cx.scene();
+    let texture = scene.texture(texture_id)?;
+    let part = texture.rectangle([pos_x.0, pos_y.0], [size_x.0, size_y.0])?;
+    Ok(Bytes(texture.read(part)))
+}
+
+/// Writes a part of a texture, on all shapes it is on.
+///
+/// @param textureId the texture
+/// @param options not used
+/// @param textureData red, green, blue of each pixel, the bottom row first
+/// @param posX first column
+/// @param posY first row, from the bottom
+/// @param sizeX columns; 0 for the whole texture
+/// @param sizeY rows; 0 for the whole texture
+/// @param interpol how much of the old colours stays, 0 to 1
+#[api("sim.writeTexture")]
+#[expect(clippy::too_many_arguments, reason = "the reference has them")]
+fn write_texture(
+    cx: &mut Cx,
+    texture_id: i64,
+    options: i64,
+    texture_data: Bytes,
+    #[default(0)] pos_x: Number,
+    #[default(0)] pos_y: Number,
+    #[default(0)] size_x: Number,
+    #[default(0)] size_y: Number,
+    #[default(0.0)] interpol: f64,
+) -> Result<()> {
+    let _ = options;
+    Ok(cx.scene_mut().modify_texture(texture_id, |texture| {
+        let part = texture.rectangle([pos_x.0, pos_y.0], [size_x.0, size_y.0])?;
+        texture.write(part, &texture_data.0, interpol)
+    })?)
+}
+
+/// The texture of `sim.createShape`: two coordinates for each of `corners` corners, and the pixels of an image.
+pub(super) fn of_mesh(
+    cx: &mut Cx,
+    options: i64,
+    coordinates: &[f64],
+    corners: usize,
+    pixels: Vec<u8>,
+    resolution: [f64; 2],
+) -> Result<TextureMapping> {
+    use shape_option as option;
+    let bit = |bit: i64| options & bit != 0;
+    let coordinates = coordinates.get(..2 * corners).ok_or(ApiError::TableSize)?;
+    let coordinates: Rc<[f32]> = finite_list(coordinates)?;
+    let layout = if bit(option::RGBA) { Layout::Rgba } else { Layout::Rgb };
+    let picture = Picture::new(pixels, resolution.map(|side| side as i64), layout).map_err(failure)?;
+    let picture = picture.flipped(bit(option::FLIP_X), !bit(option::KEEP_ROWS));
+    let id = cx.scene_mut().add_texture(of_picture(NAME, picture, bit(option::RGBA))?)?;
+    Ok(TextureMapping {
+        interpolate: !bit(option::NOT_INTERPOLATED),
+        apply_mode: if bit(option::DECAL) { DECAL } else { 0 },
+        coordinates,
+        ..TextureMapping::new(TextureSource::Texture(id))
+    })
+}
+
+fn finite_list(numbers: &[f64]) -> Result<Rc<[f32]>> {
+    let singles: Rc<[f32]> = numbers.iter().map(|n| *n as f32).collect();
+    if singles.iter().all(|n| n.is_finite()) { Ok(singles) } else { Err(SceneError::InvalidData.into()) }
+}
+
+/// What `sim.getShapeViz` tells of the texture on a mesh; nothing where there is none, or no image of it.
+pub(super) fn viz(scene: &Scene, part: &Part) -> Option<Data> {
+    let mapping = part.texture.as_deref()?;
+    let texture = scene.texture(mapping.source.raw()).ok()?;
+    let [u, v] = mapping.repeat;
+    let options = i64::from(u) | i64::from(v) << 1 | i64::from(mapping.interpolate) << 2;
+    let coordinates: Vec<f64> = mapping.coordinates.iter().copied().map(f64::from).collect();
+    Some(Data::map([
+        ("texture", Data::Buffer(texture.rgba())),
+        ("resolution", texture.size().map(i64::from).into()),
+        ("coordinates", coordinates.into()),
+        ("applyMode", mapping.apply_mode.into()),
+        ("options", options.into()),
+        ("id", mapping.source.raw().into()),
+    ]))
+}

@@ -1,0 +1,43 @@
+//! Images, and how they lie on meshes.
+
+use super::Context;
+use crate::format::ttt::Rest;
+use crate::format::ttt::chunks::{Texture as Chunk, TextureMapping as MappingChunk};
+use crate::scene::Scene;
+use crate::scene::texture::Texture;
+use crate::scene::texture_mapping::{TextureMapping, TextureSource};
+
+/// The mode that older programs know as a flag.
+const DECAL: i64 = 1;
+
+/// The images of a scene, or those of a model that are `used`.
+pub(super) fn all(scene: &Scene, used: impl Fn(i64) -> bool) -> Vec<Chunk> {
+    scene.textures().filter(|(id, _)| used(*id)).map(|(id, texture)| image(id, texture)).collect()
+}
+
+fn image(id: i64, texture: &Texture) -> Chunk {
+    let [width, height] = texture.size();
+    Chunk {
+        id_and_size: Some([id as i32, width as i32, height as i32]),
+        name: Some(texture.name.as_str().into()),
+        flags: Some(texture.has_alpha().into()),
+        pixels: Some(Rest(texture.pixels().to_vec())),
+    }
+}
+
+pub(super) fn mapping(context: &Context<'_>, texture: &TextureMapping) -> MappingChunk {
+    let id = match texture.source {
+        TextureSource::Texture(id) => id as i32,
+        TextureSource::Sensor(sensor) => context.file_handle(Some(sensor)),
+    };
+    let [u, v] = texture.repeat;
+    let flags = u8::from(texture.interpolate) | u8::from(u) << 2 | u8::from(v) << 3;
+    MappingChunk {
+        old_flags: Some(flags | u8::from(texture.apply_mode == DECAL) << 1),
+        flags: Some(flags),
+        source: Some(([id, texture.mode], texture.scale)),
+        projection: Some(texture.frame.into()),
+        uv: Some(Rest(texture.coordinates.to_vec())),
+        apply_mode: Some(texture.apply_mode as i32),
+    }
+}

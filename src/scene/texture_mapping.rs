@@ -1,0 +1,236 @@
+//! How images lie on meshes, and the images of a scene.
+
+use std::rc::Rc;
+
+use super::shape::{Part, Shape};
+use super::texture::Texture;
+use super::{Field, Handle, Object, Pose, Scene, SceneError, SceneResult};
+
+/// Number of the first texture (`sim.object_texturestart`), and of the one that cannot be any more (`sim.object_textureend`).
+const FIRST: i64 = 2_180_009;
+const END: i64 = 2_280_009;
+
+/// How an image lies on a mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TextureMapping {
+    pub source: TextureSource,
+    /// `sim.texturemap_*`: how the image is projected.
+    pub mode: i32,
+    /// Size of the image, metres.
+    pub scale: [f64; 2],
+    /// Where it is projected from, in the frame of the vertices.
+    pub frame: Pose,
+    pub interpolate: bool,
+    /// Along u and v.
+    pub repeat: [bool; 2],
+    /// `sim.textureapplymode_*`.
+    pub apply_mode: i64,
+    /// u and v of each corner of each triangle; empty where the image is projected. Shared between copies.
+    pub coordinates: Rc<[f32]>,
+}
+
+/// Where an image comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TextureSource {
+    /// A texture of the scene, by its number.
+    Texture(i64),
+    /// What a vision sensor sees.
+    Sensor(Handle),
+}
+
+impl TextureSource {
+    /// From a number of a script or a file: those of objects mean vision sensors.
+    pub fn from_raw(raw: i64) -> Option<Self> {
+        match Handle::from_raw(raw) {
+            Some(sensor) => Some(Self::Sensor(sensor)),
+            None => (raw >= FIRST).then_some(Self::Texture(raw)),
+        }
+    }
+
+    pub fn raw(self) -> i64 {
+        match self {
+            Self::Texture(id) => id,
+            Self::Sensor(sensor) => sensor.raw(),
+        }
+    }
+}
+
+impl TextureMapping {
+    /// Projected onto a plane, one metre wide, repeated.
+    pub fn new(source: TextureSource) -> Self {
+        Self {
+            source,
+            mode: 0,
+            scale: [1.0, 1.0],
+            frame: Pose::identity(),
+            interpolate: true,
+            repeat: [true, true],
+            apply_mode: 0,
+            coordinates: Rc::default(),
+        }
+    }
+
+    /// Turns each triangle as [`Mesh::flip`](super::mesh::Mesh::flip) does.
+    pub(super) fn flip(&mut self) {
+        let turned = self.coordinates.as_chunks::<6>().0.iter().flat_map(|&[a, b, c, d, e, f]| [a, b, e, f, c, d]);
+        self.coordinates = turned.collect();
+    }
+
+    /// The same on some of the triangles only.
+    pub(super) fn of_triangles(&self, triangles: &[usize]) -> Self {
+        let all = self.coordinates.as_chunks::<6>().0;
+        let some = triangles.iter().filter_map(|at| all.get(*at)).flatten().copied();
+        Self { coordinates: some.collect(), ..self.clone() }
+    }
+}
+
+impl Part {
+    /// The number of its texture, if it has one that is no sensor's picture.
+    fn texture_id(&self) -> Option<i64> {
+        match self.texture.as_ref()?.source {
+            TextureSource::Texture(id) => Some(id),
+            TextureSource::Sensor(_) => None,
+        }
+    }
+}
+
+impl Shape {
+    /// The numbers of its textures; some may come more than once.
+    pub fn texture_ids(&self) -> impl Iterator<Item = i64> {
+        self.parts.iter().filter_map(Part::texture_id)
+    }
+}
+
+impl Scene {
+    /// Adds an image; one that is there already is used again. Its number.
+    ///
+    /// # Errors
+    /// When there are too many.
+    pub fn add_texture(&mut self, texture: Texture) -> SceneResult<i64> {
+        if let Some((id, _)) = self.textures.iter().find(|(_, other)| **other == texture) {
+            return Ok(*id);
+        }
+        let id = self.textures.last_key_value().map_or(FIRST, |(last, _)| last + 1);
+        if id >= END {
+            return Err(SceneError::Refused("the scene has too many textures.".into()));
+        }
+        self.textures.insert(id, texture);
+        Ok(id)
+    }
+
+    /// # Errors
+    /// When there is no such texture.
+    pub fn texture(&self, id: i64) -> SceneResult<&Texture> {
+        self.textures.get(&id).ok_or_else(no_texture)
+    }
+
+    /// All images, by their numbers.
+    pub fn textures(&self) -> impl Iterator<Item = (i64, &Texture)> {
+        self.textures.iter().map(|(id, texture)| (*id, texture))
+    }
+
+    /// Changes an image, on all meshes it lies on.
+    ///
+    /// # Errors
+    /// When there is no such texture, or `change` refuses.
+    pub fn modify_texture<R>(
+        &mut self,
+        id: i64,
+        change: impl FnOnce(&mut Texture) -> SceneResult<R>,
+    ) -> SceneResult<R> {
+        let result = change(self.textures.get_mut(&id).ok_or_else(no_texture)?)?;
+        let users: Vec<Handle> = self.objects().filter(|object| uses(object, id)).map(Object::handle).collect();
+        for user in users {
+            self.modify(user, Field::Texture, |_| ())?;
+        }
+        Ok(result)
+    }
+
+    /// Puts an image on all meshes of a shape, or takes theirs away. Textures that no mesh has any more are forgotten.
+    ///
+    /// # Errors
+    /// When the object is no shape, or the texture or sensor does not exist.
+    pub fn set_shape_texture(&mut self, handle: Handle, mapping: Option<TextureMapping>) -> SceneResult<()> {
+        match mapping.as_ref().map(|mapping| mapping.source) {
+            Some(TextureSource::Texture(id)) => drop(self.texture(id)?),
+            Some(TextureSource::Sensor(sensor)) => drop(self.object(sensor)?.vision_sensor()?),
+            None => {}
+        }
+        let before: Vec<i64> = self.object(handle)?.shape()?.texture_ids().collect();
+        self.try_modify(handle, Field::Texture, |object| {
+            for part in &mut object.shape_mut()?.parts {
+                part.texture = mapping.clone().map(Box::new);
+            }
+            Ok(())
+        })?;
+        self.forget_unused_textures(&before);
+        Ok(())
+    }
+
+    /// Forgets those of the textures that no mesh has.
+    pub(super) fn forget_unused_textures(&mut self, ids: &[i64]) {
+        for id in ids {
+            if self.textures.contains_key(id) && !self.objects().any(|object| uses(object, *id)) {
+                self.textures.remove(id);
+            }
+        }
+    }
+
+    /// Forgets all textures, of an empty scene.
+    pub fn clear_textures(&mut self) {
+        self.textures.clear();
+    }
+}
+
+fn uses(object: &Object, id: i64) -> bool {
+    object.shape().is_ok_and(|shape| shape.texture_ids().any(|other| other == id))
+}
+
+fn no_texture() -> SceneError {
+    SceneError::Refused("texture does not exist.".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Kind;
+    use crate::scene::primitive::PrimitiveKind;
+
+    fn image(name: &str) -> Texture {
+        Texture::new(name, [1, 1], false, &[1, 2, 3]).unwrap()
+    }
+
+    fn cube(scene: &mut Scene) -> Handle {
+        let shape = Shape::primitive(PrimitiveKind::Cuboid, [0.1; 3], Default::default()).unwrap();
+        scene.add("c", Kind::Shape(Box::new(shape))).unwrap()
+    }
+
+    #[test]
+    fn an_image_is_kept_once_and_while_it_is_used() {
+        let mut scene = Scene::new();
+        let (a, b) = (cube(&mut scene), cube(&mut scene));
+        let id = scene.add_texture(image("a")).unwrap();
+        assert_eq!(
+            (id, scene.add_texture(image("b")), scene.add_texture(image("a"))),
+            (FIRST, Ok(FIRST + 1), Ok(FIRST))
+        );
+        let mapping = TextureMapping::new(TextureSource::Texture(id));
+        scene.set_shape_texture(a, Some(mapping.clone())).unwrap();
+        scene.set_shape_texture(b, Some(mapping)).unwrap();
+        scene.set_shape_texture(a, None).unwrap();
+        assert!(scene.texture(id).is_ok());
+        scene.remove(&[b]).unwrap();
+        assert!(scene.texture(id).is_err());
+        let gone = Some(TextureMapping::new(TextureSource::Texture(id)));
+        assert!(scene.set_shape_texture(a, gone).is_err());
+    }
+
+    #[test]
+    fn coordinates_follow_the_triangles() {
+        let mut mapping = TextureMapping::new(TextureSource::Texture(FIRST));
+        mapping.coordinates = (0..12u8).map(f32::from).collect();
+        assert_eq!(*mapping.of_triangles(&[1]).coordinates, [6., 7., 8., 9., 10., 11.]);
+        mapping.flip();
+        assert_eq!(mapping.coordinates[..6], [0., 1., 4., 5., 2., 3.]);
+    }
+}
