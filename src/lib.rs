@@ -14,4 +14,4 @@ pub(crate) mod wire;
 
 pub use format::scene_file::SceneFile;
 pub use script::{Console, Limits, LogLine, Options, Silent, SimulationState};
-pub use simulator::{Error, ScriptKind, ScriptRef, Simulator};
+pub use simulator::{Error, Onlooker, RunLimits, RunTotals, ScriptKind, ScriptRef, Simulator};

@@ -1,5 +1,7 @@
 //! The embedding API: a simulator as a value.
 
+mod run;
+
 use std::cell::{Ref, RefMut};
 use std::net::{SocketAddr, TcpListener};
 use std::rc::Rc;
@@ -16,6 +18,8 @@ use crate::script::coverage::LineCounts;
 use crate::script::{
     ApiError, Console, Detached, Options, SceneSource, Script, Silent, Sim, SimulationState, SysCall, TestBench,
 };
+
+pub use run::{Onlooker, RunLimits, RunTotals};
 
 /// The add-on that serves clients by ZeroMQ.
 const ZMQ_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.zmq'";

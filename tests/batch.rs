@@ -91,13 +91,21 @@ fn wrong_usage_is_told() {
 #[test]
 fn scenes_of_coppeliasim_are_run() {
     let dir = tempfile::tempdir().expect("a folder");
-    for scene in ["robot.ttt", "kinds.simscene.xml"] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scene_files").join(scene);
+    let files = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scene_files");
+    let mut unpack = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+    unpack.arg("unpack").arg(files.join("robot.ttt")).arg("unpacked").current_dir(dir.path());
+    assert_eq!(run_for_code(&mut unpack, Duration::from_secs(60)).expect("it ends").0, 0);
+    for scene in ["robot.ttt", "kinds.simscene.xml", "unpacked"] {
+        let path = if scene == "unpacked" { dir.path().join(scene) } else { files.join(scene) };
         let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-        command.arg("batch").arg(path).args(["--time", "0.1", "--out", scene]).current_dir(dir.path());
+        command
+            .arg("batch")
+            .arg(path)
+            .args(["--time", "0.1", "--out", &format!("{scene}.results")])
+            .current_dir(dir.path());
         let (_, output) = run_for_code(&mut command, Duration::from_secs(120)).expect("it ends");
         assert!(output.contains("1 of 1 runs done"), "{output}");
-        let row = &table(dir.path(), scene)[1];
+        let row = &table(dir.path(), &format!("{scene}.results"))[1];
         assert!(!row.contains("[string"), "no Lua error of a file read as Lua: {row}");
         assert!(row.split(',').any(|value| value.starts_with("0.")), "it simulates: {row}");
     }

@@ -1993,7 +1993,7 @@ function sim.launchThreadedChildScripts() end
 function sim.loadImage(options, filename) end
 
 --- Adds a model to the scene, where it was saved.
----@param filenameOrBuffer any a `.ttm` or `.simmodel.xml` file or its bytes
+---@param filenameOrBuffer any a `.ttm` or `.simmodel.xml` file or its bytes, or a folder that `swanilda unpack` made
 ---@param onlyThumbnails? boolean of no use: nothing is shown
 ---@return integer objectHandle the base of the model
 function sim.loadModel(filenameOrBuffer, onlyThumbnails) end
@@ -2005,8 +2005,8 @@ function sim.loadPlugin(name) end
 
 --- Replaces the scene. For add-ons and the sandbox, while the simulation is stopped.
 ---
---- empty for the default scene alone
----@param filenameOrBuffer any a `.ttt` or `.simscene.xml` file or its bytes; a `.lua` file, whose text becomes a customization script of the default scene;
+--- customization script of the default scene; empty for the default scene alone
+---@param filenameOrBuffer any a `.ttt` or `.simscene.xml` file or its bytes; a folder that `swanilda unpack` made; a `.lua` file, whose text becomes a
 ---@return integer result 1
 function sim.loadScene(filenameOrBuffer) end
 

@@ -49,6 +49,7 @@ mod simulation;
 mod socket;
 mod subprocess;
 mod testing;
+mod testing_run;
 mod texture;
 mod thread;
 mod time;
@@ -151,6 +152,7 @@ pub(crate) const LIBRARIES: &[(&str, &[ApiFn])] = &[
     ("mime.core", mime::FUNCTIONS),
     ("simWS", sim_ws::FUNCTIONS),
     ("swanilda.test", testing::FUNCTIONS),
+    ("swanilda.test", testing_run::FUNCTIONS),
 ];
 
 /// `name<TAB>value` of every constant of `sim`.

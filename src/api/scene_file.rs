@@ -9,6 +9,7 @@ use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
 use crate::format::scene_file::{SceneFile, read_file};
+use crate::format::scene_input::SceneInput;
 use crate::scene::{Data, Handle, SceneError, special};
 use crate::script::{SceneSource, write_named};
 
@@ -22,8 +23,8 @@ const LONGEST_NAME: usize = 1000;
 
 /// Replaces the scene. For add-ons and the sandbox, while the simulation is stopped.
 ///
-/// @param filenameOrBuffer a `.ttt` or `.simscene.xml` file or its bytes; a `.lua` file, whose text becomes a customization script of the default scene;
-/// empty for the default scene alone
+/// @param filenameOrBuffer a `.ttt` or `.simscene.xml` file or its bytes; a folder that `swanilda unpack` made; a `.lua` file, whose text becomes a
+/// customization script of the default scene; empty for the default scene alone
 /// @return result 1
 #[api("sim.loadScene")]
 fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
@@ -34,7 +35,7 @@ fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
             ));
         }
         FileOrBytes::Name(name) if name.is_empty() => (SceneSource::Default, None),
-        FileOrBytes::Name(name) => (scene_source(&name, read(&name)?, folder_of(&name))?, Some(absolute(&name))),
+        FileOrBytes::Name(name) => (named_scene(&name)?, Some(absolute(&name))),
         FileOrBytes::Bytes(bytes) => (scene_source("the buffer", bytes, None)?, None),
     };
     let caller = Rc::clone(cx.script());
@@ -44,7 +45,7 @@ fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
 
 /// Adds a model to the scene, where it was saved.
 ///
-/// @param filenameOrBuffer a `.ttm` or `.simmodel.xml` file or its bytes
+/// @param filenameOrBuffer a `.ttm` or `.simmodel.xml` file or its bytes, or a folder that `swanilda unpack` made
 /// @param onlyThumbnails of no use: nothing is shown
 /// @return objectHandle the base of the model
 #[api("sim.loadModel")]
@@ -53,6 +54,7 @@ fn load_model(cx: &mut Cx, filename_or_buffer: Data, #[default(false)] only_thum
         return Err(ApiError::Other("thumbnails of models are not implemented in Swanilda.".into()));
     }
     let file = match FileOrBytes::new(filename_or_buffer)? {
+        FileOrBytes::Name(name) if Path::new(&name).is_dir() => unpacked(&name)?,
         FileOrBytes::Name(name) => scene_file(&name, &read(&name)?, folder_of(&name))?,
         FileOrBytes::Bytes(bytes) => scene_file("the buffer", &bytes, None)?,
     };
@@ -110,6 +112,21 @@ fn read(name: &str) -> Result<Vec<u8>> {
         std::io::ErrorKind::NotFound => ApiError::Other("file does not exist.".into()),
         _ => ApiError::Other(format!("'{name}' could not be read: {error}.")),
     })
+}
+
+fn named_scene(name: &str) -> Result<SceneSource> {
+    if Path::new(name).is_dir() {
+        return Ok(SceneSource::File(Box::new(unpacked(name)?)));
+    }
+    scene_source(name, read(name)?, folder_of(name))
+}
+
+/// A folder made by `swanilda unpack`.
+fn unpacked(name: &str) -> Result<SceneFile> {
+    match SceneInput::read(Path::new(name)).map_err(ApiError::Other)? {
+        SceneInput::File(file) => file.scene().map_err(|error| ApiError::Other(format!("{name}: {error}"))),
+        SceneInput::Script(_) => Err(ApiError::Other(format!("{name} is no scene."))),
+    }
 }
 
 /// A scene of CoppeliaSim is known by its bytes, a Lua scene by its name.

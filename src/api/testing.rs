@@ -10,7 +10,7 @@ use crate::script::test_bench::{ConsoleLine, Golden, TestBench, Tolerances, Trac
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![is_test, pass, errors, lines, kill, file, time_limit, golden];
 
-fn bench(cx: &Cx) -> Result<Rc<TestBench>> {
+pub(super) fn bench(cx: &Cx) -> Result<Rc<TestBench>> {
     let bench = cx.sim().test_bench.get().cloned();
     bench.ok_or_else(|| ApiError::Other("this works in tests only: run the file with 'swanilda test'.".into()))
 }
@@ -46,14 +46,19 @@ fn errors(cx: &Cx) -> Result<i64> {
 /// What has been printed and logged.
 ///
 /// @param first lines to leave out
+/// @param unfinished with those that have no end so far
 /// @return lines each with text, level, time and, of the log, origin
 #[api("swanilda.test.lines")]
-fn lines(cx: &Cx, #[default(0)] first: i64) -> Result<Data> {
-    let lines = bench(cx)?.lines_from(usize::try_from(first).unwrap_or_default());
+fn lines(cx: &Cx, #[default(0)] first: i64, #[default(false)] unfinished: bool) -> Result<Data> {
+    let bench = bench(cx)?;
+    let mut lines = bench.lines_from(usize::try_from(first).unwrap_or_default());
+    if unfinished {
+        lines.extend(bench.unfinished(cx.sim().clock.time.get()));
+    }
     Ok(Data::Array(lines.into_iter().map(line_data).collect()))
 }
 
-fn line_data(line: ConsoleLine) -> Data {
+pub(super) fn line_data(line: ConsoleLine) -> Data {
     Data::map([
         ("text", Data::text(&line.text)),
         ("level", Data::text(line.level)),

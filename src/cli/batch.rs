@@ -27,7 +27,7 @@ const MOST_SEEDS: u32 = 10_000_000;
 /// A script reads its parameters and tells its results through the module swanilda.batch. A batch that was interrupted goes on where it was.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// The scene: a Lua file, or one of CoppeliaSim
+    /// The scene: a Lua file, one of CoppeliaSim, or a folder made by unpack
     scene: PathBuf,
     /// The seeds: 0..99 with both ends, or 1,2,3
     #[arg(long, value_name = "SEEDS", value_parser = seeds)]
@@ -74,9 +74,6 @@ pub(super) fn batch(args: &Args) -> ExitCode {
 
 fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
     let batch = args.batch();
-    if !batch.scene.is_file() {
-        return Err(format!("cannot read {}", batch.scene.display()));
-    }
     let runs = batch.runs();
     let mut store = Store::open(&args.out, &batch, args.force).map_err(|error| error.to_string())?;
     let missing = store.missing(&runs);
@@ -88,8 +85,7 @@ fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
         }
         bar.inc(1);
         lost = lost.take().or(store.add(row).err());
-    })
-    .map_err(|error| error.to_string())?;
+    })?;
     bar.finish_and_clear();
     if let Some(error) = lost {
         return Err(error.to_string());

@@ -8,7 +8,7 @@ use indicatif::ProgressBar;
 use serde_json::{Value, json};
 
 use crate::script::verbosity;
-use crate::{Console, LogLine};
+use crate::{Console, LogLine, RunTotals};
 
 /// How lines are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,10 +49,11 @@ impl Output {
     }
 
     /// The last line: what the run did and how long it took.
-    pub(super) fn summary(&self, steps: u64, time: f64, wall: Duration, errors: u64, exit_code: u8) {
+    pub(super) fn summary(&self, totals: RunTotals, wall: Duration, errors: u64, exit_code: u8) {
         if self.quiet {
             return;
         }
+        let RunTotals { steps, time } = totals;
         let wall = wall.as_secs_f64();
         let ratio = time / wall.max(1e-9);
         match self.format {

@@ -5,8 +5,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::session::Limits;
-use crate::Simulator;
+use crate::{RunLimits, Simulator};
 
 /// Runs shorter than this show nothing.
 const LONG: Duration = Duration::from_secs(1);
@@ -14,7 +13,7 @@ const LONG: Duration = Duration::from_secs(1);
 /// The bar and what it counts.
 pub(super) struct Progress {
     bar: ProgressBar,
-    limits: Limits,
+    limits: RunLimits,
     begun: Instant,
     /// Whether the bar may appear.
     waiting: bool,
@@ -22,7 +21,7 @@ pub(super) struct Progress {
 
 impl Progress {
     /// A bar that stays hidden at first; for good when `hidden`, without a known end, or without a terminal.
-    pub(super) fn new(limits: Limits, hidden: bool) -> Self {
+    pub(super) fn new(limits: RunLimits, hidden: bool) -> Self {
         let length = limits.steps.or(limits.time.map(milliseconds));
         let bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::hidden());
         let waiting = !hidden && length.is_some() && std::io::stderr().is_terminal();

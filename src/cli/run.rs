@@ -10,19 +10,19 @@ use super::interrupt::Interrupt;
 use super::progress::Progress;
 use super::refuse;
 use super::remote::Remote;
-use super::session::{Limits, Session};
+use super::session::Session;
 use super::setup::{Setup, seconds};
-use crate::{ScriptKind, Simulator};
+use crate::{RunLimits, RunTotals, ScriptKind, Simulator};
 
 /// Exit code when a script raised an error.
 const SCRIPT_ERROR: u8 = 1;
 /// Exit code after ctrl-c, as shells expect it.
 const INTERRUPTED: u8 = 130;
 
-/// Run a Lua scene
+/// Run a scene
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// The Lua file
+    /// The scene: a Lua file, one of CoppeliaSim, or a folder made by unpack
     scene: PathBuf,
     /// What the file becomes
     #[arg(long = "as", value_name = "KIND", default_value = "customization")]
@@ -84,17 +84,19 @@ pub(super) fn run(args: &Args) -> ExitCode {
         return refuse(&reason);
     }
     let failed_to_load = sim.errors() > 0;
-    let mut session = Session::new(&mut sim, args.limits(), args.loops, &interrupt, progress, &output);
-    if args.no_start {
-        session.loop_freely()
-    } else if failed_to_load && !args.limits().are_set() {
+    let mut session = Session { interrupt: &interrupt, progress, output: &output };
+    let totals = if args.no_start {
+        sim.loop_freely(args.loops, &mut session)
+    } else if failed_to_load && !args.has_end() {
         // Without its script the run might never end.
         output.note("A script failed while it was loaded: the simulation is not started.", 0.0);
+        RunTotals::default()
     } else {
-        session.run_simulation()
-    }
-    let (steps, time) = session.totals();
+        sim.run(args.limits(), &mut session)
+    };
+    session.progress.finish();
     if interrupt.is_requested() {
+        sim.request_stop();
         // Scripts that outlive a run clean up when their scene is closed.
         sim.clear_scene();
     }
@@ -105,12 +107,16 @@ pub(super) fn run(args: &Args) -> ExitCode {
         (false, 0) => 0,
         (false, _) => SCRIPT_ERROR,
     };
-    output.summary(steps, time, begun.elapsed(), errors, code);
+    output.summary(totals, begun.elapsed(), errors, code);
     ExitCode::from(code)
 }
 
 impl Args {
-    fn limits(&self) -> Limits {
-        Limits { steps: self.steps, time: self.time }
+    fn limits(&self) -> RunLimits {
+        RunLimits { steps: self.steps, time: self.time, idle: self.loops, once: false }
+    }
+
+    fn has_end(&self) -> bool {
+        self.steps.is_some() || self.time.is_some()
     }
 }

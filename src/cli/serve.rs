@@ -8,9 +8,8 @@ use super::interrupt::Interrupt;
 use super::progress::Progress;
 use super::refuse;
 use super::remote::Remote;
-use super::session::Limits;
 use super::setup::Setup;
-use crate::{ScriptKind, Simulator};
+use crate::{RunLimits, ScriptKind, Simulator};
 
 /// How long to wait for a request before looking after everything else.
 const NAP: Duration = Duration::from_millis(50);
@@ -41,7 +40,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
         Err(reason) => return refuse(&reason),
     };
     let interrupt = Interrupt::install(INTERRUPTED);
-    let output = args.setup.output(&Progress::new(Limits { steps: None, time: None }, true));
+    let output = args.setup.output(&Progress::new(RunLimits::default(), true));
     let options = args.remote.guard(args.setup.options(scene, &interrupt));
     let mut sim = Simulator::with_console(options, Box::new(output.clone()));
     args.setup.fill(&mut sim, sources, ScriptKind::Customization, scene);

@@ -6,6 +6,8 @@ use super::interrupt::Interrupt;
 use super::output::{Format, Output};
 use super::progress::Progress;
 use crate::format::scene_file::{self, SceneFile};
+use crate::format::scene_input::SceneInput;
+use crate::format::ttt::FileError;
 use crate::script::verbosity;
 use crate::{Options, ScriptKind, Simulator};
 
@@ -161,19 +163,20 @@ impl Setup {
 fn read(path: impl AsRef<Path>) -> Result<Source, String> {
     let path = path.as_ref();
     let code = std::fs::read(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-    let name = path.file_stem().map_or_else(|| "Script".into(), |stem| stem.to_string_lossy().into_owned());
-    Ok((name, code))
+    Ok((name_of(path), code))
+}
+
+/// What a script is called that is read from a file.
+fn name_of(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "Script".into(), |stem| stem.to_string_lossy().into_owned())
 }
 
 fn read_scene(path: &Path) -> Result<Scene, String> {
-    if path.is_dir() {
-        return Ok(Scene::File(Box::new(super::files::scene(path)?)));
+    let unreadable = |error: FileError| format!("cannot read {}: {error}", path.display());
+    match SceneInput::read(path)? {
+        SceneInput::Script(code) => Ok(Scene::Script((name_of(path), code))),
+        SceneInput::File(file) => Ok(Scene::File(Box::new(file.scene().map_err(unreadable)?))),
     }
-    let (name, bytes) = read(path)?;
-    if !scene_file::is_scene(&bytes) {
-        return Ok(Scene::Script((name, bytes)));
-    }
-    Ok(Scene::File(Box::new(super::files::scene(path)?)))
 }
 
 /// The folder a file lies in; scripts find their modules there.

@@ -4,6 +4,7 @@ pub(crate) mod picture;
 
 pub(crate) mod scene_file;
 pub(crate) mod scene_folder;
+pub(crate) mod scene_input;
 pub(crate) mod scene_outline;
 pub mod ttt;
 pub(crate) mod xml;

@@ -26,12 +26,24 @@ impl LogLine<'_> {
     }
 }
 
+/// Where a script writes with Lua's `io`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stream {
+    Output,
+    Error,
+}
+
 /// Receives what a simulator and its scripts say. Lines below the verbosity asked for do not arrive here.
 pub trait Console {
     /// One call of a script's `print`: the line without its end, and the simulated time, seconds.
     fn print(&mut self, line: &[u8], time: f64);
 
     fn log(&mut self, line: &LogLine<'_>);
+
+    /// What a script wrote to a stream of the process, where scripts have none of their own: parts of lines.
+    fn write(&mut self, text: &[u8], stream: Stream, time: f64) {
+        let _ = (text, stream, time);
+    }
 }
 
 /// Swallows everything.

@@ -38,6 +38,7 @@ mod removal;
 mod returns;
 mod scene_save;
 mod scene_switch;
+mod shared_process;
 mod sim;
 mod startup;
 mod step;
@@ -58,7 +59,7 @@ pub use args::{
 pub use binding::{ApiFn, Param};
 pub use callback::SysCall;
 pub use clock::SimulationState;
-pub use console::{Console, LogLine, Silent};
+pub use console::{Console, LogLine, Silent, Stream};
 pub use cx::Cx;
 pub use error::{ApiError, ApiResult};
 pub use instance::Script;

@@ -7,6 +7,7 @@ use super::binding::{Bound, Member, push_bound};
 use super::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE};
 use super::env::{Env, Runtime};
 use super::lua::{self, LuaError, Stack, Type, push_callback};
+use super::shared_process;
 use super::sim::Sim;
 use super::threads;
 
@@ -28,7 +29,7 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
     stack.set_global("sim_script_handle");
     load_module(stack, sim, "base").and_then(|()| stack.protected_call(0, 0))?;
     if sim.options.limits.is_some() {
-        load_module(stack, sim, "no_exit").and_then(|()| stack.protected_call(0, 0))?;
+        shared_process::install(sim, stack)?;
     }
     if sim.options.exec_unsafe {
         return Ok(());

@@ -2,13 +2,18 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::rc::Rc;
 
-use super::console::{Console, LogLine};
-use super::verbosity;
+use super::console::{Console, LogLine, Stream};
+use super::coverage::LineCounts;
+use super::{Options, verbosity};
+use crate::scene::script_object::ScriptType;
 
 /// Bytes of the console a test may fill; the rest is counted only.
 const CONSOLE_SIZE: usize = 1 << 20;
+/// Bytes of a line that a script writes in parts; what is longer becomes several.
+const LINE_SIZE: usize = 1 << 16;
 
 /// A line a simulator or its scripts wrote.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,9 +22,26 @@ pub struct ConsoleLine {
     pub time: f64,
     /// Who wrote it; None for a `print`.
     pub origin: Option<String>,
-    /// `info`, `error`, ...; `print` for a print.
+    /// `info`, `error`, ...; `print` for a print and what was written to standard output, `stderr` for what was written there.
     pub level: &'static str,
     pub text: String,
+    /// Of the log, but shown without author and level.
+    pub undecorated: bool,
+}
+
+impl ConsoleLine {
+    fn printed(level: &'static str, text: &[u8], time: f64) -> Self {
+        let text = String::from_utf8_lossy(text).into_owned();
+        Self { time, origin: None, level, text, undecorated: false }
+    }
+
+    /// The line as it is shown.
+    pub fn shown(&self) -> String {
+        match &self.origin {
+            Some(origin) if !self.undecorated => format!("[{origin}:{}]   {}", self.level, self.text),
+            _ => self.text.clone(),
+        }
+    }
 }
 
 /// Named quantities over time.
@@ -56,6 +78,46 @@ pub struct Golden {
     pub tolerances: Tolerances,
 }
 
+/// A scene a test wants to be run by itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunRequest {
+    /// A Lua file, one of CoppeliaSim, or an unpacked one.
+    pub scene: PathBuf,
+    /// What a Lua file becomes.
+    pub kind: ScriptType,
+    /// From nothing instead of the default scene.
+    pub empty: bool,
+    /// Whether the simulation is started from outside.
+    pub start: bool,
+    /// Passes without a start, and of a paused simulation.
+    pub loops: u64,
+    /// What ends the simulation: steps, and simulated time in seconds.
+    pub steps: Option<u64>,
+    pub time: Option<f64>,
+    /// Simulated seconds after which it has failed.
+    pub time_limit: f64,
+}
+
+/// What came of such a run.
+#[derive(Debug, Clone, Default)]
+pub struct RunReport {
+    pub lines: Vec<ConsoleLine>,
+    /// Errors of scripts that nobody caught.
+    pub errors: u64,
+    pub steps: u64,
+    /// Simulated seconds.
+    pub time: f64,
+    /// The named parameters at its end.
+    pub params: BTreeMap<String, String>,
+    pub line_counts: LineCounts,
+}
+
+/// Runs a scene in a simulator with these options; why it could not, otherwise.
+pub type RunApart = fn(Options, &RunRequest) -> Result<RunReport, String>;
+
+/// What lines of the streams are called, in the order of `Stream`.
+const LEVELS: [&str; 2] = ["print", "stderr"];
+
 /// The link between a test's script and its runner.
 #[derive(Debug, Default)]
 pub struct TestBench {
@@ -63,16 +125,20 @@ pub struct TestBench {
     pub file: String,
     /// Simulated seconds a test may take.
     pub time_limit: f64,
+    /// Runs scenes the test asks for.
+    pub run_apart: Option<RunApart>,
     pub goldens: RefCell<Vec<Golden>>,
     lines: RefCell<Vec<ConsoleLine>>,
+    /// Lines of standard output and error that have no end so far.
+    unfinished: [RefCell<Vec<u8>>; 2],
     size: Cell<usize>,
     lost: Cell<usize>,
 }
 
 impl TestBench {
     /// A bench for the tests of `file`, each of which may simulate for `time_limit` seconds.
-    pub fn new(file: String, time_limit: f64) -> Rc<Self> {
-        Rc::new(Self { file, time_limit, ..Self::default() })
+    pub fn new(file: String, time_limit: f64, run_apart: Option<RunApart>) -> Rc<Self> {
+        Rc::new(Self { file, time_limit, run_apart, ..Self::default() })
     }
 
     /// A console that writes onto the bench.
@@ -85,21 +151,42 @@ impl TestBench {
         self.lines.borrow().get(first..).unwrap_or_default().to_vec()
     }
 
-    pub fn line_count(&self) -> usize {
-        self.lines.borrow().len()
+    /// Lines that have no end so far.
+    pub fn unfinished(&self, time: f64) -> Vec<ConsoleLine> {
+        let texts = self.unfinished.iter().map(|text| text.borrow().clone()).zip(LEVELS);
+        let begun = texts.filter(|(text, _)| !text.is_empty());
+        begun.map(|(text, level)| ConsoleLine::printed(level, &text, time)).collect()
     }
 
     /// Hands the console over, with a last line that tells what did not fit.
     pub fn take_lines(&self) -> Vec<ConsoleLine> {
+        let time = self.lines.borrow().last().map_or(0.0, |line| line.time);
+        self.unfinished(time).into_iter().for_each(|line| self.write(line));
+        self.unfinished.iter().for_each(|text| text.borrow_mut().clear());
         let mut lines = self.lines.take();
         self.size.set(0);
         let lost = self.lost.take();
         if lost > 0 {
-            let time = lines.last().map_or(0.0, |line| line.time);
             let text = format!("{lost} more lines: a test may write {CONSOLE_SIZE} bytes.");
-            lines.push(ConsoleLine { time, origin: None, level: "warning", text });
+            lines.push(ConsoleLine { time, origin: None, level: "warning", text, undecorated: false });
         }
         lines
+    }
+
+    /// Parts of lines, or a whole one with its end.
+    fn write_parts(&self, mut text: &[u8], stream: Stream, time: f64) {
+        let mut unfinished = self.unfinished[stream as usize].borrow_mut();
+        while let Some(end) = text.iter().position(|&byte| byte == b'\n') {
+            unfinished.extend_from_slice(&text[..end]);
+            self.write(ConsoleLine::printed(LEVELS[stream as usize], &std::mem::take(&mut *unfinished), time));
+            text = &text[end + 1..];
+        }
+        for part in text.chunks(LINE_SIZE) {
+            if unfinished.len() + part.len() > LINE_SIZE {
+                self.write(ConsoleLine::printed(LEVELS[stream as usize], &std::mem::take(&mut *unfinished), time));
+            }
+            unfinished.extend_from_slice(part);
+        }
     }
 
     fn write(&self, line: ConsoleLine) {
@@ -117,8 +204,14 @@ struct Recorder(Rc<TestBench>);
 
 impl Console for Recorder {
     fn print(&mut self, line: &[u8], time: f64) {
-        let text = String::from_utf8_lossy(line).into_owned();
-        self.0.write(ConsoleLine { time, origin: None, level: "print", text });
+        if self.0.unfinished[Stream::Output as usize].borrow().is_empty() {
+            return self.0.write(ConsoleLine::printed(LEVELS[Stream::Output as usize], line, time));
+        }
+        self.write(&[line, b"\n"].concat(), Stream::Output, time);
+    }
+
+    fn write(&mut self, text: &[u8], stream: Stream, time: f64) {
+        self.0.write_parts(text, stream, time);
     }
 
     fn log(&mut self, line: &LogLine<'_>) {
@@ -128,6 +221,7 @@ impl Console for Recorder {
                 origin: Some(line.origin.to_owned()),
                 level: verbosity::word(line.level),
                 text: line.text.to_owned(),
+                undecorated: line.level & verbosity::UNDECORATED == verbosity::UNDECORATED,
             });
         }
     }

@@ -3,6 +3,7 @@
 //! `discover` finds files, `session` is one simulator with a test file in it, `workers` spreads the work over threads, `plan` chooses
 //! tests. What is shown is up to a [`Reporter`]; `report` has the texts of reports, most of which are made from the [`Summary`].
 
+mod apart;
 pub mod batch;
 mod case;
 mod coverage;
@@ -11,6 +12,7 @@ mod excerpt;
 mod golden;
 mod plan;
 pub mod report;
+mod results;
 mod session;
 mod workers;
 
@@ -26,8 +28,8 @@ pub use excerpt::Excerpt;
 pub use golden::{Comparison, Difference, Divergence, Verdict};
 
 use crate::script::coverage::LineCounts;
-use golden::Claims;
 use plan::Plan;
+use results::Results;
 use workers::{Message, Task, work};
 
 /// What is run, and how.
@@ -151,17 +153,12 @@ pub fn run(config: &Config, reporter: &mut dyn Reporter) -> std::io::Result<Summ
     let files = find_files(&config.paths)?;
     let plan = plan(config)?;
     reporter.begin(&plan.all());
-    let mut outcomes = plan.broken;
-    outcomes.iter().for_each(|outcome| reporter.outcome(outcome));
-    let mut counts = LineCounts::default();
-    if !config.fail_fast || outcomes.is_empty() {
-        run_tests(config, plan.jobs, reporter, &mut outcomes, &mut counts);
-    }
+    let (chosen, deselected) = (plan.tests.len(), plan.deselected);
+    let (outcomes, counts) = run_plan(config, plan, reporter);
     let ran = outcomes.iter().filter(|outcome| outcome.test.index > 0).count();
-    outcomes.sort_by_key(|outcome| outcome.test.key());
     let summary = Summary {
-        not_run: plan.tests.len().saturating_sub(ran),
-        deselected: plan.deselected,
+        not_run: chosen.saturating_sub(ran),
+        deselected,
         interrupted: config.interrupted.load(Ordering::Relaxed),
         coverage: config.coverage.as_ref().map(|report| Coverage::new(report, &files, counts)),
         outcomes,
@@ -169,6 +166,23 @@ pub fn run(config: &Config, reporter: &mut dyn Reporter) -> std::io::Result<Summ
     };
     reporter.end(&summary);
     Ok(summary)
+}
+
+/// The outcomes in the order of the files, and what lines ran.
+fn run_plan(config: &Config, plan: Plan, reporter: &mut dyn Reporter) -> (Vec<Outcome>, LineCounts) {
+    let mut results = Results::new(config, &plan.tests, reporter);
+    plan.broken.into_iter().for_each(|outcome| results.add(outcome));
+    let goes_on = |results: &Results<'_>| !(config.fail_fast && results.has_failure());
+    if goes_on(&results) {
+        let tasks = plan.jobs.into_iter().map(Task::Run).collect();
+        work(config, tasks, &mut |message| {
+            if let Message::Finished(outcome) = message {
+                results.add(*outcome);
+            }
+            goes_on(&results)
+        });
+    }
+    results.finish()
 }
 
 /// Loads every file to learn what tests it has.
@@ -183,41 +197,4 @@ fn plan(config: &Config) -> std::io::Result<Plan> {
         true
     });
     Ok(Plan::new(config, collected))
-}
-
-fn run_tests(
-    config: &Config,
-    jobs: Vec<plan::Job>,
-    reporter: &mut dyn Reporter,
-    outcomes: &mut Vec<Outcome>,
-    counts: &mut LineCounts,
-) {
-    let tasks = jobs.into_iter().map(Task::Run).collect();
-    let mut claims = Claims::default();
-    let mut recorded = Vec::new();
-    work(config, tasks, &mut |message| {
-        let Message::Finished(mut outcome) = message else { return true };
-        counts.merge(std::mem::take(&mut outcome.line_counts));
-        golden::judge(&mut outcome, config.update_golden);
-        claims.note(&outcome);
-        let go_on = !(config.fail_fast && outcome.is_bad());
-        if outcome.comparisons.is_empty() {
-            reporter.outcome(&outcome);
-            outcomes.push(*outcome);
-        } else {
-            // Whether its recordings are its own is known when all tests have told theirs.
-            recorded.push(*outcome);
-        }
-        go_on
-    });
-    recorded.sort_by_key(|outcome| outcome.test.key());
-    for mut outcome in recorded {
-        claims.settle(&mut outcome);
-        if config.update_golden {
-            golden::record(&mut outcome);
-        }
-        golden::draw(&mut outcome, &config.artifacts);
-        reporter.outcome(&outcome);
-        outcomes.push(outcome);
-    }
 }

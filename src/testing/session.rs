@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::Config;
+use super::apart::run_apart;
 use super::case::{Outcome, Status, TestCase};
 use super::excerpt::{Excerpt, positions};
 use super::plan::{Collection, Found};
@@ -18,25 +19,31 @@ pub(super) struct Session {
     sim: Simulator,
     sandbox: ScriptRef,
     bench: Rc<TestBench>,
+    /// What scripts keep beyond a run; it goes after the simulator.
+    _data: Option<tempfile::TempDir>,
 }
 
 impl Session {
     /// A fresh simulator for the tests of `file`. Setting `stop` ends whatever runs in it.
     pub(super) fn new(config: &Config, file: &Path, seed: u32, stop: Arc<AtomicBool>) -> Self {
-        let bench = TestBench::new(file.to_string_lossy().into_owned(), config.allowance.simulated);
+        let name = file.to_string_lossy().into_owned();
+        let bench = TestBench::new(name, config.allowance.simulated, Some(run_apart));
         let folder = file.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+        // Without a folder of their own, tests share that of the user.
+        let data = tempfile::tempdir().ok();
         let options = Options {
             seed,
             stop,
             limits: Some(Limits { memory: config.allowance.memory }),
             count_lines: config.coverage.is_some(),
             package_dirs: vec![folder.to_owned()],
+            data_dir: data.as_ref().map(|data| data.path().to_owned()),
             ..Options::default()
         };
         let mut sim = Simulator::for_test(options, &bench);
         let sandbox = sim.add_script(ScriptKind::Sandbox, "swanilda test", b"require('busted')");
         let sandbox = sandbox.expect("the embedded library loads");
-        Self { sim, sandbox, bench }
+        Self { sim, sandbox, bench, _data: data }
     }
 
     /// Loads the file and tells its tests.

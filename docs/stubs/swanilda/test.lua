@@ -6,9 +6,10 @@
 --- fresh simulator with the default scene.
 ---
 --- Scene
----     t.load(file)                a scene (.lua, .ttt) or a model (.ttm), named from the folder of the test; returns what sim.loadScene or
----                                 sim.loadModel does
+---     t.load(file)                a scene (.lua, .ttt, a folder made by unpack) or a model (.ttm), named from the folder of the test; returns
+---                                 what sim.loadScene or sim.loadModel does
 ---     t.object(path)              the handle of an object
+---     t.file(name)                the name of a file beside the test, for io.open and the like
 ---     t.script(path or handle)    a script of the scene, see below
 ---
 --- Time
@@ -20,6 +21,12 @@
 ---     t.at(time, fn)              calls a function when the simulation reaches that time
 ---     t.start(), t.stop(), t.time()
 ---
+--- Runs of their own
+---     t.run(file, options)        runs a scene or a script as `swanilda run` does, in another simulator, to its end. Returns output (one text),
+---                                 lines (as t.lines has them), errors (how many), steps, time, params (named parameters at its end). Options:
+---                                 as ('customization', 'simulation', 'sandbox', 'addon', 'main'), empty, steps, time, start (true), loops (20,
+---                                 without a start), seed, params
+---
 --- Scripts: s = t.script('/Robot/controller')
 ---     s:call(name, ...)           calls a function; s:get(expression), s:set(name, value), s:run(code)
 ---     s:wrap(name, fn)            every call of that function (`sim.getJointPosition`, or a global) becomes fn(call, ...) in the test;
@@ -30,7 +37,7 @@
 --- Messages and logs
 ---     t.signal(name[, value])     reads or sends a signal: a number, a whole number or a string; false clears it
 ---     t.message(data)             broadcasts a message (sysCall_msg)
----     t.lines(), t.prints(), t.logs(pattern)      what was printed and logged: text, level, time, origin
+---     t.lines(), t.prints(), t.logs(pattern)      what was printed (print, io.write) and logged: text, level, time, origin
 ---     t.allow_script_errors()     errors of scripts do not end the test
 ---
 --- Faults, from the seed of the run
@@ -52,6 +59,8 @@ function t.at(time, fn) end
 --- How many errors scripts have raised that nobody caught.
 function t.errors() end
 
+function t.file(name) end
+
 --- A number of the standard normal distribution, by the method of Box and Muller.
 function t.gauss() end
 
@@ -71,6 +80,8 @@ function t.object(path) end
 function t.prints() end
 
 function t.random() end
+
+function t.run(file, options) end
 
 function t.run_for(seconds) end
 

@@ -72,8 +72,8 @@ impl Batch {
 /// Runs what the store has no row of, as `config` says, and hands over each row.
 ///
 /// # Errors
-/// When the scene cannot be read.
-pub fn run(config: &Config, batch: &Batch, runs: &[Run], done: &mut dyn FnMut(Row)) -> std::io::Result<()> {
+/// When the scene cannot be read, in words.
+pub fn run(config: &Config, batch: &Batch, runs: &[Run], done: &mut dyn FnMut(Row)) -> Result<(), String> {
     let scene = Arc::new(simulate::Scene::read(&batch.scene)?);
     let task = |run: &Run| {
         Task::Simulate(Job {

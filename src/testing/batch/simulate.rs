@@ -1,26 +1,26 @@
 //! One run of a scene from its start to its end.
 
 use std::collections::BTreeMap;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use super::super::Config;
+use super::super::apart;
 use super::super::case::{Outcome, Status, TestCase};
-use crate::format::scene_file::{SceneFile, is_scene, read_file};
-use crate::format::ttt::FileResult;
-use crate::script::TestBench;
-use crate::{Limits, Options, ScriptKind, SimulationState, Simulator};
+use crate::format::scene_input::SceneInput;
+use crate::scene::script_object::ScriptType;
+use crate::script::test_bench::{RunReport, RunRequest};
+use crate::{Limits, Options};
 
 /// Named parameters that begin so are results.
 const RESULT: &str = "result.";
 
-/// A scene's file, read.
+/// A scene that has been read.
 #[derive(Debug)]
 pub(in super::super) struct Scene {
     path: PathBuf,
-    bytes: Vec<u8>,
+    input: SceneInput,
 }
 
 /// A run to make.
@@ -35,40 +35,18 @@ pub(in super::super) struct Job {
 impl Scene {
     /// # Errors
     /// When it cannot be read, or is a damaged file of CoppeliaSim.
-    pub(super) fn read(path: &Path) -> io::Result<Self> {
-        let about =
-            |error: &dyn std::fmt::Display| io::Error::other(format!("cannot read {}: {error}", path.display()));
-        let bytes = std::fs::read(path).map_err(|error| about(&error))?;
-        let scene = Self { path: std::path::absolute(path)?, bytes };
-        scene.file().map_err(|error| about(&error))?;
-        Ok(scene)
-    }
-
-    /// What a file of CoppeliaSim holds; None for a Lua file.
-    fn file(&self) -> FileResult<Option<SceneFile>> {
-        if !is_scene(&self.bytes) {
-            return Ok(None);
+    pub(super) fn read(path: &Path) -> Result<Self, String> {
+        let input = SceneInput::read(path)?;
+        if let SceneInput::File(file) = &input {
+            // Told before anything runs.
+            file.scene().map_err(|error| format!("cannot read {}: {error}", path.display()))?;
         }
-        SceneFile::new(read_file(&self.bytes, self.path.parent())?).map(Some)
-    }
-
-    fn put_into(&self, sim: &mut Simulator) -> Result<(), String> {
-        sim.scene_mut().modify_settings(|settings| settings.path = self.path.to_string_lossy().into_owned());
-        let file = self.file().map_err(|error| error.to_string())?;
-        if file.as_ref().is_none_or(SceneFile::is_model) {
-            // An empty scene has room for them.
-            let _ = sim.scene_mut().add_default_objects();
-        }
-        if let Some(file) = file {
-            return sim.load(file).map_err(|error| error.to_string());
-        }
-        sim.add_script(ScriptKind::Customization, "Script", &self.bytes).map(drop).map_err(|error| error.to_string())
+        Ok(Self { path: std::path::absolute(path).map_err(|error| error.to_string())?, input })
     }
 }
 
-/// Runs the scene until it ends, is out of time or is told to `stop`.
+/// Runs a scene to its end. Setting `stop` ends it wherever it is.
 pub(in super::super) fn simulate(config: &Config, job: &Job, stop: &Arc<AtomicBool>) -> Outcome {
-    let bench = TestBench::new(job.case.file.to_string_lossy().into_owned(), f64::INFINITY);
     let options = Options {
         seed: job.case.seed,
         stop: Arc::clone(stop),
@@ -77,46 +55,38 @@ pub(in super::super) fn simulate(config: &Config, job: &Job, stop: &Arc<AtomicBo
         package_dirs: job.scene.path.parent().map(Path::to_owned).into_iter().collect(),
         ..Options::default()
     };
-    let mut sim = Simulator::with_console(options, bench.console());
     let mut outcome = Outcome::new(Arc::clone(&job.case), Status::Passed, "");
-    match job.scene.put_into(&mut sim) {
-        Ok(()) if sim.errors() == 0 => (outcome.steps, outcome.time) = run(&mut sim, job.time, stop),
-        Ok(()) => {}
+    match apart::run(options, &job.scene.input, &job.request(), true) {
+        Ok(report) => conclude(&mut outcome, report),
         Err(reason) => (outcome.status, outcome.message) = (Status::Error, reason),
-    }
-    outcome.results = results(&sim);
-    outcome.console = bench.take_lines();
-    if sim.errors() > 0 {
-        let error = outcome.console.iter().find(|line| line.level == "error");
-        outcome.message = error.map_or_else(|| "a script raised an error.".into(), |line| line.text.clone());
-        outcome.status = Status::Error;
     }
     outcome
 }
 
-/// Steps made and seconds simulated until the end. A paused run is ended, since nobody would resume it.
-fn run(sim: &mut Simulator, limit: Option<f64>, stop: &AtomicBool) -> (u64, f64) {
-    sim.start();
-    let (mut steps, mut time) = (0, 0.0);
-    let mut asked = false;
-    while sim.state() != SimulationState::Stopped && !sim.quit_requested() {
-        // Time is a sum of steps; it may fall short of a round number by its rounding errors.
-        let late = limit.is_some_and(|limit| sim.time() * (1.0 + 1e-12) >= limit);
-        if asked || late || sim.state() == SimulationState::Paused || stop.load(Ordering::Relaxed) {
-            asked = true;
-            sim.request_stop();
+impl Job {
+    /// A paused run is ended, since nobody would resume it.
+    fn request(&self) -> RunRequest {
+        RunRequest {
+            scene: self.scene.path.clone(),
+            kind: ScriptType::Customization,
+            empty: false,
+            start: true,
+            loops: 0,
+            steps: None,
+            time: self.time,
+            time_limit: f64::INFINITY,
         }
-        sim.pass();
-        if sim.steps() < steps {
-            // The scene has started anew.
-            break;
-        }
-        (steps, time) = (sim.steps(), sim.time());
     }
-    (steps, time)
 }
 
-fn results(sim: &Simulator) -> BTreeMap<String, String> {
-    let named = sim.named_params().into_iter();
-    named.filter_map(|(name, value)| Some((name.strip_prefix(RESULT)?.to_owned(), value))).collect()
+fn conclude(outcome: &mut Outcome, report: RunReport) {
+    (outcome.steps, outcome.time, outcome.console) = (report.steps, report.time, report.lines);
+    let results = report.params.into_iter();
+    outcome.results =
+        results.filter_map(|(name, value)| Some((name.strip_prefix(RESULT)?.to_owned(), value))).collect();
+    if report.errors > 0 {
+        let error = outcome.console.iter().find(|line| line.level == "error");
+        outcome.message = error.map_or_else(|| "a script raised an error.".into(), |line| line.text.clone());
+        outcome.status = Status::Error;
+    }
 }

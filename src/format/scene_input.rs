@@ -1,0 +1,57 @@
+//! A scene as users name it: a Lua file, a file of CoppeliaSim, or a folder made by `unpack`.
+
+use std::path::Path;
+
+use super::scene_file::{self, SceneFile, ScriptSources};
+use super::scene_folder;
+use super::ttt::{File, FileResult};
+
+/// A scene or model that has been read, from which any number of simulators can be filled.
+#[derive(Debug)]
+pub enum SceneInput {
+    /// The text of a script.
+    Script(Vec<u8>),
+    File(Box<InputFile>),
+}
+
+/// A file of CoppeliaSim.
+#[derive(Debug, Clone)]
+pub struct InputFile {
+    file: File,
+    /// Where the texts of its scripts are, of an unpacked scene.
+    sources: ScriptSources,
+}
+
+impl InputFile {
+    /// # Errors
+    /// When geometry is damaged.
+    pub fn scene(&self) -> FileResult<SceneFile> {
+        Ok(SceneFile::new(self.file.clone())?.with_sources(self.sources.clone()))
+    }
+}
+
+impl SceneInput {
+    /// # Errors
+    /// When it cannot be read; in words, with the path.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let input = if path.is_dir() { read_folder(path) } else { read_file(path) };
+        input.map_err(|reason| format!("cannot read {}: {reason}", path.display()))
+    }
+}
+
+fn read_folder(path: &Path) -> Result<SceneInput, String> {
+    if !scene_folder::is_scene(path) {
+        return Err("it is a folder, and no unpacked scene: scene.json is missing".into());
+    }
+    let file = InputFile { file: scene_folder::pack(path)?, sources: scene_folder::sources(path)? };
+    Ok(SceneInput::File(Box::new(file)))
+}
+
+fn read_file(path: &Path) -> Result<SceneInput, String> {
+    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+    if !scene_file::is_scene(&bytes) {
+        return Ok(SceneInput::Script(bytes));
+    }
+    let file = scene_file::read_file(&bytes, path.parent()).map_err(|error| error.to_string())?;
+    Ok(SceneInput::File(Box::new(InputFile { file, sources: ScriptSources::default() })))
+}

@@ -1,0 +1,25 @@
+//! What is different in a state whose simulator shares its process with others: one with [`Limits`](super::Limits).
+
+use std::ffi::{c_int, c_void};
+
+use super::console::Stream;
+use super::env::Env;
+use super::lua::{LuaError, Stack, push_callback};
+use super::sim::Sim;
+use super::startup::load_module;
+
+/// Keeps a state from ending the process, and from writing between the lines of the others.
+pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
+    load_module(stack, sim, "shared_process")?;
+    push_callback(stack, write, std::ptr::null());
+    stack.protected_call(1, 0)
+}
+
+/// Gets the name of a stream, and what a script has written there.
+fn write(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+    let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
+    let stream = if stack.bytes(1) == Some(b"stderr") { Stream::Error } else { Stream::Output };
+    let time = sim.clock.time.get();
+    sim.console.borrow_mut().write(stack.bytes(2).unwrap_or_default(), stream, time);
+    Ok(0)
+}

@@ -1,0 +1,104 @@
+//! A whole run: passes until scripts, a limit or somebody outside ends it.
+
+use super::Simulator;
+use crate::SimulationState;
+
+/// How a run comes to its end, unless a script ends it.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct RunLimits {
+    /// Passes of the main script.
+    pub steps: Option<u64>,
+    /// Simulated time, seconds.
+    pub time: Option<f64>,
+    /// Passes of a paused simulation, which nobody resumes.
+    pub idle: u64,
+    /// A simulation that a script starts anew is another run, and this one is over.
+    pub once: bool,
+}
+
+/// What a run has done, with the simulations that scripts started anew.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct RunTotals {
+    pub steps: u64,
+    /// Simulated time, seconds.
+    pub time: f64,
+}
+
+/// Looks on at a run.
+pub trait Onlooker {
+    /// Whether the run is to end now.
+    fn wants_end(&self, sim: &Simulator) -> bool;
+
+    /// A pass of an advancing simulation was made, which may have been too early for a step.
+    fn passed(&mut self, sim: &Simulator, stepped: bool) {
+        let _ = (sim, stepped);
+    }
+
+    /// The simulation is going to be ended, since it was paused for too long.
+    fn gives_up(&mut self, sim: &Simulator) {
+        let _ = sim;
+    }
+}
+
+impl RunLimits {
+    fn are_reached(self, sim: &Simulator) -> bool {
+        // Time is a sum of steps; it may fall short of a round number by its rounding errors.
+        let late = |limit: f64| sim.time() * (1.0 + 1e-12) >= limit;
+        self.steps.is_some_and(|limit| sim.steps() >= limit) || self.time.is_some_and(late)
+    }
+}
+
+impl Simulator {
+    /// Starts the simulation and runs it to its end; one more pass follows, as in CoppeliaSim when it is closed.
+    pub fn run(&mut self, limits: RunLimits, onlooker: &mut dyn Onlooker) -> RunTotals {
+        let mut totals = RunTotals::default();
+        self.start();
+        let mut idle = 0;
+        let mut asked = false;
+        while self.state() != SimulationState::Stopped && !self.quit_requested() {
+            idle += u64::from(self.state() == SimulationState::Paused);
+            if asked || limits.are_reached(self) || onlooker.wants_end(self) {
+                asked = true;
+                self.request_stop();
+            } else if idle > limits.idle {
+                onlooker.gives_up(self);
+                self.request_stop();
+                idle = 0;
+            }
+            let steps = self.steps();
+            self.pass_watched(&mut totals, onlooker);
+            if self.steps() < steps {
+                // A script has started the next run.
+                if limits.once {
+                    return totals;
+                } else if asked {
+                    break;
+                }
+            }
+        }
+        self.pass_watched(&mut totals, onlooker);
+        totals
+    }
+
+    /// So many passes, in whatever state the scripts bring the simulation into.
+    pub fn loop_freely(&mut self, passes: u64, onlooker: &mut dyn Onlooker) -> RunTotals {
+        let mut totals = RunTotals::default();
+        for _ in 0..passes {
+            if self.quit_requested() || onlooker.wants_end(self) {
+                break;
+            }
+            self.pass_watched(&mut totals, onlooker);
+        }
+        totals
+    }
+
+    fn pass_watched(&mut self, totals: &mut RunTotals, onlooker: &mut dyn Onlooker) {
+        let (state, steps, time) = (self.state(), self.steps(), self.time());
+        self.pass();
+        if state.is_advancing() {
+            totals.steps += self.steps().saturating_sub(steps);
+            totals.time += (self.time() - time).max(0.0);
+            onlooker.passed(self, self.steps() != steps);
+        }
+    }
+}

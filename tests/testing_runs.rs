@@ -1,0 +1,142 @@
+//! Tests whose subject is a whole run: `t.run`, the conformance suite, what scripts write, and the order in which results are told.
+
+use std::path::Path;
+use std::process::Command;
+use std::time::Duration;
+
+mod support;
+use support::process::{run_for_code, run_within};
+
+/// Writes test files into a folder and runs them there; the exit code, and what was written to standard output and error.
+fn run(files: &[(&str, &str)], args: &[&str]) -> (i32, String) {
+    let dir = tempfile::tempdir().expect("a folder");
+    for (name, text) in files {
+        std::fs::write(dir.path().join(name), text).expect("a file");
+    }
+    let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+    command.arg("test").args(args).current_dir(dir.path());
+    run_for_code(&mut command, Duration::from_secs(120)).expect("it ends")
+}
+
+const SCENE: &str = "sim = require 'sim'
+local batch = require 'swanilda.batch'
+local goal = batch.param('goal', 1)
+function sysCall_init() print('goal ' .. goal) io.write('a ', 'line\\n') end
+function sysCall_sensing()
+    batch.result('time', sim.getSimulationTime())
+    if sim.getSimulationTime() > 0.2 then error('too late') end
+end
+function sysCall_afterSimulation() io.stderr:write('no end') end";
+
+#[test]
+fn a_scene_runs_in_a_simulator_of_its_own() {
+    let suite = "local t = require 'swanilda.test'
+    it('tells what it did', function()
+        local ran = t.run('scene.lua', { time = 0.1, params = { goal = 3 } })
+        assert.equal('goal 3\\na line\\nno end\\n', ran.output)
+        assert.same({0, 5, '0.2'}, {ran.errors, ran.steps, ran.params['result.time']})
+        assert.equal('stderr', ran.lines[3].level)
+    end)
+    it('does not touch that of the test', function()
+        t.step()
+        local ran = t.run('scene.lua', { time = 1 })
+        assert.equal(1, ran.errors)
+        assert.is_truthy(ran.output:find('[/Script:error]', 1, true))
+        assert.near(0.05, t.time(), 1e-9)
+        assert.same({}, t.lines())
+    end)
+    it('can be a script of any kind', function()
+        local ran = t.run('scene.lua', { as = 'simulation', empty = true, start = false, loops = 2 })
+        assert.same({'', 0}, {ran.output, ran.steps})
+    end)
+    it('says what is wrong', function()
+        assert.has_error(function() t.run('missing.lua') end)
+        assert.has_error(function() t.run('scene.lua', { speed = 1 }) end)
+        assert.has_error(function() t.run('scene.lua', { as = 'robot' }) end)
+        assert.has_error(function() t.run('scene.lua', { steps = 'x' }) end)
+    end)";
+    let (code, output) = run(&[("run_test.lua", suite), ("scene.lua", SCENE)], &["-v"]);
+    assert!(code == 0 && output.contains("4 passed"), "{output}");
+}
+
+#[test]
+fn a_scene_that_does_not_end_is_ended() {
+    let suite = "local t = require 'swanilda.test'
+    it('loops', function() t.run('loop.lua', { steps = 1 }) end)
+    it('goes on', function() t.run('idle.lua') end)";
+    let files = [
+        ("long_test.lua", suite),
+        ("loop.lua", "function sysCall_sensing() while true do end end"),
+        ("idle.lua", "function sysCall_sensing() end"),
+    ];
+    let (code, output) = run(&files, &["--timeout", "4", "--sim-timeout", "10"]);
+    assert!(code == 1 && output.contains("longer than 4 s") && output.contains("more than 10 s"), "{output}");
+}
+
+#[test]
+fn what_scripts_write_belongs_to_their_test() {
+    let suite = "
+    local sim = require 'sim'
+    local t = require 'swanilda.test'
+    it('writes', function()
+        print('first')
+        io.write('second ', 2, ' ', 0.5, '\\n')
+        io.stdout:write('third'):write(' is one line\\n')
+        io.stderr:write('fourth\\n')
+        io.write('fif') print('th')
+        sim.executeScriptString('io.write(\"sixth\\\\n\")', sim.createScript(sim.scripttype_customization, 'sim = require \"sim\"'))
+        io.write('seventh has no end')
+        assert.same({'first', 'second 2 0.5', 'third is one line', 'fifth', 'sixth', 'seventh has no end'}, t.prints())
+        assert.has_error(function() io.write({}) end, \"bad argument #1 to 'write' (string expected, got table)\")
+        error('to be shown')
+    end)
+    it('writes files as ever', function()
+        local name = t.file('written.txt')
+        io.output(name) io.write('text', 1.0) io.output():close() io.output(io.stdout)
+        assert.equal('text1.0', io.open(name):read('a'))
+        assert.same({}, t.prints())
+    end)";
+    let (code, output) = run(&[("write_test.lua", suite)], &["--tap"]);
+    assert_eq!(code, 1, "{output}");
+    for line in ["second 2 0.5", "third is one line", "fourth", "fifth", "sixth", "seventh has no end"] {
+        let lines: Vec<_> = output.lines().filter(|shown| shown.contains(line)).collect();
+        assert!(lines.iter().all(|line| line.starts_with(' ')) && !lines.is_empty(), "{line}: {output}");
+    }
+    assert!(output.contains("ok 2") || output.contains("ok 1 - write_test.lua::writes files as ever"), "{output}");
+}
+
+#[test]
+fn results_with_recordings_are_told_as_they_come() {
+    let suite = "
+    local sim = require 'sim'
+    local t = require 'swanilda.test'
+    local function record(name) t.golden(name, { x = function() return 1 end }) t.step(2) end
+    it('a', function() record('one') end)
+    it('b', function() while true do end end)
+    it('c', function() record('one') end)";
+    let (code, output) = run(&[("a_test.lua", suite)], &["--update-golden", "-v", "-j", "3", "--timeout", "2"]);
+    let at = |text: &str| output.find(text).unwrap_or_else(|| panic!("{text} is missing:\n{output}"));
+    assert_eq!(code, 1);
+    assert!(at("PASS a_test.lua::a") < at("ERROR a_test.lua::b"), "a waits for nobody: {output}");
+    assert!(at("ERROR a_test.lua::b") < at("FAIL a_test.lua::c"), "c waits for those before it: {output}");
+}
+
+#[test]
+fn the_conformance_suite_runs_through_the_runner() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let cases = cases_below(&root.join("tests/conformance"));
+    let known = std::fs::read_to_string(root.join("tests/conformance/KNOWN.md")).expect("the list is there");
+    let pending = known.lines().filter(|line| line.starts_with("| `")).count();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+    command.args(["test", "tests/conformance"]).current_dir(root);
+    let output = run_within(&mut command, Duration::from_secs(300)).expect("it ends");
+    assert!(output.contains(&format!("{} passed, {pending} pending", cases - pending)), "{output}");
+}
+
+fn cases_below(folder: &Path) -> usize {
+    let entries = std::fs::read_dir(folder).expect("the folder is readable").flatten().map(|entry| entry.path());
+    let count = |path: std::path::PathBuf| {
+        if path.is_dir() { cases_below(&path) } else { usize::from(path.extension().is_some_and(|e| e == "expected")) }
+    };
+    entries.map(count).sum()
+}
