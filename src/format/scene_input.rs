@@ -37,6 +37,14 @@ impl SceneInput {
         let input = if path.is_dir() { read_folder(path) } else { read_file(path) };
         input.map_err(|reason| format!("cannot read {}: {reason}", path.display()))
     }
+
+    /// All it says, in one file.
+    pub fn bytes(self) -> Vec<u8> {
+        match self {
+            Self::Script(code) => code,
+            Self::File(file) => file.file.write(),
+        }
+    }
 }
 
 fn read_folder(path: &Path) -> Result<SceneInput, String> {

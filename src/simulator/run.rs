@@ -1,7 +1,7 @@
 //! A whole run: passes until scripts, a limit or somebody outside ends it.
 
 use super::Simulator;
-use crate::SimulationState;
+use crate::script::SimulationState;
 
 /// How a run comes to its end, unless a script ends it.
 #[derive(Debug, Clone, Copy, Default)]

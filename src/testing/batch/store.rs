@@ -11,12 +11,15 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value, json};
 
 use super::{Batch, Row, Run};
+use crate::format::scene_input::SceneInput;
 
 /// Why a folder is of no use.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{0} holds the results of another batch: choose another folder, or begin anew with --force.")]
     Other(PathBuf),
+    #[error("{0}")]
+    Scene(String),
     #[error("{0}: {1}")]
     Io(PathBuf, io::Error),
 }
@@ -35,9 +38,9 @@ impl Store {
     /// When it cannot be written, or holds another batch.
     pub fn open(folder: &Path, batch: &Batch, anew: bool) -> Result<Self, Error> {
         let about = |error| Error::Io(folder.to_owned(), error);
+        let description = describe(batch).map_err(Error::Scene)?;
         fs::create_dir_all(folder).map_err(about)?;
         let (manifest, log) = (folder.join("batch.json"), folder.join("runs.jsonl"));
-        let description = describe(batch).map_err(about)?;
         let known = fs::read_to_string(&manifest).ok();
         if known.is_some() && known.as_deref() != Some(&description) && !anew {
             return Err(Error::Other(folder.to_owned()));
@@ -116,9 +119,9 @@ impl Store {
 }
 
 /// What makes a batch the same: the scene's contents, the runs and their limits.
-fn describe(batch: &Batch) -> io::Result<String> {
+fn describe(batch: &Batch) -> Result<String, String> {
     let sweeps: Vec<Value> = batch.sweeps.iter().map(|(name, values)| json!([name, values])).collect();
-    let scene = fs::read(&batch.scene)?;
+    let scene = SceneInput::read(&batch.scene)?.bytes();
     let description = json!({
         "scene": batch.scene.display().to_string(), "checksum": format!("{:016x}", checksum(&scene)), "seeds": batch.seeds,
         "sweeps": sweeps, "fixed": batch.fixed, "time": batch.time, "version": env!("CARGO_PKG_VERSION"),
