@@ -125,6 +125,19 @@ fn modules_are_found_next_to_the_scene() {
 }
 
 #[test]
+fn a_scene_has_its_own_files_where_the_library_has_some_for_itself() {
+    let scene = Scene::new(
+        "sim = require 'sim' print(require 'trajectory', require 'main')
+        print(sim.moveToConfig_init{pos = {0}, targetPos = {1}}.timeLeft)",
+    );
+    for name in ["trajectory", "main"] {
+        fs::write(scene.folder.path().join(format!("{name}.lua")), "return 'mine'").expect("our own folder is writable");
+    }
+    let output = scene.run(&["--no-start", "--loops", "1", "--empty"]);
+    assert_eq!(stdout(&output), "mine, mine\n0\n");
+}
+
+#[test]
 fn add_ons_start_before_the_scene() {
     let scene = Scene::new("print('scene')");
     let add_on = scene.folder.path().join("extra.lua");
