@@ -2,6 +2,9 @@
 //! of 5 ms in both. The boxes slide without friction, so slowly that they get nowhere: else the simulator's would fall asleep. Those
 //! that may sleep are measured as well.
 
+mod common;
+
+use common::RawWorld;
 use criterion::{Criterion, criterion_group, criterion_main};
 use rapier3d_f64::prelude::*;
 use swanilda::{Options, ScriptKind, Simulator};
@@ -35,94 +38,46 @@ fn simulator(count: usize, sliding: f64) -> Simulator {
     sim
 }
 
-/// rapier alone, with the settings of `src/dynamics/world.rs`.
-struct Raw {
-    bodies: RigidBodySet,
-    colliders: ColliderSet,
-    joints: ImpulseJointSet,
-    multibodies: MultibodyJointSet,
-    soft_bodies: SoftBodySet,
-    islands: IslandManager,
-    broad_phase: BroadPhaseBvh,
-    narrow_phase: NarrowPhase,
-    ccd: CCDSolver,
-    pipeline: PhysicsPipeline,
-    parameters: IntegrationParameters,
+/// The settings of `src/dynamics/world.rs`.
+fn parameters() -> IntegrationParameters {
+    let softness = SpringCoefficients { natural_frequency: 60.0, damping_ratio: 5.0 };
+    IntegrationParameters {
+        dt: 0.005,
+        num_solver_iterations: 1,
+        num_internal_pgs_iterations: 4,
+        normalized_allowed_linear_error: 2e-4,
+        normalized_prediction_distance: 0.01,
+        normalized_max_linear_velocity: f64::MAX,
+        contact_softness: softness,
+        static_contact_softness: softness,
+        friction_model: FrictionModel::Simplified,
+        ..IntegrationParameters::default()
+    }
 }
 
-impl Raw {
-    fn new(count: usize) -> Self {
-        let softness = SpringCoefficients { natural_frequency: 60.0, damping_ratio: 5.0 };
-        let mut raw = Self {
-            bodies: RigidBodySet::new(),
-            colliders: ColliderSet::new(),
-            joints: ImpulseJointSet::new(),
-            multibodies: MultibodyJointSet::new(),
-            soft_bodies: SoftBodySet::new(),
-            islands: IslandManager::new(),
-            broad_phase: BroadPhaseBvh::new(),
-            narrow_phase: NarrowPhase::new(),
-            ccd: CCDSolver::new(),
-            pipeline: PhysicsPipeline::new(),
-            parameters: IntegrationParameters {
-                dt: 0.005,
-                num_solver_iterations: 1,
-                num_internal_pgs_iterations: 4,
-                normalized_allowed_linear_error: 2e-4,
-                normalized_prediction_distance: 0.01,
-                normalized_max_linear_velocity: f64::MAX,
-                contact_softness: softness,
-                static_contact_softness: softness,
-                friction_model: FrictionModel::Simplified,
-                ..IntegrationParameters::default()
-            },
-        };
-        raw.cuboid(RigidBodyBuilder::fixed().translation(Vector::new(0.0, 0.0, -0.1)), [2.5, 2.5, 0.1]);
-        let slide = Vector::new(SLIDING, 0.0, 0.0);
-        for i in 0..count {
-            let at = Vector::new((i % 32) as f64 * 0.15 - 2.4, (i / 32) as f64 * 0.15 - 2.4, HALF);
-            raw.cuboid(
-                RigidBodyBuilder::dynamic().translation(at).linvel(slide).can_sleep(false).allow_fast_rotation(true),
-                [HALF; 3],
-            );
-        }
-        raw.pass();
-        raw
+fn raw_rapier(count: usize) -> RawWorld {
+    let cuboid = |x, y, z| ColliderBuilder::cuboid(x, y, z).mass(1.0).friction(0.0);
+    let mut raw = RawWorld::new(parameters());
+    raw.add(RigidBodyBuilder::fixed().translation(Vector::new(0.0, 0.0, -0.1)), cuboid(2.5, 2.5, 0.1));
+    for i in 0..count {
+        let at = Vector::new((i % 32) as f64 * 0.15 - 2.4, (i / 32) as f64 * 0.15 - 2.4, HALF);
+        let body = RigidBodyBuilder::dynamic().translation(at).linvel(Vector::new(SLIDING, 0.0, 0.0));
+        raw.add(body.can_sleep(false).allow_fast_rotation(true), cuboid(HALF, HALF, HALF));
     }
+    pass(&mut raw);
+    raw
+}
 
-    fn cuboid(&mut self, body: RigidBodyBuilder, [x, y, z]: [f64; 3]) {
-        let body = self.bodies.insert(body);
-        let collider = ColliderBuilder::cuboid(x, y, z).mass(1.0).friction(0.0);
-        self.colliders.insert_with_parent(collider, body, &mut self.bodies);
-    }
-
-    fn pass(&mut self) {
-        for _ in 0..SUB_STEPS {
-            self.pipeline.step(
-                Vector::new(0.0, 0.0, -9.81),
-                &self.parameters,
-                &mut self.islands,
-                &mut self.broad_phase,
-                &mut self.narrow_phase,
-                &mut self.bodies,
-                &mut self.colliders,
-                &mut self.joints,
-                &mut self.multibodies,
-                &mut self.soft_bodies,
-                &mut self.ccd,
-                &(),
-                &(),
-            );
-        }
-    }
+fn pass(raw: &mut RawWorld) {
+    (0..SUB_STEPS).for_each(|_| raw.step());
 }
 
 fn overhead(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("overhead");
     group.sample_size(20);
     for count in [100, 1000] {
-        let (mut raw, mut sim) = (Raw::new(count), simulator(count, SLIDING));
-        group.bench_function(format!("raw rapier, {count} boxes"), |bencher| bencher.iter(|| raw.pass()));
+        let (mut raw, mut sim) = (raw_rapier(count), simulator(count, SLIDING));
+        group.bench_function(format!("raw rapier, {count} boxes"), |bencher| bencher.iter(|| pass(&mut raw)));
         group.bench_function(format!("simulator, {count} boxes"), |bencher| bencher.iter(|| sim.pass()));
     }
     let mut sim = simulator(1000, 0.0);

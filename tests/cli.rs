@@ -131,7 +131,8 @@ fn a_scene_has_its_own_files_where_the_library_has_some_for_itself() {
         print(sim.moveToConfig_init{pos = {0}, targetPos = {1}}.timeLeft)",
     );
     for name in ["trajectory", "main"] {
-        fs::write(scene.folder.path().join(format!("{name}.lua")), "return 'mine'").expect("our own folder is writable");
+        fs::write(scene.folder.path().join(format!("{name}.lua")), "return 'mine'")
+            .expect("our own folder is writable");
     }
     let output = scene.run(&["--no-start", "--loops", "1", "--empty"]);
     assert_eq!(stdout(&output), "mine, mine\n0\n");

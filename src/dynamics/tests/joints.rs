@@ -1,0 +1,111 @@
+//! Single joints: control, stops, readings.
+
+use super::*;
+
+#[test]
+fn position_control_decays_geometrically() {
+    let mut bench = Bench::new();
+    bench.gravity(0.0);
+    let (joint, _) = bench.arm(0.01, 0.0, |joint| {
+        joint.control = Control::Position;
+        joint.target_force = 1000.0;
+        joint.target_position = 0.1;
+    });
+    bench.run(1);
+    near(bench.joint(joint).position, 0.1 * (1.0 - 0.9f64.powi(10)), 1e-5);
+}
+
+#[test]
+fn a_held_arm_reads_the_torque_of_its_weight() {
+    let mut bench = Bench::new();
+    let (joint, arm) = bench.arm(0.01, 0.1, |joint| {
+        joint.control = Control::Position;
+        joint.target_force = 50.0;
+    });
+    bench.run(20);
+    near(bench.joint(joint).force.expect("simulated"), 0.981, 1e-3);
+    near(bench.height(arm), 1.0, 1e-4);
+    assert!(bench.dynamics.simulates(joint));
+}
+
+#[test]
+fn a_free_arm_swings() {
+    let mut bench = Bench::new();
+    let (joint, _) = bench.arm(0.02, 0.1, |_| {});
+    bench.run(1);
+    near(bench.joint(joint).velocity, 1.635, 5e-3);
+}
+
+#[test]
+fn two_joints_in_series_do_not_act() {
+    let mut bench = Bench::new();
+    let base = bench.ghost([0.0, 0.0, 2.0], false);
+    let joint = || Kind::Joint(Box::new(Joint::new(JointType::Revolute, JointMode::Dynamic)));
+    let first = bench.object(joint(), Pose::translation(0.0, 0.0, 2.0), base);
+    let second = bench.object(joint(), Pose::translation(0.0, 0.0, 2.0), first);
+    let body = bench.ghost([0.0, 0.0, 2.0], true);
+    bench.hang(body, second);
+    bench.run(1);
+    assert!(!bench.dynamics.simulates(first) && !bench.dynamics.simulates(second));
+    near(bench.height(body), 2.0 - 0.013_488_751, 1e-6);
+}
+
+#[test]
+fn a_screw_moves_along_while_it_turns() {
+    let mut bench = Bench::new();
+    let base = bench.ghost([0.0, 0.0, 1.0], false);
+    let mut screw = Joint::new(JointType::Revolute, JointMode::Dynamic);
+    (screw.cyclic, screw.min, screw.range, screw.screw_lead) = (false, -100.0, 200.0, 0.01);
+    (screw.control, screw.target_velocity, screw.target_force) = (Control::Velocity, std::f64::consts::TAU, 100.0);
+    let screw = bench.object(Kind::Joint(Box::new(screw)), Pose::translation(0.0, 0.0, 1.0), base);
+    let nut = bench.ghost([0.0, 0.0, 1.0], true);
+    bench.hang(nut, screw);
+    bench.run(40);
+    near(bench.joint(screw).position, 2.0 * std::f64::consts::TAU, 1e-6);
+    near(bench.height(nut), 1.02, 1e-6);
+    // What the motor bears of the weight: mass, gravity, lead per radian.
+    near(bench.joint(screw).force.expect("simulated"), -9.81 * 0.01 / std::f64::consts::TAU, 1e-6);
+}
+
+#[test]
+fn a_stop_holds_what_the_motor_cannot_overcome() {
+    let mut bench = Bench::new();
+    let (joint, _) = bench.arm(0.01, 0.1, |joint| {
+        (joint.cyclic, joint.min, joint.range) = (false, -0.5, 1.0);
+        (joint.control, joint.target_velocity, joint.target_force) = (Control::Velocity, 1.0, 2.0);
+    });
+    bench.run(40);
+    near(bench.joint(joint).position, 0.5, 1e-6);
+    near(bench.joint(joint).force.expect("simulated"), -2.0, 1e-6);
+}
+
+#[test]
+fn a_propeller_makes_several_turns_in_a_sub_step() {
+    let mut bench = Bench::new();
+    for speed in [1000.0, 5000.0] {
+        let (joint, _) = bench.arm(0.01, 0.0, |joint| {
+            (joint.control, joint.target_velocity, joint.target_force) = (Control::Velocity, speed, 1e6);
+        });
+        bench.run(10);
+        near(bench.joint(joint).velocity, speed, 1e-3);
+    }
+}
+
+#[test]
+fn a_joint_that_is_placed_takes_its_body_along() {
+    let mut bench = Bench::new();
+    bench.gravity(0.0);
+    let (joint, body) = bench.arm(0.01, 0.3, |joint| joint.control = Control::Free);
+    bench.run(1);
+    let turn = nalgebra::UnitQuaternion::from_axis_angle(&nalgebra::Vector3::z_axis(), 0.1);
+    let start = bench.scene.world_pose(body).expect("exists");
+    for _ in 0..3 {
+        let pose = bench.scene.object(joint).expect("exists").pose();
+        bench.scene.set_local_pose(joint, Pose::from_parts(pose.translation, turn * pose.rotation)).expect("a place");
+        bench.run(1);
+    }
+    let end = bench.scene.world_pose(body).expect("exists");
+    near(start.rotation.angle_to(&end.rotation), 0.3, 1e-6);
+    // The engine has this one joint only, not those of the places before.
+    assert_eq!(bench.dynamics.world.as_ref().expect("a world").joints.len(), 1);
+}
