@@ -1,6 +1,7 @@
 //! The physics on scenes built by hand.
 
 mod bench;
+mod chains;
 mod joints;
 mod loops;
 mod sleep;
@@ -84,39 +85,4 @@ fn a_stack_stands_still() {
         near(pose.translation.z, 0.05 + 0.1 * i as f64, 5e-3);
         near(pose.translation.x.hypot(pose.translation.y), 0.0, 1e-3);
     }
-}
-
-#[test]
-fn a_swinging_chain_keeps_its_energy() {
-    let mut bench = Bench::new();
-    let mut parent = bench.ghost([0.0, 0.0, 1.0], false);
-    let mut links = Vec::new();
-    for i in 0..2 {
-        let x = 0.2 * f64::from(i);
-        let joint = Joint::new(JointType::Revolute, JointMode::Dynamic);
-        let joint = bench.object(Kind::Joint(Box::new(joint)), along_y([x, 0.0, 1.0]), parent);
-        parent = bench.shape([0.2, 0.05, 0.05], [x + 0.1, 0.0, 1.0], 1.0, true, false);
-        bench.hang(parent, joint);
-        links.push(parent);
-    }
-    let energy = |bench: &Bench| -> f64 { links.iter().map(|&link| bench.energy(link)).sum() };
-    let before = energy(&bench);
-    bench.run(100);
-    near(energy(&bench), before, 0.05);
-}
-
-#[test]
-fn a_chain_of_twenty_links_carries_a_load_a_hundred_times_as_heavy() {
-    let mut bench = Bench::new();
-    let mut parent = bench.ghost([0.0, 0.0, 3.0], false);
-    for i in 0..20 {
-        let z = 3.0 - 0.1 * f64::from(i);
-        let joint = Kind::Joint(Box::new(Joint::new(JointType::Revolute, JointMode::Dynamic)));
-        let joint = bench.object(joint, along_y([0.0, 0.0, z]), parent);
-        let mass = if i == 19 { 100.0 } else { 1.0 };
-        parent = bench.shape([0.02, 0.02, 0.1], [0.01, 0.0, z - 0.05], mass, true, false);
-        bench.hang(parent, joint);
-    }
-    bench.run(100);
-    near(bench.height(parent), 1.05, 0.01);
 }

@@ -14,6 +14,7 @@ mod mover;
 mod node;
 mod rotor;
 mod settle;
+mod taut;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -153,17 +154,16 @@ impl Articulation {
 
     /// Finds the impulses for a sub-step of `step` seconds and gives them to the bodies as forces, and to the links to be read.
     pub(super) fn act(&mut self, links: &mut Links, world: &mut World, gravity: [f64; 3], step: f64) {
-        for mover in &mut self.movers {
-            mover.place(world);
-            mover.predict(world, gravity, step);
-        }
-        self.foresee(world);
+        self.movers.iter_mut().for_each(|mover| mover.place(world));
         for node in &mut self.nodes {
             if let Some(link) = links.get(&node.link) {
                 node.place(link, &self.movers);
                 node.axis.iter_mut().for_each(|axis| axis.expect(link, step));
             }
         }
+        self.steady(step);
+        self.movers.iter_mut().for_each(|mover| mover.predict(world, gravity, step));
+        self.foresee(world);
         if self.solve(links, step) {
             self.share(links, world);
             self.give(links, world, step);
@@ -178,7 +178,7 @@ impl Articulation {
                     let mover = &mut self.movers[place];
                     let impulse = Vector3::from(push.impulse) * sign;
                     let lever = Vector3::from(push.point) - mover.com;
-                    mover.free += mover.response * spatial(impulse, lever.cross(&impulse));
+                    mover.push += spatial(impulse, lever.cross(&impulse));
                 }
             }
         }
@@ -192,7 +192,7 @@ impl Articulation {
                 return false;
             }
             self.find_impulses();
-            let mut changed = false;
+            let mut changed = round + 1 < ROUNDS && self.steady_more(step);
             for node in &mut self.nodes {
                 if let Some(link) = links.get(&node.link) {
                     changed |= node.correct(link, &self.movers, step);
@@ -223,7 +223,7 @@ impl Articulation {
     /// Solves for the impulses and moves the bodies by them.
     fn find_impulses(&mut self) {
         for mover in &mut self.movers {
-            mover.velocity = mover.free;
+            mover.velocity = mover.free + mover.response * mover.push;
         }
         for node in &self.nodes {
             node.push(&mut self.movers, &node.spent());

@@ -6,6 +6,7 @@ use rapier3d_f64::prelude::{RigidBody, RigidBodyHandle};
 
 use super::rotor::{Rotor, Spin};
 use super::spatial;
+use super::taut::Taut;
 use crate::dynamics::bodies::Body;
 use crate::dynamics::convert::{from_pose, from_vector, is_finite, to_pose, to_vector};
 use crate::dynamics::world::World;
@@ -21,12 +22,15 @@ pub(super) struct Mover {
     pub inertia: Matrix3<f64>,
     pub inverse_inertia: Matrix3<f64>,
     pub com_in_shape: Vector3<f64>,
-    /// Of this sub-step: pose, centre of mass, response to impulses, velocity before and with the links' impulses.
+    /// Of this sub-step: pose, centre of mass, response to impulses, velocity before and with all impulses.
     pub pose: Pose,
     pub com: Vector3<f64>,
     pub response: Matrix6<f64>,
     pub free: Vector6<f64>,
     pub velocity: Vector6<f64>,
+    /// Impulses of scripts and contacts, and of the gyroscopic torque.
+    pub push: Vector6<f64>,
+    pub taut: Taut,
     /// Forces and torques of scripts.
     asked: [Vector; 2],
     /// How far it was put back after the sub-step.
@@ -61,6 +65,8 @@ impl Mover {
             response: Matrix6::zeros(),
             free: Vector6::zeros(),
             velocity: Vector6::zeros(),
+            push: Vector6::zeros(),
+            taut: Taut::default(),
             asked: [Vector::ZERO; 2],
             shift: Vector6::zeros(),
             gyration: Vector3::zeros(),
@@ -77,13 +83,22 @@ impl Mover {
         let Some(rigid) = world.bodies.get(self.rigid) else { return };
         self.pose = from_pose(rigid.position());
         self.com = self.pose.transform_point(&self.com_in_shape.into()).coords;
-        let turn = self.pose.rotation.to_rotation_matrix();
-        let inertia = turn.matrix() * self.inverse_inertia * turn.matrix().transpose();
         self.response.fixed_view_mut::<3, 3>(0, 0).copy_from(&(Matrix3::identity() * self.inverse_mass));
-        self.response.fixed_view_mut::<3, 3>(3, 3).copy_from(&inertia);
+        self.respond();
     }
 
-    /// What velocity the body will have without the links.
+    /// Reads how the body answers angular impulses as it lies.
+    pub(super) fn respond(&mut self) {
+        let turn = self.pose.rotation.to_rotation_matrix();
+        let inverse = turn.matrix() * self.inverse_inertia * turn.matrix().transpose();
+        let inverse = match self.taut.added() {
+            Some(added) => (self.world_inertia() + added).try_inverse().unwrap_or(inverse),
+            None => inverse,
+        };
+        self.response.fixed_view_mut::<3, 3>(3, 3).copy_from(&inverse);
+    }
+
+    /// What velocity the body will have without the links, and what else pushes it.
     pub(super) fn predict(&mut self, world: &World, gravity: [f64; 3], step: f64) {
         let Some(rigid) = world.bodies.get(self.rigid) else { return };
         if !self.moves() {
@@ -97,10 +112,8 @@ impl Mover {
         self.gyration = self.rotor_impulse(&spin, step).unwrap_or_else(|| {
             self.world_inertia() * (Vector3::from(from_vector(rigid.angvel_with_gyroscopic_forces(step))) - spin)
         });
-        let push = push + spatial(Vector3::zeros(), self.gyration);
-        self.free = spatial(from_vector(rigid.linvel()).into(), spin) + self.response * push;
-        let fall = self.free.fixed_rows::<3>(0) + Vector3::from(gravity) * step;
-        self.free.fixed_rows_mut::<3>(0).copy_from(&fall);
+        self.push = push + spatial(Vector3::zeros(), self.gyration);
+        self.free = spatial(Vector3::from(from_vector(rigid.linvel())) + Vector3::from(gravity) * step, spin);
     }
 
     /// In the axes of the world.
@@ -185,7 +198,17 @@ impl Mover {
     pub(super) fn give(&self, impulse: &Vector6<f64>, world: &mut World, step: f64) {
         if let Some(rigid) = world.bodies.get_mut(self.rigid) {
             rigid.add_force(to_vector((impulse.fixed_rows::<3>(0) / step).into()), true);
-            rigid.add_torque(to_vector(((impulse.fixed_rows::<3>(3) + self.gyration) / step).into()), true);
+            let turn = impulse.fixed_rows::<3>(3) + self.gyration;
+            rigid.add_torque(to_vector((self.as_inert(turn) / step).into()), true);
         }
+    }
+
+    /// What does to the body as rapier knows it, with what rapier applies by itself, what `turn` does to one with added inertia.
+    fn as_inert(&self, turn: Vector3<f64>) -> Vector3<f64> {
+        if self.taut.added().is_none() {
+            return turn;
+        }
+        let by_rapier = self.push.fixed_rows::<3>(3) - self.gyration;
+        self.world_inertia() * (self.response.fixed_view::<3, 3>(3, 3) * (turn + by_rapier)) - by_rapier
     }
 }

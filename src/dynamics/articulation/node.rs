@@ -16,6 +16,8 @@ pub(super) struct Node {
     pub ends: [usize; 2],
     /// How the velocities of the two bodies move the link's rows.
     pub jacobians: [Matrix6<f64>; 2],
+    /// Where the forces of the link act.
+    pub point: Vector3<f64>,
     pub locked: [bool; 6],
     pub axis: Option<Axis>,
     pub impulse: Segment,
@@ -28,7 +30,8 @@ impl Node {
     pub(super) fn new(link: Handle, kind: LinkKind, ends: [usize; 2]) -> Self {
         let none = [Matrix6::zeros(); 2];
         let (locked, axis) = (locked(kind), Axis::of(kind));
-        Self { link, ends, jacobians: none, locked, axis, impulse: Segment::zeros(), acting: none, weighted: none }
+        let (point, impulse) = (Vector3::zeros(), Segment::zeros());
+        Self { link, ends, jacobians: none, point, locked, axis, impulse, acting: none, weighted: none }
     }
 
     /// Reads where the link is.
@@ -36,6 +39,7 @@ impl Node {
         let [first, second] = self.ends.map(|end| &movers[end]);
         let axes = (first.pose.rotation * link.plan.base.rotation).to_rotation_matrix();
         let point = (second.pose * link.plan.tip).translation.vector;
+        self.point = point;
         for row in 0..3 {
             let direction = axes.matrix().column(row).into_owned();
             for (side, (mover, sign)) in [(first, -1.0), (second, 1.0)].into_iter().enumerate() {
@@ -91,7 +95,7 @@ impl Node {
         }
     }
 
-    fn acts(&self, row: usize) -> bool {
+    pub(super) fn acts(&self, row: usize) -> bool {
         match &self.axis {
             Some(axis) if axis.row == row => axis.acts(),
             _ => self.locked[row],
