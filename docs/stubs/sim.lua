@@ -88,21 +88,28 @@ function sim.addForce(shapeHandle, position, force) end
 ---@return integer result
 function sim.addForceAndTorque(shapeHandle, force, torque) end
 
---- Draws streams over each other.
+--- Adds a curve through the values of two or three streams, or changes the one with that name.
 ---@param graphHandle integer the graph
 ---@param curveName string its name
 ---@param dim integer 2 or 3
----@param ... any
+---@param streamIds integer[] of x, y and z; -1 for a number
+---@param defaultValues number[] the numbers where there is no stream
+---@param unitStr string its unit
+---@param options? integer 1: points of three dimensions are in the world, 2: without label, 4: points are not linked
+---@param color? number[] red, green, blue, 0 to 1
+---@param curveWidth? integer pixels
 ---@return integer curveId its number
-function sim.addGraphCurve(graphHandle, curveName, dim, ...) end
+function sim.addGraphCurve(graphHandle, curveName, dim, streamIds, defaultValues, unitStr, options, color, curveWidth) end
 
---- Adds a stream of values to a graph. They are not kept here.
+--- Adds a stream of values to a graph, or changes the one with that name.
 ---@param graphHandle integer the graph
 ---@param streamName string its name
 ---@param unit string its unit
----@param ... any
+---@param options? integer 1: not shown, 2: without label, 4: points are not linked
+---@param color? number[] red, green, blue, 0 to 1
+---@param cyclicRange? number differences are the shortest modulo this; 0 for values that are not cyclic
 ---@return integer streamId its number
-function sim.addGraphStream(graphHandle, streamName, unit, ...) end
+function sim.addGraphStream(graphHandle, streamName, unit, options, color, cyclicRange) end
 
 --- Adds to a collection, or subtracts from it.
 ---@param collectionHandle integer the collection
@@ -557,9 +564,9 @@ function sim.createVisionSensor(options, intParams, floatParams) end
 ---@param collectionHandle integer the collection
 function sim.destroyCollection(collectionHandle) end
 
---- Removes a curve.
+--- Removes a curve or a stream.
 ---@param graphHandle integer the graph
----@param curveId integer from sim.addGraphCurve
+---@param curveId integer its number
 function sim.destroyGraphCurve(graphHandle, curveId) end
 
 --- A message in a window. There are no windows.
@@ -571,6 +578,13 @@ function sim.destroyGraphCurve(graphHandle, curveId) end
 ---@param ... any
 ---@return integer handle -1
 function sim.displayDialog(title, text, style, modal, ...) end
+
+--- Copies a curve or a stream as it is now; recording does not change the copy.
+---@param graphHandle integer the graph
+---@param curveId integer its number
+---@param curveName? string name of the copy
+---@return integer curveId number of the copy
+function sim.duplicateGraphCurveToStatic(graphHandle, curveId, curveName) end
 
 --- Takes everything out of a collection.
 ---@deprecated sim.destroyCollection
@@ -845,6 +859,23 @@ function sim.getFloatSignal(signalName) end
 --- A snapshot of everything as events, in CBOR. The numbers of its events end where those of the next dispatched batch begin.
 ---@return string|table events
 function sim.getGenesisEvents() end
+
+--- A curve with its points. Streams that are not shown, and slots with gaps, are left out.
+---
+--- zData after yData. Attributes are 2: with label, 4: points are linked, 16: recording does not change it. minMax: the smallest and the
+--- largest x, then of y and z
+---@param graphHandle integer the graph
+---@param graphType integer 0: streams over time, 1: curves of two dimensions, 2: of three
+---@param curveIndex integer which one of them, from 0
+---@return any label attributes, curveColor, xData, yData, minMax, curveId, curveWidth nothing past the last one; a curve of three dimensions has
+function sim.getGraphCurve(graphHandle, graphType, curveIndex) end
+
+--- How a graph looks.
+---@param graphHandle integer the graph
+---@return integer bitCoded 1: the oldest values are replaced, 16: handled explicitly; 2, 4 and 8, for its drawing, are always there
+---@return number[] bgColor of the background
+---@return number[] fgColor of lines and texts
+function sim.getGraphInfo(graphHandle) end
 
 --- Handle of an IK group of the scene; there are none.
 ---@deprecated the simIK functionality
@@ -1806,10 +1837,10 @@ function sim.handleEmbeddedScripts(callType, ...) end
 --- Lets plugins of the original handle what came from outside. There are none; main scripts call it all the same.
 function sim.handleExtCalls() end
 
---- Records the values of the streams.
----@param graphHandle integer the graph, sim.handle_all or sim.handle_all_except_explicit
----@param time number of the values
-function sim.handleGraph(graphHandle, time) end
+--- Records a slot: the values the streams have been given, and gaps.
+---@param objectHandle integer the graph, sim.handle_all or sim.handle_all_except_explicit
+---@param simulationTime number of the values
+function sim.handleGraph(objectHandle, simulationTime) end
 
 --- Does nothing: IK groups of the scene are gone, simIK is for that.
 ---@deprecated the simIK functionality
@@ -2392,8 +2423,8 @@ function sim.resetDistance(distanceObjectHandle) end
 function sim.resetDynamicObject(objectHandle) end
 
 --- Forgets what was recorded.
----@param graphHandle integer the graph, sim.handle_all or sim.handle_all_except_explicit
-function sim.resetGraph(graphHandle) end
+---@param objectHandle integer the graph, sim.handle_all or sim.handle_all_except_explicit
+function sim.resetGraph(objectHandle) end
 
 --- Does nothing: mills are gone.
 ---@param millHandle integer any
@@ -2767,18 +2798,27 @@ function sim.setFloatProperty(target, propertyName, propertyState, options) end
 ---@return integer result 1
 function sim.setFloatSignal(signalName, signalValue) end
 
---- What a stream does to its values before it records them.
+--- What a stream makes of the values it records.
 ---@param graphHandle integer the graph
 ---@param streamId integer from sim.addGraphStream
 ---@param trType integer sim.stream_transf_*
----@param ... any
-function sim.setGraphStreamTransformation(graphHandle, streamId, trType, ...) end
+---@param mult? number factor of the result
+---@param off? number added to it
+---@param movAvgPeriod? integer slots of the moving average
+function sim.setGraphStreamTransformation(graphHandle, streamId, trType, mult, off, movAvgPeriod) end
 
 --- The value a stream records next.
 ---@param graphHandle integer the graph
 ---@param streamId integer from sim.addGraphStream
 ---@param value number number
 function sim.setGraphStreamValue(graphHandle, streamId, value) end
+
+--- The value a stream of an old graph records next.
+---@deprecated sim.setGraphStreamValue
+---@param graphHandle integer the graph
+---@param dataStreamName string name of the stream
+---@param data number number
+function sim.setGraphUserData(graphHandle, dataStreamName, data) end
 
 --- Sets an integer parameter.
 ---@param parameter integer sim.intparam_*

@@ -1,4 +1,4 @@
-//! `sim.*`: drawing objects, curves of graphs, floating views, particles: what only a display shows, or is not simulated.
+//! `sim.*`: drawing objects, floating views, particles: what only a display shows, or is not simulated.
 //!
 //! There is no display. Handles are given out and checked, so that scripts find their mistakes; what would be drawn is dropped.
 
@@ -15,13 +15,6 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     add_drawing_object,
     add_drawing_object_item,
     remove_drawing_object,
-    add_graph_stream,
-    set_graph_stream_value,
-    set_graph_stream_transformation,
-    add_graph_curve,
-    destroy_graph_curve,
-    handle_graph,
-    reset_graph,
     floating_view_add,
     floating_view_remove,
     adjust_view,
@@ -88,94 +81,6 @@ fn remove_drawing_object(cx: &mut Cx, drawing_object_handle: Number) -> Result<(
         return Ok(());
     }
     drawings.borrow_mut().remove(drawing_object_handle.0).map(drop).ok_or_else(no_drawing)
-}
-
-/// Adds a stream of values to a graph. They are not kept here.
-///
-/// @param graphHandle the graph
-/// @param streamName its name
-/// @param unit its unit
-/// @return streamId its number
-#[api("sim.addGraphStream")]
-fn add_graph_stream(
-    cx: &mut Cx,
-    graph_handle: Number,
-    stream_name: String,
-    unit: String,
-    options: Rest,
-) -> Result<i64> {
-    let _ = (stream_name, unit, options);
-    graph(cx, graph_handle)?;
-    Ok(streams(cx).borrow_mut().add(Stream))
-}
-
-/// The value a stream records next.
-///
-/// @param graphHandle the graph
-/// @param streamId from sim.addGraphStream
-/// @param value number
-#[api("sim.setGraphStreamValue")]
-fn set_graph_stream_value(cx: &mut Cx, graph_handle: Number, stream_id: Number, value: f64) -> Result<()> {
-    let _ = value;
-    stream(cx, graph_handle, stream_id)
-}
-
-/// What a stream does to its values before it records them.
-///
-/// @param graphHandle the graph
-/// @param streamId from sim.addGraphStream
-/// @param trType sim.stream_transf_*
-#[api("sim.setGraphStreamTransformation")]
-fn set_graph_stream_transformation(
-    cx: &mut Cx,
-    graph_handle: Number,
-    stream_id: Number,
-    tr_type: Number,
-    numbers: Rest,
-) -> Result<()> {
-    let _ = (tr_type, numbers);
-    stream(cx, graph_handle, stream_id)
-}
-
-/// Draws streams over each other.
-///
-/// @param graphHandle the graph
-/// @param curveName its name
-/// @param dim 2 or 3
-/// @return curveId its number
-#[api("sim.addGraphCurve")]
-fn add_graph_curve(cx: &mut Cx, graph_handle: Number, curve_name: String, dim: Number, streams_: Rest) -> Result<i64> {
-    let _ = (curve_name, dim, streams_);
-    graph(cx, graph_handle)?;
-    Ok(streams(cx).borrow_mut().add(Stream))
-}
-
-/// Removes a curve.
-///
-/// @param graphHandle the graph
-/// @param curveId from sim.addGraphCurve
-#[api("sim.destroyGraphCurve")]
-fn destroy_graph_curve(cx: &mut Cx, graph_handle: Number, curve_id: Number) -> Result<()> {
-    graph(cx, graph_handle)?;
-    streams(cx).borrow_mut().remove(curve_id.0).map(drop).ok_or_else(no_stream)
-}
-
-/// Records the values of the streams.
-///
-/// @param graphHandle the graph, sim.handle_all or sim.handle_all_except_explicit
-/// @param time of the values
-#[api("sim.handleGraph")]
-fn handle_graph(cx: &Cx, graph_handle: Number, time: f64) -> Result<()> {
-    let _ = time;
-    graph_or_all(cx, graph_handle)
-}
-
-/// Forgets what was recorded.
-///
-/// @param graphHandle the graph, sim.handle_all or sim.handle_all_except_explicit
-#[api("sim.resetGraph")]
-fn reset_graph(cx: &Cx, graph_handle: Number) -> Result<()> {
-    graph_or_all(cx, graph_handle)
 }
 
 /// Adds a view to the page.
@@ -280,8 +185,6 @@ fn remove_particle_object(cx: &mut Cx, particle_object_handle: Number) -> Result
 struct Particles;
 /// A drawing object.
 struct Drawing;
-/// A stream of a graph, or a curve.
-struct Stream;
 /// A floating view.
 struct View;
 
@@ -293,17 +196,8 @@ fn particles(cx: &Cx) -> Rc<RefCell<ByHandle<Particles>>> {
     cx.library_data()
 }
 
-fn streams(cx: &Cx) -> Rc<RefCell<ByHandle<Stream>>> {
-    cx.library_data()
-}
-
 fn views(cx: &Cx) -> Rc<RefCell<ByHandle<View>>> {
     cx.library_data()
-}
-
-fn stream(cx: &Cx, graph_handle: Number, stream_id: Number) -> Result<()> {
-    graph(cx, graph_handle)?;
-    streams(cx).borrow_mut().get_mut(stream_id.0).map(drop).ok_or_else(no_stream)
 }
 
 fn object(cx: &Cx, handle: Number) -> Result<Handle> {
@@ -312,23 +206,10 @@ fn object(cx: &Cx, handle: Number) -> Result<Handle> {
     Ok(scene.object(handle)?.handle())
 }
 
-fn graph(cx: &Cx, handle: Number) -> Result<()> {
-    let handle = object(cx, handle)?;
-    Ok(cx.scene().object(handle)?.graph().map(drop)?)
-}
-
-fn graph_or_all(cx: &Cx, handle: Number) -> Result<()> {
-    if [special::ALL, special::ALL_EXCEPT_EXPLICIT].contains(&handle.0) { Ok(()) } else { graph(cx, handle) }
-}
-
 fn no_drawing() -> ApiError {
     ApiError::Other("drawing object does not exist.".into())
 }
 
 fn no_particles() -> ApiError {
     ApiError::Other("particle object does not exist.".into())
-}
-
-fn no_stream() -> ApiError {
-    ApiError::Other("invalid graph data stream.".into())
 }

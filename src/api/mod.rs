@@ -15,6 +15,7 @@ mod engine_param;
 mod events;
 mod force_sensor;
 mod global;
+mod graph;
 mod images;
 mod joint;
 mod joint_motion;
@@ -122,6 +123,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("User parameters", user_param::FUNCTIONS),
     ("Octrees and point clouds", voxels::FUNCTIONS),
     ("Scene files", scene_file::FUNCTIONS),
+    ("Graphs", graph::FUNCTIONS),
     ("Display", drawing::FUNCTIONS),
 ];
 

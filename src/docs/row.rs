@@ -154,6 +154,7 @@ fn lua_literal(rust: &str) -> String {
         "None" | "Data::Nil" => "nil".to_owned(),
         "Options::default()" | "Vec::new()" | "Data::Array(Vec::new())" | "Rest(Vec::new())" => "{}".to_owned(),
         "String::new()" => "''".to_owned(),
+        "PI" => "math.pi".to_owned(),
         "Frame::World" | "Frame::default()" => "sim.handle_world".to_owned(),
         _ if rust.starts_with("special::") => rust.replace("special::", "sim.handle_").to_lowercase(),
         _ if rust.starts_with('[') => rust.replace('[', "{").replace(']', "}"),

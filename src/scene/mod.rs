@@ -22,6 +22,8 @@ pub mod error;
 pub mod euler;
 pub mod extrusion;
 pub mod force_sensor;
+pub mod graph;
+mod graph_record;
 pub mod handle;
 mod hull;
 mod identity;

@@ -4,12 +4,13 @@ use super::assembly::Assembly;
 use super::colour::Colour;
 use super::dummy::Dummy;
 use super::force_sensor::ForceSensor;
+use super::graph::Graph;
 use super::joint::Joint;
 use super::octree::OcTree;
 use super::point_cloud::PointCloud;
 use super::restore::InitialState;
 use super::script_object::ScriptObject;
-use super::sensors::{Camera, Graph, Light, ProximitySensor, VisionSensor};
+use super::sensors::{Camera, Light, ProximitySensor, VisionSensor};
 use super::shape::Shape;
 use super::{CustomData, Handle, Kept, Movement, Pose, SceneError, SceneResult, Uid};
 

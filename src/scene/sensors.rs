@@ -160,30 +160,6 @@ impl Light {
     }
 }
 
-#[derive(Debug, Clone, PartialEq)]
-pub struct Graph {
-    pub explicit: bool,
-    /// Samples kept of each stream.
-    pub buffer_size: i64,
-    /// New samples replace the oldest.
-    pub cyclic: bool,
-    pub size: f64,
-    pub background: [f32; 3],
-    pub foreground: [f32; 3],
-}
-
-impl Graph {
-    /// Largest number of samples kept.
-    pub const MAX_BUFFER_SIZE: i64 = 1_000_000;
-}
-
-impl Default for Graph {
-    fn default() -> Self {
-        let (background, foreground) = ([0.1; 3], [0.8; 3]);
-        Self { explicit: false, buffer_size: 1000, cyclic: true, size: 0.1, background, foreground }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

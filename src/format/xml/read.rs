@@ -89,7 +89,7 @@ impl Reading<'_> {
     fn sections(&mut self, section: &str, row: &Row, element: Element<'_>, node: &mut Node) -> FileResult<bool> {
         let Some((last, groups)) = row.elements.first().and_then(|way| way.split_last()) else { return Ok(false) };
         let Some(group) = element.find(groups) else { return Ok(false) };
-        let items = group.named(last).map(|item| self.section(section, item)).collect::<FileResult<Vec<_>>>()?;
+        let items = group.mark().named(last).map(|item| self.section(section, item)).collect::<FileResult<Vec<_>>>()?;
         let any = !items.is_empty();
         if any || row.field.is_empty() {
             put(node, &row.field, Node::List(items));

@@ -2,7 +2,7 @@
 
 use super::Color;
 use super::access::{Accessor, finite, length, object_properties, refused};
-use crate::scene::sensors::Graph;
+use crate::scene::graph::Graph;
 use crate::script::Bytes;
 
 pub(super) const LIGHT: &[Accessor] = object_properties! {

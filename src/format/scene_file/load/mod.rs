@@ -3,6 +3,7 @@
 pub(super) mod cells;
 mod common;
 mod custom_data;
+mod graph;
 mod joint;
 mod material;
 mod mesh;
@@ -151,7 +152,7 @@ fn kind_of(context: &mut Context<'_>, object: &FileObject) -> FileResult<Kind> {
         Class::VisionSensor(sensor) => Kind::VisionSensor(Box::new(sensors::vision_sensor(sensor))),
         Class::Camera(camera) => Kind::Camera(Box::new(sensors::camera(camera))),
         Class::Light(light) => Kind::Light(Box::new(sensors::light(light))),
-        Class::Graph(graph) => Kind::Graph(Box::new(sensors::graph(graph))),
+        Class::Graph(graph) => Kind::Graph(Box::new(graph::graph(graph))),
         Class::OcTree(tree) => Kind::OcTree(Box::new(cells::octree(tree).map_err(|what| damaged(object, what))?)),
         Class::PointCloud(cloud) => {
             Kind::PointCloud(Box::new(cells::point_cloud(cloud).map_err(|what| damaged(object, what))?))

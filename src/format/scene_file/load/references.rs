@@ -63,6 +63,11 @@ fn connect_one(scene: &mut Scene, object: &FileObject, handle: Handle, map: &Han
                 scene.track(handle, tracked.raw())?;
             }
         }
+        Class::Graph(_) => scene.try_modify(handle, Field::Other, |object| {
+            let sources = object.graph_mut()?.streams_mut().iter_mut().filter_map(|stream| stream.source.as_mut());
+            sources.for_each(|source| source.object = source.object.and_then(|o| map.get(&(o.0 as i32)).copied()));
+            Ok(())
+        })?,
         _ => {}
     }
     Ok(())

@@ -1,10 +1,10 @@
-//! Sensors, cameras, lights, graphs, and colours (sections 7.1 and 7.4 of the format).
+//! Sensors, cameras, lights, and colours (sections 7.1 and 7.4 of the format).
 
 use super::Context;
 use crate::format::ttt::chunks as file;
 use crate::scene::colour::Colour;
 use crate::scene::sensor_volume::{PYRAMID, RAY, Volume};
-use crate::scene::sensors::{Camera, Graph, Light, ProximitySensor, View, VisionSensor};
+use crate::scene::sensors::{Camera, Light, ProximitySensor, View, VisionSensor};
 
 const EVERYTHING: i32 = -1;
 /// Where this bit of a colour is clear, it is translucent.
@@ -37,7 +37,7 @@ pub(super) fn colour(chunk: &file::Colour, default: Colour, brighter: bool) -> C
     colour
 }
 
-fn groups<const N: usize, const M: usize>(values: [f32; N]) -> [[f32; 3]; M] {
+pub(super) fn groups<const N: usize, const M: usize>(values: [f32; N]) -> [[f32; 3]; M] {
     std::array::from_fn(|i| [values[3 * i], values[3 * i + 1], values[3 * i + 2]])
 }
 
@@ -171,18 +171,4 @@ fn emitted(chunk: &file::Colour, default: Colour) -> Colour {
         colour.ambient_diffuse = [second(values).iter().sum::<f32>() / 3.0; 3];
     }
     colour
-}
-
-pub(super) fn graph(chunk: &file::Graph) -> Graph {
-    let mut graph = Graph::default();
-    graph.size = chunk.size.unwrap_or(graph.size);
-    if let Some([buffer, _]) = chunk.buffer {
-        graph.buffer_size = i64::from(buffer).clamp(1, Graph::MAX_BUFFER_SIZE);
-    }
-    if let Some(values) = chunk.bgfg {
-        [graph.background, graph.foreground] = groups(values);
-    }
-    let switches = chunk.gps.unwrap_or(1);
-    (graph.cyclic, graph.explicit) = (switches & 1 != 0, switches & 0x10 != 0);
-    graph
 }

@@ -8,6 +8,7 @@ mod colour;
 mod common;
 mod custom_data;
 mod edges;
+mod graph;
 mod mechanics;
 mod mesh;
 mod script;
@@ -133,7 +134,7 @@ fn class(context: &mut Context<'_>, object: &Object) -> Class {
         Kind::VisionSensor(sensor) => Class::VisionSensor(Box::new(sensors::vision_sensor(context, sensor, colour))),
         Kind::Camera(camera) => Class::Camera(Box::new(sensors::camera(context, camera, colour))),
         Kind::Light(light) => Class::Light(Box::new(sensors::light(light, colour))),
-        Kind::Graph(graph) => Class::Graph(Box::new(sensors::graph(graph, colour))),
+        Kind::Graph(graph) => Class::Graph(Box::new(graph::graph(context, graph, colour))),
         Kind::OcTree(tree) => Class::OcTree(Box::new(cells::octree(tree, colour))),
         Kind::PointCloud(cloud) => Class::PointCloud(Box::new(cells::point_cloud(cloud, colour))),
         Kind::Script(script) => Class::ScriptObject(Box::new(script::object(script, object.handle(), colour))),

@@ -5,7 +5,7 @@ use crate::format::ttt::Counted;
 use crate::format::ttt::chunks as file;
 use crate::scene::Handle;
 use crate::scene::sensor_volume::{RAY, Volume};
-use crate::scene::sensors::{Camera, Graph, Light, ProximitySensor, VisionSensor};
+use crate::scene::sensors::{Camera, Light, ProximitySensor, VisionSensor};
 
 /// The first type of proximity sensors; their volumes count from 0.
 const FIRST_SENSOR_TYPE: i32 = 30;
@@ -127,18 +127,5 @@ pub(super) fn light(light: &Light, colour: Colour) -> file::Light {
         colour,
         light_colour: Some(colour::emitted(&light.colour)),
         ..file::Light::default()
-    }
-}
-
-pub(super) fn graph(graph: &Graph, colour: Colour) -> file::Graph {
-    let [r, g, b] = graph.background;
-    let [x, y, z] = graph.foreground;
-    file::Graph {
-        size: Some(graph.size),
-        colour,
-        bgfg: Some([r, g, b, x, y, z]),
-        buffer: Some([graph.buffer_size as i32, 0]),
-        gps: Some(bits(&[(graph.cyclic, 0), (true, 1), (true, 2), (true, 3), (graph.explicit, 4)])),
-        ..file::Graph::default()
     }
 }

@@ -1,0 +1,123 @@
+//! Graphs with what they recorded: always in double precision.
+
+use super::Context;
+use super::sensors::bits;
+use crate::format::ttt::chunks as file;
+use crate::format::ttt::{Counted, Rest};
+use crate::scene::graph::{Curve, Graph, OldSource, Sample, Stream, Style};
+
+/// Streams and curves that scripts made outlive them here.
+const NO_SCRIPT: i32 = -1;
+
+pub(super) fn graph(context: &Context<'_>, graph: &Graph, colour: Option<file::Colour>) -> file::Graph {
+    let [r, g, b] = graph.background;
+    let [x, y, z] = graph.foreground;
+    let of_time = |old: bool| graph.streams().iter().filter(move |stream| stream.source.is_some() == old);
+    let old_curves = |dimensions: usize| {
+        let curves = graph.curves.iter().filter(move |curve| curve.old && curve.dimensions == dimensions);
+        curves.map(old_curve).collect()
+    };
+    file::Graph {
+        size: Some(graph.size),
+        colour,
+        bgfg: Some([r, g, b, x, y, z]),
+        buffer: Some([graph.buffer_size as i32, graph.times().len() as i32]),
+        times: Some(Rest(graph.times().collect())),
+        streams: of_time(false).map(stream).collect(),
+        curves: graph.curves.iter().filter(|curve| !curve.old).map(curve).collect(),
+        old_streams: of_time(true).filter_map(|stream| Some(old_stream(context, stream, stream.source?))).collect(),
+        old_curves_3d: old_curves(3),
+        old_curves_2d: old_curves(2),
+        gps: Some(bits(&[(graph.cyclic, 0), (true, 1), (true, 2), (true, 3), (graph.explicit, 4)])),
+        ..file::Graph::default()
+    }
+}
+
+fn flags(first: bool, style: &Style, fixed: Option<u8>) -> u8 {
+    bits(&[(first, 0), (style.label, 1), (style.linked, 2)]) | fixed.map_or(0, |bit| 1 << bit)
+}
+
+fn stream(stream: &Stream) -> file::DataStream {
+    let (style, transformation) = (&stream.style, &stream.transformation);
+    file::DataStream {
+        name_and_unit: Some((style.name.as_str().into(), style.unit.as_str().into())),
+        id: Some(style.id as i32),
+        script: Some(NO_SCRIPT),
+        colour: Some(style.colour),
+        transformation: Some((
+            transformation.kind.code() as i32,
+            [transformation.multiplier, transformation.offset],
+            transformation.period as i32,
+            transformation.cyclic_range,
+        )),
+        flags: Some(flags(stream.visible, style, stream.fixed.as_ref().map(|_| 4))),
+        data: stream.fixed.is_none().then(|| Rest(stream.samples.iter().flat_map(slot).collect())),
+        static_values: stream.fixed.as_ref().map(|points| Counted(points.as_flattened().to_vec())),
+    }
+}
+
+/// A value, what became of it, and whether there are such.
+fn slot(sample: &Sample) -> [u8; 18] {
+    let mut bytes = [0; 18];
+    for (i, value) in [sample.raw, sample.transformed].into_iter().enumerate() {
+        bytes[8 * i..8 * i + 8].copy_from_slice(&value.unwrap_or(0.0).to_le_bytes());
+        bytes[16 + i] = value.is_some().into();
+    }
+    bytes
+}
+
+fn curve(curve: &Curve) -> file::Curve {
+    let style = &curve.style;
+    let fixed = |points: &Vec<[f64; 3]>| {
+        Counted(points.iter().flat_map(|point| point[..curve.dimensions].iter().copied()).collect())
+    };
+    file::Curve {
+        name_and_unit: Some((style.name.as_str().into(), style.unit.as_str().into())),
+        id_dim_width: Some([style.id as i32, curve.dimensions as i32, curve.width as i32]),
+        script: Some(NO_SCRIPT),
+        colour: Some(style.colour),
+        offsets: Some(curve.defaults),
+        streams: Some(curve.streams.map(|id| id as i32)),
+        flags: Some(flags(curve.relative, style, curve.fixed.as_ref().map(|_| 3))),
+        static_values: curve.fixed.as_ref().map(fixed),
+    }
+}
+
+/// One of the two numbers of a sample.
+type Half = fn(&Sample) -> Option<f64>;
+
+fn old_stream(context: &Context<'_>, stream: &Stream, source: OldSource) -> file::OldDataStream {
+    let (style, transformation) = (&stream.style, &stream.transformation);
+    let values = |of: Half| stream.samples.iter().map(|s| of(s).unwrap_or(0.0)).collect();
+    let valid = |of: Half| Rest(stream.samples.iter().map(|s| of(s).is_some().into()).collect());
+    let (raw, transformed): (Half, Half) = (|s| s.raw, |s| s.transformed);
+    file::OldDataStream {
+        name: Some(style.name.as_str().into()),
+        id: Some(style.id as i32),
+        source: Some([source.data_type, context.file_handle(source.object), source.auxiliary]),
+        colour: Some(style.colour),
+        zoom_and_offset: Some([transformation.multiplier, transformation.offset]),
+        ma_count: Some(transformation.period as i32),
+        transf: Some(transformation.kind.code() as i32),
+        flags: Some(flags(stream.visible, style, None)),
+        data: Some(Rest(values(raw))),
+        tdata: Some(Rest(values(transformed))),
+        valid: Some(valid(raw)),
+        tvalid: Some(valid(transformed)),
+        ..file::OldDataStream::default()
+    }
+}
+
+fn old_curve(curve: &Curve) -> file::OldCurve {
+    let mut colour = crate::scene::colour::Colour::new(curve.style.colour);
+    colour.specular = [0.0; 3];
+    file::OldCurve {
+        name: Some(curve.style.name.as_str().into()),
+        id: Some(curve.style.id as i32),
+        colour: Some(super::colour::colour(&colour)),
+        streams: Some(curve.streams.map(|id| id as i32)),
+        width: Some(curve.width as f64),
+        flags: Some(flags(true, &curve.style, (!curve.relative).then_some(4))),
+        ..file::OldCurve::default()
+    }
+}

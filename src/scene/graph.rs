@@ -1,0 +1,271 @@
+//! Graphs: streams of values over time, and curves made of them (SPEC-sensors 7). Nothing is drawn.
+
+use std::collections::VecDeque;
+
+use super::{Handle, SceneError, SceneResult};
+
+/// A graph: all its streams have a slot for each time that was recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Graph {
+    pub explicit: bool,
+    /// Most slots kept.
+    pub buffer_size: i64,
+    /// New slots replace the oldest.
+    pub cyclic: bool,
+    pub size: f64,
+    pub background: [f32; 3],
+    pub foreground: [f32; 3],
+    /// When the slots were recorded, seconds, the oldest first.
+    pub(super) times: VecDeque<f64>,
+    pub(super) streams: Vec<Stream>,
+    pub curves: Vec<Curve>,
+}
+
+/// What a stream or curve is called and looks like.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Style {
+    pub id: i64,
+    pub name: String,
+    pub unit: String,
+    pub colour: [f32; 3],
+    /// The name is shown.
+    pub label: bool,
+    /// Points are linked by lines.
+    pub linked: bool,
+}
+
+/// Values over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stream {
+    pub style: Style,
+    pub visible: bool,
+    pub transformation: Transformation,
+    /// What the next slot records.
+    pub next: Option<f64>,
+    /// As many as the graph has times; none where the values are fixed.
+    pub samples: VecDeque<Sample>,
+    /// Times and values that no recording changes.
+    pub fixed: Option<Vec<[f64; 2]>>,
+    /// Of a stream from before 4.2.
+    pub source: Option<OldSource>,
+}
+
+/// What a stream from before 4.2 told of: it is kept for files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OldSource {
+    pub data_type: i32,
+    pub object: Option<Handle>,
+    pub auxiliary: i32,
+}
+
+/// What is recorded in one slot; nothing in a gap.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Sample {
+    pub raw: Option<f64>,
+    /// After the transformation, before it is multiplied and averaged.
+    pub transformed: Option<f64>,
+}
+
+/// What a stream makes of its values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Transformation {
+    pub kind: TransformationKind,
+    pub multiplier: f64,
+    pub offset: f64,
+    /// Slots in the moving average.
+    pub period: i64,
+    /// Differences are the shortest modulo this; 0 where values are not cyclic.
+    pub cyclic_range: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TransformationKind {
+    Raw,
+    Derivative,
+    Integral,
+    Cumulative,
+}
+
+/// A curve through the values of two or three streams.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    pub style: Style,
+    /// Pixels.
+    pub width: i64,
+    /// 2 or 3.
+    pub dimensions: usize,
+    /// The streams of x, y, z; -1 for a number.
+    pub streams: [i64; 3],
+    /// The numbers where there is no stream.
+    pub defaults: [f64; 3],
+    /// Points are in the frame of the graph.
+    pub relative: bool,
+    /// Points that no recording changes.
+    pub fixed: Option<Vec<[f64; 3]>>,
+    /// It is from before 4.2.
+    pub old: bool,
+}
+
+impl TransformationKind {
+    /// From `sim.stream_transf_*`.
+    pub fn from_code(code: i64) -> Option<Self> {
+        [Self::Raw, Self::Derivative, Self::Integral, Self::Cumulative].into_iter().find(|kind| kind.code() == code)
+    }
+
+    pub fn code(self) -> i64 {
+        self as i64
+    }
+}
+
+impl Default for Transformation {
+    fn default() -> Self {
+        Self { kind: TransformationKind::Raw, multiplier: 1.0, offset: 0.0, period: 1, cyclic_range: 0.0 }
+    }
+}
+
+impl Stream {
+    pub fn new(style: Style) -> Self {
+        let (samples, transformation) = Default::default();
+        Self { style, visible: true, transformation, next: None, samples, fixed: None, source: None }
+    }
+}
+
+impl Default for Graph {
+    fn default() -> Self {
+        Self {
+            explicit: false,
+            buffer_size: 1000,
+            cyclic: true,
+            size: 0.1,
+            background: [0.1; 3],
+            foreground: [0.8; 3],
+            times: VecDeque::new(),
+            streams: Vec::new(),
+            curves: Vec::new(),
+        }
+    }
+}
+
+impl Graph {
+    /// Largest number of slots kept.
+    pub const MAX_BUFFER_SIZE: i64 = 1_000_000;
+
+    pub fn streams(&self) -> &[Stream] {
+        &self.streams
+    }
+
+    pub fn streams_mut(&mut self) -> &mut [Stream] {
+        &mut self.streams
+    }
+
+    pub fn times(&self) -> impl ExactSizeIterator<Item = f64> {
+        self.times.iter().copied()
+    }
+
+    /// # Errors
+    /// When there is no such stream.
+    pub fn stream_mut(&mut self, id: i64) -> SceneResult<&mut Stream> {
+        self.streams.iter_mut().find(|stream| stream.style.id == id).ok_or_else(no_curve)
+    }
+
+    /// A number no stream or curve has.
+    fn free_id(&self) -> i64 {
+        let ids = self.streams.iter().map(|stream| stream.style.id).chain(self.curves.iter().map(|c| c.style.id));
+        ids.max().map_or(0, |id| id.saturating_add(1))
+    }
+
+    /// Adds a stream, or changes the looks of the one with that name. Its number.
+    ///
+    /// # Errors
+    /// When there is no name, or the one with that name is fixed.
+    pub fn add_stream(&mut self, mut stream: Stream) -> SceneResult<i64> {
+        let known = self.streams.iter_mut().find(|known| known.style.name == stream.style.name);
+        check_name(&stream.style.name, known.as_ref().is_some_and(|known| known.fixed.is_some()))?;
+        if let Some(known) = known {
+            stream.style.id = known.style.id;
+            (known.style, known.visible) = (stream.style, stream.visible);
+            known.transformation.cyclic_range = stream.transformation.cyclic_range;
+            return Ok(known.style.id);
+        }
+        stream.style.id = self.free_id();
+        stream.samples = vec![Sample::default(); self.times.len()].into();
+        let id = stream.style.id;
+        self.streams.push(stream);
+        Ok(id)
+    }
+
+    /// Adds a curve, or replaces the one with that name. Its number.
+    ///
+    /// # Errors
+    /// As [`add_stream`](Self::add_stream); and when a stream of it does not exist.
+    pub fn add_curve(&mut self, mut curve: Curve) -> SceneResult<i64> {
+        let known = self.curves.iter().position(|known| known.style.name == curve.style.name);
+        check_name(&curve.style.name, known.is_some_and(|at| self.curves[at].fixed.is_some()))?;
+        let exists = |id: &i64| *id == -1 || self.streams.iter().any(|stream| stream.style.id == *id);
+        if !curve.streams[..curve.dimensions].iter().all(exists) {
+            return Err(no_curve());
+        }
+        curve.style.id = known.map_or_else(|| self.free_id(), |at| self.curves[at].style.id);
+        let id = curve.style.id;
+        match known {
+            Some(at) => self.curves[at] = curve,
+            None => self.curves.push(curve),
+        }
+        Ok(id)
+    }
+
+    /// Removes a curve or a stream.
+    ///
+    /// # Errors
+    /// When there is none with that number.
+    pub fn remove_curve(&mut self, id: i64) -> SceneResult<()> {
+        let before = (self.curves.len(), self.streams.len());
+        self.curves.retain(|curve| curve.style.id != id);
+        if self.curves.len() == before.0 {
+            self.streams.retain(|stream| stream.style.id != id);
+        }
+        if before == (self.curves.len(), self.streams.len()) { Err(no_curve()) } else { Ok(()) }
+    }
+
+    /// A copy of a stream or curve that no recording changes. Its number.
+    ///
+    /// # Errors
+    /// When there is none with that number.
+    pub fn fix_curve(&mut self, id: i64, name: &str) -> SceneResult<i64> {
+        let free = self.free_id();
+        let style = |style: &Style| {
+            let name = if name.is_empty() { format!("{} [static]", style.name) } else { name.to_owned() };
+            Style { id: free, name, ..style.clone() }
+        };
+        if let Some(curve) = self.curves.iter().find(|curve| curve.style.id == id) {
+            let fixed = Some(self.points(curve));
+            self.curves.push(Curve { style: style(&curve.style), fixed, ..curve.clone() });
+        } else {
+            let stream = self.streams.iter().find(|stream| stream.style.id == id).ok_or_else(no_curve)?;
+            let (style, fixed) = (style(&stream.style), Some(self.values(stream)));
+            self.streams.push(Stream { fixed, visible: stream.visible, ..Stream::new(style) });
+        }
+        Ok(free)
+    }
+
+    /// Takes what a file holds; a stream that has not a sample for each time gets gaps.
+    pub fn restore(&mut self, times: VecDeque<f64>, mut streams: Vec<Stream>, curves: Vec<Curve>) {
+        let slots = times.len();
+        for stream in streams.iter_mut() {
+            stream.samples.resize(if stream.fixed.is_some() { 0 } else { slots }, Sample::default());
+        }
+        (self.times, self.streams, self.curves) = (times, streams, curves);
+    }
+}
+
+fn check_name(name: &str, is_fixed: bool) -> SceneResult<()> {
+    match (name, is_fixed) {
+        ("", _) => Err(SceneError::Refused("empty string is not allowed.".into())),
+        (_, true) => Err(SceneError::Refused("cannot overwrite static curve.".into())),
+        _ => Ok(()),
+    }
+}
+
+fn no_curve() -> SceneError {
+    SceneError::Refused("invalid curve id.".into())
+}
