@@ -106,18 +106,12 @@ local LEGACY_ARGS = {
 local function fromLegacyArgs(...)
     local flags, pos, vel, accel, maxVel, maxAccel, maxJerk, targetPos, targetVel, callback, aux, cyclic, timeStep =
         require('checkargs').checkargsEx({level = 1}, LEGACY_ARGS, ...)
-    motion.checkCallback(callback, 4)
     local n = #pos
     local params = {
         flags = flags, pos = pos, vel = vel, accel = accel, auxData = aux, cyclicJoints = cyclic, timeStep = timeStep,
         targetPos = table.move(targetPos, 1, n, 1, {}), targetVel = targetVel,
-        maxJerk = table.move(maxJerk, 1, n, 1, {}),
     }
-    params.maxVel, params.minVel = motion.splitLegacy(maxVel, n, flags, sim.ruckig_minvel)
-    params.maxAccel, params.minAccel = motion.splitLegacy(maxAccel, n, flags, sim.ruckig_minaccel)
-    params.callback = function(data)
-        return motion.functionOf(callback)(data.pos, data.vel, data.accel, data.auxData)
-    end
+    motion.addOlder(params, n, {vel = maxVel, accel = maxAccel, jerk = maxJerk}, callback, 'pos', 4)
     return params
 end
 

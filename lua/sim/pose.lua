@@ -185,19 +185,10 @@ local LEGACY_ARGS = {
 local function fromLegacyArgs(...)
     local flags, pose, maxVel, maxAccel, maxJerk, targetPose, callback, aux, metric, timeStep =
         require('checkargs').checkargsEx({level = 1}, LEGACY_ARGS, ...)
-    motion.checkCallback(callback, 4)
-    local n = metric and 1 or 4
-    local shape = #pose == 12 and 'matrix' or 'pose'
-    local params = {
-        flags = flags, pose = pose, targetPose = targetPose, auxData = aux, metric = metric, timeStep = timeStep,
-        maxJerk = table.move(maxJerk, 1, n, 1, {}),
-    }
-    params.maxVel, params.minVel = motion.splitLegacy(maxVel, n, flags, sim.ruckig_minvel)
-    params.maxAccel, params.minAccel = motion.splitLegacy(maxAccel, n, flags, sim.ruckig_minaccel)
-    params.callback = function(data)
-        return motion.functionOf(callback)(data[shape], data.vel, data.accel, data.auxData)
-    end
-    return params, shape
+    local field = #pose == 12 and 'matrix' or 'pose'
+    local params = {flags = flags, pose = pose, targetPose = targetPose, auxData = aux, metric = metric, timeStep = timeStep}
+    motion.addOlder(params, metric and 1 or 4, {vel = maxVel, accel = maxAccel, jerk = maxJerk}, callback, field, 4)
+    return params, field
 end
 
 --- Starts a motion that is advanced with sim.moveToPose_step.

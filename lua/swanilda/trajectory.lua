@@ -109,11 +109,23 @@ function M.completeLimits(data, n, scalarVel, level)
     data.timeStep = data.timeStep or 0
 end
 
---- The maxima of the older form, and the minima behind them if the flag announces any.
-function M.splitLegacy(limits, n, flags, flag)
+-- The maxima of the older form, and the minima behind them if the flag announces any.
+local function split(limits, n, flags, flag)
     local maxima = table.move(limits, 1, n, 1, {})
     if flags < 0 or flags & flag == 0 or #limits < 2 * n then return maxima, nil end
     return maxima, table.move(limits, n + 1, 2 * n, 1, {})
+end
+
+--- Adds to params what the older form gives: limits, perhaps with minima, and a callback(data[field], vel, accel, auxData).
+function M.addOlder(params, n, limits, callback, field, level)
+    M.checkCallback(callback, level + 1)
+    local flags = params.flags
+    params.maxVel, params.minVel = split(limits.vel, n, flags, sim.ruckig_minvel)
+    params.maxAccel, params.minAccel = split(limits.accel, n, flags, sim.ruckig_minaccel)
+    params.maxJerk = table.move(limits.jerk, 1, n, 1, {})
+    params.callback = function(data)
+        return M.functionOf(callback)(data[field], data.vel, data.accel, data.auxData)
+    end
 end
 
 local function timeStep(data) return data.timeStep == 0 and sim.getSimulationTimeStep() or data.timeStep end

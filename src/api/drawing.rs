@@ -75,12 +75,7 @@ fn add_drawing_object_item(
 /// @param drawingObjectHandle from sim.addDrawingObject, or sim.handle_all
 #[api("sim.removeDrawingObject")]
 fn remove_drawing_object(cx: &mut Cx, drawing_object_handle: Number) -> Result<()> {
-    let drawings = drawings(cx);
-    if drawing_object_handle.0 == special::ALL {
-        drawings.borrow_mut().clear();
-        return Ok(());
-    }
-    drawings.borrow_mut().remove(drawing_object_handle.0).map(drop).ok_or_else(no_drawing)
+    remove(&mut drawings(cx).borrow_mut(), drawing_object_handle, no_drawing)
 }
 
 /// Adds a view to the page.
@@ -173,12 +168,7 @@ fn add_particle_object_item(
 /// @param particleObjectHandle from sim.addParticleObject, or sim.handle_all
 #[api("sim.removeParticleObject")]
 fn remove_particle_object(cx: &mut Cx, particle_object_handle: Number) -> Result<()> {
-    let particles = particles(cx);
-    if particle_object_handle.0 == special::ALL {
-        particles.borrow_mut().clear();
-        return Ok(());
-    }
-    particles.borrow_mut().remove(particle_object_handle.0).map(drop).ok_or_else(no_particles)
+    remove(&mut particles(cx).borrow_mut(), particle_object_handle, no_particles)
 }
 
 /// A source of particles.
@@ -187,6 +177,15 @@ struct Particles;
 struct Drawing;
 /// A floating view.
 struct View;
+
+/// Removes one of them, or all.
+fn remove<T>(all: &mut ByHandle<T>, handle: Number, missing: fn() -> ApiError) -> Result<()> {
+    if handle.0 == special::ALL {
+        all.clear();
+        return Ok(());
+    }
+    all.remove(handle.0).map(drop).ok_or_else(missing)
+}
 
 fn drawings(cx: &Cx) -> Rc<RefCell<ByHandle<Drawing>>> {
     cx.library_data()

@@ -10,7 +10,7 @@ use super::{Data, DynamicsSettings, Kept, dummy::Dummy, engine_params::EnginePar
 
 /// The numbers of a row of parameters: the first one of the real ones and how many a file of 4.10 holds, then of the integers.
 #[derive(Debug, Clone, Copy)]
-struct Rows {
+pub struct Rows {
     reals: (i64, usize),
     ints: (i64, usize),
 }
@@ -46,13 +46,14 @@ const DUMMY: Rows = rows(46_001, 21, 47_001, 2);
 
 /// What has engine parameters of its own.
 pub trait EngineValues {
-    fn rows(&self, engine: usize) -> Option<(i64, usize, i64, usize)>;
+    /// Those of one engine, by its place in [`super::engine_params::ENGINES`].
+    fn rows(&self, engine: usize) -> Option<Rows>;
     fn value(&self, param: &EngineParam) -> Data;
     fn set(&mut self, param: &'static EngineParam, value: Data);
 
-    /// Takes the rows of one engine, by its place in [`super::engine_params::ENGINES`].
+    /// Takes the rows of one engine.
     fn load_engine(&mut self, engine: usize, reals: &[f64], ints: &[i32]) {
-        let Some((first_real, _, first_int, _)) = self.rows(engine) else { return };
+        let Some(Rows { reals: (first_real, _), ints: (first_int, _) }) = self.rows(engine) else { return };
         for (number, real) in (first_real..).zip(reals) {
             if real.is_finite() && !is_step_size(number) {
                 self.set_number(number, *real);
@@ -65,7 +66,8 @@ pub trait EngineValues {
 
     /// The rows of one engine; zero where a number has no counterpart.
     fn engine_rows(&self, engine: usize) -> (Vec<f64>, Vec<i32>) {
-        let Some((first_real, reals, first_int, ints)) = self.rows(engine) else { return Default::default() };
+        let Some(rows) = self.rows(engine) else { return Default::default() };
+        let ((first_real, reals), (first_int, ints)) = (rows.reals, rows.ints);
         let real = |at: usize| self.number(first_real + at as i64).unwrap_or_default();
         let int = |at: usize| self.number(first_int + at as i64).unwrap_or_default() as i32;
         ((0..reals).map(real).collect(), (0..ints).map(int).collect())
@@ -97,13 +99,9 @@ pub trait EngineValues {
     }
 }
 
-fn row(all: &[Rows; 5], engine: usize) -> Option<(i64, usize, i64, usize)> {
-    all.get(engine).map(|r| (r.reals.0, r.reals.1, r.ints.0, r.ints.1))
-}
-
 impl EngineValues for Material {
-    fn rows(&self, engine: usize) -> Option<(i64, usize, i64, usize)> {
-        row(&MATERIAL, engine)
+    fn rows(&self, engine: usize) -> Option<Rows> {
+        MATERIAL.get(engine).copied()
     }
     fn value(&self, param: &EngineParam) -> Data {
         self.engine_value(param)
@@ -114,8 +112,8 @@ impl EngineValues for Material {
 }
 
 impl EngineValues for Joint {
-    fn rows(&self, engine: usize) -> Option<(i64, usize, i64, usize)> {
-        row(&JOINT, engine)
+    fn rows(&self, engine: usize) -> Option<Rows> {
+        JOINT.get(engine).copied()
     }
     fn value(&self, param: &EngineParam) -> Data {
         self.engine_value(param)
@@ -126,8 +124,8 @@ impl EngineValues for Joint {
 }
 
 impl EngineValues for DynamicsSettings {
-    fn rows(&self, engine: usize) -> Option<(i64, usize, i64, usize)> {
-        row(&SCENE, engine)
+    fn rows(&self, engine: usize) -> Option<Rows> {
+        SCENE.get(engine).copied()
     }
     fn value(&self, param: &EngineParam) -> Data {
         kept_value(&self.engine_values, param, EngineOwner::Scene)
@@ -138,8 +136,8 @@ impl EngineValues for DynamicsSettings {
 }
 
 impl EngineValues for Dummy {
-    fn rows(&self, engine: usize) -> Option<(i64, usize, i64, usize)> {
-        (engine == 4).then_some((DUMMY.reals.0, DUMMY.reals.1, DUMMY.ints.0, DUMMY.ints.1))
+    fn rows(&self, engine: usize) -> Option<Rows> {
+        (engine == 4).then_some(DUMMY)
     }
     fn value(&self, param: &EngineParam) -> Data {
         kept_value(&self.engine_values, param, EngineOwner::Dummy)

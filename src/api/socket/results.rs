@@ -68,17 +68,7 @@ impl IntoScript for Received {
 
     #[allow(private_interfaces)]
     fn into_script(self, stack: Stack<'_>) -> Result<()> {
-        match self.result {
-            Ok(()) => {
-                stack.push_bytes(&self.data);
-                stack.push_nil();
-                stack.push_nil();
-            }
-            Err(failure) => {
-                push_failure(stack, failure)?;
-                stack.push_bytes(&self.data);
-            }
-        }
+        push_progress(stack, self.result, || stack.push_bytes(&self.data))?;
         if self.data.capacity() <= KEPT {
             self.sockets.space.set(self.data);
         }
@@ -97,17 +87,22 @@ impl IntoScript for Sent {
 
     #[allow(private_interfaces)]
     fn into_script(self, stack: Stack<'_>) -> Result<()> {
-        match self.result {
-            Ok(()) => {
-                stack.push_number(self.last);
-                stack.push_nil();
-                stack.push_nil();
-            }
-            Err(failure) => {
-                push_failure(stack, failure)?;
-                stack.push_number(self.last);
-            }
-        }
-        Ok(())
+        push_progress(stack, self.result, || stack.push_number(self.last))
     }
+}
+
+/// How far it came, nil, nil; or nil, why, and how far it came.
+fn push_progress(stack: Stack<'_>, result: std::result::Result<(), Failure>, push: impl FnOnce()) -> Result<()> {
+    match result {
+        Ok(()) => {
+            push();
+            stack.push_nil();
+            stack.push_nil();
+        }
+        Err(failure) => {
+            push_failure(stack, failure)?;
+            push();
+        }
+    }
+    Ok(())
 }

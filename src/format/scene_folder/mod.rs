@@ -11,6 +11,7 @@ use std::path::{Component, Path};
 use crate::format::scene_file::ScriptSources;
 use crate::format::ttt::File;
 use crate::format::ttt::chunks::{MeshData, MeshNode};
+use crate::format::ttt::mesh_arrays::MeshArrays;
 use crate::format::ttt::node::{Node, NodeResult, at};
 use crate::format::ttt::tree::{Class, MeshTree};
 use names::Names;
@@ -204,7 +205,7 @@ fn take_meshes(file: &mut File) -> NodeResult<Vec<String>> {
 }
 
 fn put_meshes(folder: &Path, file: &mut File) -> NodeResult<()> {
-    let mut arrays = obj::Arrays::default();
+    let mut arrays = MeshArrays::default();
     let mut known = std::collections::HashMap::new();
     let mut any = false;
     for_each_mesh(file, &mut |data| {
@@ -214,7 +215,7 @@ fn put_meshes(folder: &Path, file: &mut File) -> NodeResult<()> {
             Some(places) => *places,
             None => {
                 let name = mesh_name(number);
-                let places = at(&name, read(folder, &name).and_then(|text| arrays.add(&text)))?;
+                let places = arrays.add(at(&name, read(folder, &name).and_then(|text| obj::read(&text)))?);
                 *known.entry(number).or_insert(places)
             }
         };
@@ -224,9 +225,6 @@ fn put_meshes(folder: &Path, file: &mut File) -> NodeResult<()> {
     file.contents.mesh_pool = any.then_some(arrays.pool);
     Ok(())
 }
-
-/// Of the meshes of a pool, by places.
-type Places = [Option<i32>; 4];
 
 /// The array at a place.
 fn find<T>(list: &[T], place: Option<i32>) -> Option<&T> {

@@ -1,13 +1,13 @@
 //! Meshes as Wavefront OBJ. A comment keeps which edges are drawn, which OBJ cannot say.
 
 use std::collections::HashMap;
-use std::hash::Hash;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::{Places, find};
+use super::find;
 use crate::format::ttt::chunks::MeshPool;
+use crate::format::ttt::mesh_arrays::{Arrays, Places};
 use crate::format::ttt::node::NodeResult;
 use crate::format::ttt::{Indices, Normals, Rest};
 
@@ -56,38 +56,14 @@ pub(super) fn write(pool: &MeshPool, [vertices, indices, normals, edges]: Places
     Ok(out)
 }
 
-/// Arrays out of OBJ files; equal ones are kept once.
-#[derive(Default)]
-pub(super) struct Arrays {
-    pub(super) pool: MeshPool,
-    vertices: HashMap<Vec<u32>, i32>,
-    indices: HashMap<Vec<i32>, i32>,
-    normals: HashMap<Vec<u32>, i32>,
-    edges: HashMap<Vec<u8>, i32>,
-}
-
-impl Arrays {
-    /// # Errors
-    /// When the text is no mesh.
-    pub(super) fn add(&mut self, text: &[u8]) -> NodeResult<Places> {
-        let mesh = Parsed::read(&String::from_utf8_lossy(text))?;
-        let bits = |numbers: &[f32]| numbers.iter().map(|n| n.to_bits()).collect::<Vec<u32>>();
-        let (vertices, normals) = (mesh.vertices, mesh.corner_normals);
-        Ok([
-            Some(place(&mut self.vertices, bits(&vertices), &mut self.pool.vertices, Rest(vertices))),
-            Some(place(&mut self.indices, mesh.indices.clone(), &mut self.pool.indices, Indices(mesh.indices))),
-            (!normals.is_empty())
-                .then(|| place(&mut self.normals, bits(&normals), &mut self.pool.normals, Normals(normals))),
-            mesh.edges.map(|edges| place(&mut self.edges, edges.clone(), &mut self.pool.edges, Rest(edges))),
-        ])
-    }
-}
-
-fn place<K: Hash + Eq, T>(known: &mut HashMap<K, i32>, key: K, list: &mut Vec<T>, array: T) -> i32 {
-    *known.entry(key).or_insert_with(|| {
-        list.push(array);
-        list.len() as i32 - 1
-    })
+/// The mesh in an OBJ file.
+///
+/// # Errors
+/// When the text is no mesh.
+pub(super) fn read(text: &[u8]) -> NodeResult<Arrays> {
+    let mesh = Parsed::read(&String::from_utf8_lossy(text))?;
+    let normals = Some(mesh.corner_normals).filter(|normals| !normals.is_empty());
+    Ok(Arrays { vertices: mesh.vertices, indices: mesh.indices, normals, edges: mesh.edges })
 }
 
 #[derive(Default)]
@@ -168,16 +144,16 @@ mod tests {
 
     #[test]
     fn files_of_other_programs_are_read() {
-        let mut arrays = Arrays::default();
         let square = b"o square\nv 0 0 0 1\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nf -4/1 2/1 3/1 4/1\n";
-        assert_eq!(arrays.add(square), Ok([Some(0), Some(0), None, None]));
-        assert_eq!(arrays.pool.indices[0].0, [0, 1, 2, 0, 2, 3]);
+        let mesh = read(square).expect("a mesh");
+        assert_eq!((mesh.vertices.len(), mesh.normals, mesh.edges), (12, None, None));
+        assert_eq!(mesh.indices, [0, 1, 2, 0, 2, 3]);
     }
 
     #[test]
     fn damaged_files_are_errors() {
         for text in ["v 1 2", "f 1 2 3", "v 0 0 0\nf 1 1 2", "v 0 0 0\nf 1//1 1 1", "v 0 0 0\nf x 1 1", "# edges ?"] {
-            assert!(Arrays::default().add(text.as_bytes()).is_err(), "{text}");
+            assert!(read(text.as_bytes()).is_err(), "{text}");
         }
     }
 }

@@ -7,6 +7,7 @@ pub mod chunks;
 pub mod container;
 mod error;
 mod huffman;
+pub mod mesh_arrays;
 pub mod node;
 mod read;
 mod stream;

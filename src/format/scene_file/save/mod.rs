@@ -101,7 +101,7 @@ fn contents(scene: &Scene, order: &[Handle], base: Option<Handle>, scripts: &[Lo
         scripts: attached.map(script::attached).collect(),
         collections: settings::collections(&context),
         objects,
-        mesh_pool: Some(context.pool.chunk),
+        mesh_pool: Some(context.pool.arrays.pool),
         ..Contents::default()
     })
 }
