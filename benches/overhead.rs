@@ -13,6 +13,8 @@ const SUB_STEPS: usize = 10;
 const HALF: f64 = 0.05;
 /// Metres per second.
 const SLIDING: f64 = 1e-4;
+/// Bodies that move more slowly may sleep, metres or radians per second; as in the simulator.
+const RESTING: f64 = 1e-5;
 
 const SCENE: &str = "
 sim = require 'sim'
@@ -62,7 +64,9 @@ fn raw_rapier(count: usize) -> RawWorld {
     for i in 0..count {
         let at = Vector::new((i % 32) as f64 * 0.15 - 2.4, (i / 32) as f64 * 0.15 - 2.4, HALF);
         let body = RigidBodyBuilder::dynamic().translation(at).linvel(Vector::new(SLIDING, 0.0, 0.0));
-        raw.add(body.can_sleep(false).allow_fast_rotation(true), cuboid(HALF, HALF, HALF));
+        let body = raw.add(body.allow_fast_rotation(true), cuboid(HALF, HALF, HALF));
+        let activation = raw.bodies[body].activation_mut();
+        (activation.normalized_linear_threshold, activation.angular_threshold) = (RESTING, RESTING);
     }
     pass(&mut raw);
     raw

@@ -9,7 +9,7 @@ use std::rc::Rc;
 use rapier3d_f64::math::{Pose as EnginePose, Vector};
 use rapier3d_f64::prelude::{ColliderHandle, ContactManifold, ContactManifoldData, ContactPair, RigidBodyHandle};
 
-use super::contacts::tags;
+use super::bodies::Tag;
 use super::convert::from_vector;
 use super::world::World;
 use crate::scene::Handle;
@@ -61,8 +61,15 @@ struct Resting {
     contacts: Rc<Batch>,
     /// The bodies that were awake when this was found out; None when it has to be found out.
     awake: Option<Vec<RigidBodyHandle>>,
-    /// By index of the collider: whether its body is awake.
-    is_awake: Vec<bool>,
+    /// By index of the collider. Looking a collider up costs more than all else that is kept of a contact.
+    colliders: Vec<Option<Known>>,
+}
+
+/// What is known of a collider.
+#[derive(Clone, Copy)]
+struct Known {
+    shape: Handle,
+    awake: bool,
 }
 
 /// Contacts of sub-steps of one length.
@@ -109,8 +116,7 @@ impl ContactLog {
         let first = self.awake.touches.len();
         self.awake.step = step;
         if self.resting.is_anybody_awake() {
-            let pairs = world.narrow_phase.contact_pairs().filter(|pair| self.resting.is_awake(pair));
-            pairs.for_each(|pair| self.awake.add_pair(world, pair));
+            self.awake.add_pairs(world, |pair| self.resting.shapes(pair, true));
         }
         let touches = first..self.awake.touches.len();
         self.passes.push(SubStep { touches, resting: self.resting.contacts.clone() });
@@ -131,40 +137,56 @@ impl Resting {
         if self.awake.as_ref().is_some_and(|awake| world.awake().eq(awake.iter().copied())) {
             return;
         }
-        self.is_awake.clear();
+        self.awake = Some(world.awake().collect());
+        self.know_colliders(world);
+        let mut contacts = Batch { step, ..Batch::default() };
+        contacts.add_pairs(world, |pair| self.shapes(pair, false));
+        self.contacts = Rc::new(contacts);
+    }
+
+    fn know_colliders(&mut self, world: &World) {
+        self.colliders.clear();
+        for (handle, collider) in world.colliders.iter() {
+            let index = index_of(handle);
+            self.colliders.resize(self.colliders.len().max(index + 1), None);
+            let shape = Tag::unpack(collider.user_data).shape;
+            self.colliders[index] = Some(Known { shape, awake: false });
+        }
         for rigid in world.awake().filter_map(|handle| world.bodies.get(handle)) {
-            for index in rigid.colliders().iter().map(|collider| collider.into_raw_parts().0 as usize) {
-                self.is_awake.resize(self.is_awake.len().max(index + 1), false);
-                self.is_awake[index] = true;
+            for &collider in rigid.colliders() {
+                if let Some(Some(known)) = self.colliders.get_mut(index_of(collider)) {
+                    known.awake = true;
+                }
             }
         }
-        self.awake = Some(world.awake().collect());
-        let mut contacts = Batch { step, ..Batch::default() };
-        let pairs = world.narrow_phase.contact_pairs().filter(|pair| !self.is_awake(pair));
-        pairs.for_each(|pair| contacts.add_pair(world, pair));
-        self.contacts = Rc::new(contacts);
     }
 
     fn is_anybody_awake(&self) -> bool {
         self.awake.as_ref().is_some_and(|awake| !awake.is_empty())
     }
 
-    /// Whether one of the two bodies is awake.
-    fn is_awake(&self, pair: &ContactPair) -> bool {
-        let awake = |collider: ColliderHandle| self.is_awake.get(collider.into_raw_parts().0 as usize) == Some(&true);
-        awake(pair.collider1) || awake(pair.collider2)
+    /// The shapes of a pair, if whether one of them is awake is as asked.
+    fn shapes(&self, pair: &ContactPair, awake: bool) -> Option<[Handle; 2]> {
+        let [a, b] = [pair.collider1, pair.collider2].map(|collider| self.colliders.get(index_of(collider)));
+        let (a, b) = ((*a?)?, (*b?)?);
+        ((a.awake || b.awake) == awake).then_some([a.shape, b.shape])
     }
 }
 
+fn index_of(collider: ColliderHandle) -> usize {
+    collider.into_raw_parts().0 as usize
+}
+
 impl Batch {
-    fn add_pair(&mut self, world: &World, pair: &ContactPair) {
-        let touching = |manifold: &&ContactManifold| !manifold.data.solver_contacts.is_empty();
-        let mut manifolds = pair.solver_manifolds().iter().filter(touching).peekable();
-        if manifolds.peek().is_none() {
-            return;
+    /// Adds the contacts of the pairs of which `shapes` tells the shapes.
+    fn add_pairs(&mut self, world: &World, shapes: impl Fn(&ContactPair) -> Option<[Handle; 2]>) {
+        for pair in world.narrow_phase.contact_pairs() {
+            let Some(shapes) = shapes(pair) else { continue };
+            for manifold in pair.solver_manifolds().iter().filter(|manifold| !manifold.data.solver_contacts.is_empty())
+            {
+                self.add_manifold(world, manifold, shapes);
+            }
         }
-        let Some([a, b]) = tags(&world.colliders, pair.collider1, pair.collider2) else { return };
-        manifolds.for_each(|manifold| self.add_manifold(world, manifold, [a.shape, b.shape]));
     }
 
     fn add_manifold(&mut self, world: &World, manifold: &ContactManifold, shapes: [Handle; 2]) {
