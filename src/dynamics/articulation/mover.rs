@@ -15,8 +15,6 @@ use crate::scene::{Handle, Pose};
 /// A body that hangs on links.
 pub(super) struct Mover {
     pub shape: Handle,
-    /// The first of the bodies it is linked with, directly or not; static ones separate.
-    pub group: usize,
     pub rigid: RigidBodyHandle,
     pub inverse_mass: f64,
     pub inertia: Matrix3<f64>,
@@ -54,7 +52,6 @@ impl Mover {
         let inverse = (mass.inertia * mass.mass).try_inverse().filter(|_| body.build.dynamic);
         Self {
             shape,
-            group: 0,
             rigid: body.rigid,
             inverse_mass: if body.build.dynamic { 1.0 / mass.mass } else { 0.0 },
             inertia: mass.inertia * mass.mass,

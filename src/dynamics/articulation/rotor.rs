@@ -8,7 +8,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::Articulation;
+use super::chain::Chain;
 use super::mover::Mover;
 use crate::dynamics::links::Links;
 use crate::dynamics::plan::LinkKind;
@@ -34,7 +34,7 @@ pub(super) struct Rotor {
     before: Option<Vector3<f64>>,
 }
 
-impl Articulation {
+impl Chain {
     /// The spins of the bodies on joints that turn far in a sub-step, by their place.
     pub(super) fn far_spins(&self, links: &Links, world: &World, step: f64) -> Vec<Option<Spin>> {
         let mut spins: Vec<Option<Spin>> = vec![None; self.movers.len()];

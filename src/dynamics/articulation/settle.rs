@@ -2,8 +2,8 @@
 
 use nalgebra::Vector6;
 
-use super::Articulation;
 use super::block_cholesky::Segment;
+use super::chain::Chain;
 use super::mover::{Mover, Place};
 use super::node::Node;
 use crate::dynamics::links::Links;
@@ -21,10 +21,10 @@ const PROGRESS: f64 = 0.75;
 /// lest energy comes from nowhere.
 const RESOLVED_TURN: f64 = 0.1;
 
-impl Articulation {
+impl Chain {
     /// Puts the bodies back where the links want them: integration leaves them off by the curvature of their ways. The velocities
     /// learn of it, which makes the whole a SHAKE step and keeps the energy.
-    pub(in crate::dynamics) fn settle(&mut self, links: &Links, world: &mut World, step: f64) {
+    pub(super) fn settle(&mut self, links: &Links, world: &mut World, step: f64) {
         let spins = self.far_spins(links, world, step);
         for (mover, spin) in self.movers.iter_mut().zip(spins) {
             let before = mover.pose.rotation;

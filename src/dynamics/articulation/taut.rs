@@ -9,7 +9,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::Articulation;
+use super::chain::Chain;
 use super::mover::Mover;
 use super::node::Node;
 
@@ -35,7 +35,7 @@ impl Taut {
     }
 }
 
-impl Articulation {
+impl Chain {
     /// Begins a sub-step with the inertia that the forces of the one before ask for.
     pub(super) fn steady(&mut self, step: f64) {
         for mover in self.movers.iter_mut().filter(|mover| mover.taut.added.is_some()) {

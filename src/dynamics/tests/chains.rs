@@ -123,6 +123,17 @@ fn a_heavy_load_on_a_chain_hits_the_ground() {
     assert!(swing.gap < 1e-3 && swing.gained < 0.02, "{swing:?}");
 }
 
+/// The chain whips about faster than can be followed, so that its spins are bounded; the arm is not.
+#[test]
+fn an_arm_moves_the_same_beside_a_wild_chain() {
+    let mut alone = Bench::new();
+    let mut chain = Chain::loaded(JointType::Revolute, 0.5, 10.0);
+    let [lone, beside] = [&mut alone, &mut chain.bench].map(|bench| bench.arm(0.02, 0.1, |_| {}).0);
+    alone.run(30);
+    chain.bench.run(30);
+    assert_eq!(alone.joint(lone).position, chain.bench.joint(beside).position);
+}
+
 #[test]
 fn a_swinging_chain_keeps_its_energy() {
     let mut bench = Bench::new();
