@@ -826,6 +826,13 @@ function sim.getEulerAnglesFromMatrix(matrix) end
 ---@return integer explicitHandlingFlags 1 if so
 function sim.getExplicitHandling(objectHandle) end
 
+--- What an object, or the scene, says to renderers: `povray {focalBlur {true}} openGL3 {...}`.
+---@param objectHandle integer the object, or sim.handle_scene
+---@param index integer -1: of the object itself; those of its colours are not kept
+---@param key? string one entry, the innermost name first: `focalBlur@povray`; nothing for the whole text
+---@return string theString nothing when there is no such entry
+function sim.getExtensionString(objectHandle, index, key) end
+
 --- Value of a property.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
 ---@param propertyName string its name
@@ -1929,6 +1936,25 @@ function sim.includeRel(path) end
 --- Ends a script and starts it anew at once.
 ---@param scriptHandle integer the script
 function sim.initScript(scriptHandle) end
+
+--- Occupies the cells an object takes: those that the triangles of a shape touch, that voxels overlap, that points or a dummy are in.
+---@param octreeHandle integer the octree
+---@param objectHandle integer a shape, octree, point cloud or dummy
+---@param options integer not used
+---@param color? number[] red, green, blue, 0 to 255; nothing for the colour of the octree
+---@param tag? integer a number for the voxels
+---@return integer totalVoxelCnt how many voxels there are now
+function sim.insertObjectIntoOctree(octreeHandle, objectHandle, options, color, tag) end
+
+--- Adds points of an object: the centres of the cells of a grid that the triangles of a shape touch, of voxels, points, or where a dummy is.
+---@param pointCloudHandle integer the point cloud
+---@param objectHandle integer a shape, octree, point cloud or dummy
+---@param options integer not used
+---@param gridSize number edge of the cells for shapes, 0.001 to 1 m
+---@param color? number[] red, green, blue, 0 to 255; nothing for the colour of the point cloud
+---@param duplicateTolerance? number points this near to another are left out, metres
+---@return integer totalPointCnt how many points there are now
+function sim.insertObjectIntoPointCloud(pointCloudHandle, objectHandle, options, gridSize, color, duplicateTolerance) end
 
 --- Adds points.
 ---@param pointCloudHandle integer the point cloud
@@ -3353,6 +3379,21 @@ function sim.step() end
 --- Asks for the end of the simulation; some more steps follow.
 ---@param wait? boolean wait until stopped, at most 20 steps; not possible in main and simulation scripts
 function sim.stopSimulation(wait) end
+
+--- Empties the cells an object takes, as `sim.insertObjectIntoOctree` would occupy them.
+---@param octreeHandle integer the octree
+---@param objectHandle integer a shape, octree, point cloud or dummy
+---@param options integer not used
+---@return integer totalVoxelCnt how many voxels are left
+function sim.subtractObjectFromOctree(octreeHandle, objectHandle, options) end
+
+--- Removes the points that lie near an object: near the triangles of a shape, near voxels, points or a dummy.
+---@param pointCloudHandle integer the point cloud
+---@param objectHandle integer a shape, octree, point cloud or dummy
+---@param options integer not used
+---@param tolerance number how near, metres
+---@return integer totalPointCnt how many points are left
+function sim.subtractObjectFromPointCloud(pointCloudHandle, objectHandle, options, tolerance) end
 
 --- Same as sim.step.
 ---@deprecated sim.step

@@ -57,6 +57,7 @@ mod time;
 mod trajectory;
 mod tube;
 mod user_param;
+mod voxel_objects;
 mod voxels;
 mod zmq;
 
@@ -122,6 +123,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Consoles, messages of the interface, semaphores", auxiliary_console::FUNCTIONS),
     ("User parameters", user_param::FUNCTIONS),
     ("Octrees and point clouds", voxels::FUNCTIONS),
+    ("Objects in octrees and point clouds", voxel_objects::FUNCTIONS),
     ("Scene files", scene_file::FUNCTIONS),
     ("Graphs", graph::FUNCTIONS),
     ("Display", drawing::FUNCTIONS),

@@ -2,8 +2,8 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
-use crate::scene::{Field, Handle, Kind, Object, References, SceneError, flag};
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::{Field, Handle, Kind, Object, References, SceneError, extension_string, flag, special};
 use crate::script::{Handles, Number, ObjectRef};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -13,6 +13,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     set_object_special_property,
     get_model_property,
     set_model_property,
+    get_extension_string,
     get_explicit_handling,
     set_explicit_handling,
     get_object_size_factor,
@@ -83,6 +84,33 @@ fn explicit_flag(object: &mut Object) -> std::result::Result<&mut bool, SceneErr
         Kind::Graph(graph) => Ok(&mut graph.explicit),
         _ => Err(SceneError::InvalidArgument),
     }
+}
+
+/// What an object, or the scene, says to renderers: `povray {focalBlur {true}} openGL3 {...}`.
+///
+/// @param objectHandle the object, or sim.handle_scene
+/// @param index -1: of the object itself; those of its colours are not kept
+/// @param key one entry, the innermost name first: `focalBlur@povray`; nothing for the whole text
+/// @return theString nothing when there is no such entry
+#[api("sim.getExtensionString")]
+fn get_extension_string(
+    cx: &Cx,
+    object_handle: Number,
+    index: Number,
+    #[default(None)] key: Option<String>,
+) -> Result<Option<String>> {
+    if index.0 >= 0 {
+        return Err(ApiError::NotImplemented("sim.getExtensionString of colours".into()));
+    }
+    let scene = cx.scene();
+    let text = match object_handle.0 {
+        special::SCENE => &scene.settings().surroundings.extension_string,
+        raw => &scene.object(Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?)?.extension_string,
+    };
+    Ok(match key {
+        None => Some(text.clone()),
+        Some(key) => extension_string::entry(text, &key).map(str::to_owned),
+    })
 }
 
 /// Whether a sensor or graph is left out when all are handled.

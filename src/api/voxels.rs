@@ -1,4 +1,4 @@
-//! `sim.*`: what octrees and point clouds hold. Objects as a whole (`insertObjectIntoOctree` and its like) are not built.
+//! `sim.*`: what octrees and point clouds hold.
 
 use api_macro::api;
 
@@ -54,7 +54,7 @@ fn colours(scene: &Scene, handle: Handle, options: i64, given: Option<&[f64]>, c
     }
 }
 
-fn count(len: usize) -> i64 {
+pub(super) fn count(len: usize) -> i64 {
     i64::try_from(len).unwrap_or(i64::MAX)
 }
 
@@ -184,7 +184,7 @@ fn insert_points(
     })
 }
 
-fn change_cloud(scene: &mut Scene, handle: Handle, change: impl FnOnce(&mut PointCloud)) -> Result<i64> {
+pub(super) fn change_cloud(scene: &mut Scene, handle: Handle, change: impl FnOnce(&mut PointCloud)) -> Result<i64> {
     Ok(scene.try_modify(handle, Field::Geometry, |object| {
         let cloud = object.point_cloud_mut()?;
         change(cloud);

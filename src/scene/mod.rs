@@ -20,6 +20,7 @@ pub mod engine_params;
 mod engine_values;
 pub mod error;
 pub mod euler;
+pub mod extension_string;
 pub mod extrusion;
 pub mod force_sensor;
 pub mod graph;
@@ -71,6 +72,7 @@ pub mod texture_mapping;
 pub mod time_optimal;
 mod tree;
 mod value_type;
+mod voxelize;
 
 pub use change::{Change, Changes, Counters, Field};
 pub use collection::{Collection, CollectionItem};

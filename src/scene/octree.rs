@@ -87,6 +87,15 @@ impl OcTree {
         self.voxels.iter().map(move |([z, y, x], voxel)| ([*x, *y, *z].map(middle), *voxel))
     }
 
+    /// The centres of the voxels in the layers between two heights.
+    pub(super) fn layers(&self, low: f64, high: f64) -> impl Iterator<Item = [f64; 3]> {
+        let layer = |height: f64| (height / self.voxel_size).floor() as i32;
+        let (first, last) = (layer(low), layer(high));
+        let cells = [first, i32::MIN, i32::MIN]..=[last.max(first), i32::MAX, i32::MAX];
+        let middle = |at: i32| (f64::from(at) + 0.5) * self.voxel_size;
+        self.voxels.range(cells).map(move |([z, y, x], _)| [*x, *y, *z].map(middle))
+    }
+
     fn cell(&self, [x, y, z]: [f64; 3]) -> Option<Cell> {
         let at = |c: f64| {
             let cell = (c / self.voxel_size).floor();

@@ -2,7 +2,7 @@
 -- as: sandbox
 -- passes: 0
 -- spec: SPEC-sensors 4
--- note: voxels of octrees, points of point clouds
+-- note: voxels of octrees, points of point clouds, objects as a whole
 sim = require 'sim'
 local function numbers(list)
     local out = {}
@@ -26,3 +26,25 @@ print(sim.insertPointsIntoPointCloud(cloud, 0, {0, 0, 0, 0.001, 0, 0, 1, 0, 0}, 
 numbers(sim.getPointCloudPoints(cloud))
 print(sim.intersectPointsWithPointCloud(cloud, 0, {1, 0, 0.005}, 0.01))
 print(sim.removePointsFromPointCloud(cloud, 0, {1, 0, 0}, 0.01))
+-- objects: a cube's faces, solid voxels, a dummy
+local cube = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1})
+sim.setObjectPosition(cube, {1, 0, 0})
+local fine, coarse = sim.createOctree(0.02, 0, 1), sim.createOctree(0.1, 0, 1)
+sim.setObjectPosition(fine, {1, 0, 0})
+print(sim.insertObjectIntoOctree(fine, cube, 0, {1, 2, 3}, 7))
+print(sim.checkOctreePointOccupancy(fine, 1, {0.05, 0.01, 0.01}))
+print(sim.checkOctreePointOccupancy(fine, 1, {0.01, 0.01, 0.01}))
+print(sim.subtractObjectFromOctree(fine, cube, 0))
+sim.setObjectPosition(coarse, {1, 0, 0})
+print(sim.insertVoxelsIntoOctree(coarse, 1, {0.05, 0.05, 0.05}), sim.insertObjectIntoOctree(fine, coarse, 0))
+local dummy = sim.createDummy(0.01)
+sim.setObjectPosition(dummy, {1.01, 0.01, 0.01})
+print(sim.subtractObjectFromOctree(fine, dummy, 0), sim.insertObjectIntoOctree(fine, dummy, 0))
+print(sim.insertObjectIntoPointCloud(cloud, cube, 0, 0.05), sim.insertObjectIntoPointCloud(cloud, cube, 0, 0.05, {0, 0, 0}, 0.001))
+print(sim.insertObjectIntoPointCloud(cloud, dummy, 0, 0.05), sim.subtractObjectFromPointCloud(cloud, dummy, 0, 0.001))
+print(sim.subtractObjectFromPointCloud(cloud, cube, 0, 0.03), #sim.getPointCloudPoints(cloud))
+print(sim.insertObjectIntoPointCloud(cloud, fine, 0, 0.05), sim.subtractObjectFromPointCloud(cloud, coarse, 0, 0))
+local joint = sim.createJoint(sim.joint_revolute, sim.jointmode_kinematic, 0)
+print((select(2, pcall(sim.insertObjectIntoOctree, fine, joint, 0)):gsub('^%-?%d+: ', '')))
+print((select(2, pcall(sim.insertObjectIntoOctree, cube, fine, 0)):gsub('^%-?%d+: ', '')))
+print(sim.getExtensionString(dummy, -1) == '', sim.getExtensionString(dummy, -1, 'a@b'))
