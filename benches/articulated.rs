@@ -7,8 +7,11 @@
 
 #![allow(clippy::disallowed_methods, reason = "a benchmark asks for the time")]
 
+mod common;
+
 use std::time::{Duration, Instant};
 
+use common::RawWorld;
 use rapier3d_f64::prelude::*;
 use swanilda::scene::Data;
 use swanilda::{Options, ScriptKind, ScriptRef, Simulator};
@@ -78,61 +81,34 @@ struct Raw<'a> {
     links: Vec<RigidBodyHandle>,
     impulse: Vec<ImpulseJointHandle>,
     reduced: Vec<MultibodyJointHandle>,
-    bodies: RigidBodySet,
-    colliders: ColliderSet,
-    joints: ImpulseJointSet,
-    multibodies: MultibodyJointSet,
-    soft_bodies: SoftBodySet,
-    islands: IslandManager,
-    broad_phase: BroadPhaseBvh,
-    narrow_phase: NarrowPhase,
-    ccd: CCDSolver,
-    pipeline: PhysicsPipeline,
-    parameters: IntegrationParameters,
+    world: RawWorld,
 }
 
 impl<'a> Raw<'a> {
     fn new(chain: &'a Chain, kind: Kind) -> Self {
         let sweeps = if let Kind::Impulse { sweeps } = kind { sweeps } else { 4 };
-        let mut raw = Self {
-            chain,
-            kind,
-            links: Vec::new(),
-            impulse: Vec::new(),
-            reduced: Vec::new(),
-            bodies: RigidBodySet::new(),
-            colliders: ColliderSet::new(),
-            joints: ImpulseJointSet::new(),
-            multibodies: MultibodyJointSet::new(),
-            soft_bodies: SoftBodySet::new(),
-            islands: IslandManager::new(),
-            broad_phase: BroadPhaseBvh::new(),
-            narrow_phase: NarrowPhase::new(),
-            ccd: CCDSolver::new(),
-            pipeline: PhysicsPipeline::new(),
-            parameters: IntegrationParameters {
-                dt: STEP,
-                num_solver_iterations: 1,
-                num_internal_pgs_iterations: sweeps,
-                normalized_max_linear_velocity: f64::MAX,
-                ..IntegrationParameters::default()
-            },
-        };
+        let world = RawWorld::new(IntegrationParameters {
+            dt: STEP,
+            num_solver_iterations: 1,
+            num_internal_pgs_iterations: sweeps,
+            normalized_max_linear_velocity: f64::MAX,
+            ..IntegrationParameters::default()
+        });
+        let mut raw = Self { chain, kind, links: Vec::new(), impulse: Vec::new(), reduced: Vec::new(), world };
         raw.build();
         raw
     }
 
     fn build(&mut self) {
         let chain = self.chain;
-        let mut parent = self.bodies.insert(RigidBodyBuilder::fixed());
+        let mut parent = self.world.bodies.insert(RigidBodyBuilder::fixed());
         for (i, &mass) in chain.masses.iter().enumerate() {
             let centre = chain.direction() * (chain.length * (i as f64 + 0.5));
             let pose = Pose::from_parts(centre, chain.turn());
-            let body = self.bodies.insert(RigidBodyBuilder::dynamic().pose(pose).can_sleep(false));
             let half = [0.01, 0.01, chain.length / 2.0];
             let collider = ColliderBuilder::cuboid(half[0], half[1], half[2]).mass(mass);
             let collider = collider.collision_groups(InteractionGroups::none());
-            self.colliders.insert_with_parent(collider, body, &mut self.bodies);
+            let body = self.world.add(RigidBodyBuilder::dynamic().pose(pose).can_sleep(false), collider);
             let near = Vector::Z * (-chain.length / 2.0);
             let (anchor, axis) =
                 if i == 0 { (Vector::ZERO, chain.turn() * chain.axis(i)) } else { (-near, chain.axis(i)) };
@@ -140,9 +116,9 @@ impl<'a> Raw<'a> {
             joint.data.set_local_axis1(axis);
             joint.data.set_local_axis2(chain.axis(i));
             match self.kind {
-                Kind::Impulse { .. } => self.impulse.push(self.joints.insert(parent, body, joint, true)),
+                Kind::Impulse { .. } => self.impulse.push(self.world.joints.insert(parent, body, joint, true)),
                 Kind::Multibody => {
-                    self.reduced.extend(self.multibodies.insert(parent, body, joint, true));
+                    self.reduced.extend(self.world.multibodies.insert(parent, body, joint, true));
                 }
             }
             self.links.push(body);
@@ -151,7 +127,7 @@ impl<'a> Raw<'a> {
     }
 
     fn pose(&self, index: Option<usize>) -> Pose {
-        index.map_or(Pose::IDENTITY, |index| *self.bodies[self.links[index]].position())
+        index.map_or(Pose::IDENTITY, |index| *self.world.bodies[self.links[index]].position())
     }
 
     /// Angle of a joint.
@@ -169,8 +145,9 @@ impl<'a> Raw<'a> {
         for i in 0..self.links.len() {
             let velocity = (0.1 * (target - self.angle(i)) / STEP).clamp(-LARGEST_SPEED, LARGEST_SPEED);
             let data = match self.kind {
-                Kind::Impulse { .. } => self.joints.get_mut(self.impulse[i], true).map(|joint| &mut joint.data),
+                Kind::Impulse { .. } => self.world.joints.get_mut(self.impulse[i], true).map(|joint| &mut joint.data),
                 Kind::Multibody => self
+                    .world
                     .multibodies
                     .get_mut(self.reduced[i])
                     .and_then(|(multibody, id)| multibody.link_mut(id).map(|link| &mut link.joint.data)),
@@ -191,7 +168,7 @@ impl<'a> Raw<'a> {
 
     fn energy(&self) -> f64 {
         let of = |&link: &RigidBodyHandle| {
-            let body = &self.bodies[link];
+            let body = &self.world.bodies[link];
             body.kinetic_energy() + body.mass() * G * body.center_of_mass().z
         };
         self.links.iter().map(of).sum()
@@ -199,21 +176,7 @@ impl<'a> Raw<'a> {
 
     fn step(&mut self) {
         self.drive();
-        self.pipeline.step(
-            Vector::new(0.0, 0.0, -G),
-            &self.parameters,
-            &mut self.islands,
-            &mut self.broad_phase,
-            &mut self.narrow_phase,
-            &mut self.bodies,
-            &mut self.colliders,
-            &mut self.joints,
-            &mut self.multibodies,
-            &mut self.soft_bodies,
-            &mut self.ccd,
-            &(),
-            &(),
-        );
+        self.world.step();
     }
 
     fn run(mut self) -> Outcome {
