@@ -45,6 +45,7 @@ mod shape_convex;
 mod shape_group;
 mod shape_mass;
 mod signal;
+mod sim_convex;
 mod sim_ws;
 mod simulation;
 mod socket;
@@ -139,6 +140,7 @@ pub(crate) const LIBRARIES: &[(&str, &[ApiFn])] = &[
     ("lfsx", lfs::FUNCTIONS),
     ("remote.ws", sim_ws::REMOTE),
     ("remote.ws", remote::NAMES),
+    ("simConvex", sim_convex::FUNCTIONS),
     ("simSubprocess", subprocess::FUNCTIONS),
     ("remote.zmq", remote::FUNCTIONS),
     ("socket.core", socket::FUNCTIONS),

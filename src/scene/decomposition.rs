@@ -8,12 +8,60 @@ use super::mesh::Mesh;
 
 /// Meshes thinner than this part of their length have no inside to divide.
 const FLATTEST: f64 = 1e-4;
-/// How many voxels a hull steps over when it collects its points.
-const DOWNSAMPLING: u32 = 4;
+/// How many voxels there are along the longest side, at least and at most: memory goes with the cube.
+const SIDES: [f64; 2] = [8.0, 256.0];
+
+/// Most voxels to step over.
+const COARSEST: u32 = 16;
+
+/// How finely a mesh is divided.
+#[derive(Debug, Clone, Copy)]
+pub struct Fineness {
+    /// In a cube around the mesh.
+    pub voxels: f64,
+    /// How much of the volume a piece may differ from its hull.
+    pub concavity: f64,
+    /// Voxels between the planes that are tried as cuts.
+    pub plane_downsampling: u32,
+    /// Voxels that a hull steps over when it collects its points.
+    pub hull_downsampling: u32,
+    /// How much cuts along planes of symmetry are preferred.
+    pub alpha: f64,
+    /// How much cuts along axes of revolution are preferred.
+    pub beta: f64,
+}
+
+impl Default for Fineness {
+    fn default() -> Self {
+        let usual = VHACDParameters::default();
+        Self {
+            voxels: f64::from(usual.resolution).powi(3),
+            concavity: usual.concavity,
+            plane_downsampling: usual.plane_downsampling,
+            hull_downsampling: usual.convex_hull_downsampling,
+            alpha: usual.alpha,
+            beta: usual.beta,
+        }
+    }
+}
+
+impl Fineness {
+    fn parameters(self) -> VHACDParameters {
+        VHACDParameters {
+            resolution: self.voxels.cbrt().round().clamp(SIDES[0], SIDES[1]) as u32,
+            concavity: self.concavity,
+            plane_downsampling: self.plane_downsampling.clamp(1, COARSEST),
+            convex_hull_downsampling: self.hull_downsampling.clamp(1, COARSEST),
+            alpha: self.alpha,
+            beta: self.beta,
+            ..VHACDParameters::default()
+        }
+    }
+}
 
 impl Mesh {
     /// Convex pieces that together are about this mesh; none when it is flat. A convex mesh is its own hull.
-    pub fn convex_pieces(&self) -> Vec<Mesh> {
+    pub fn convex_pieces(&self, fineness: Fineness) -> Vec<Mesh> {
         if self.is_convex() {
             return Mesh::convex_hull(&self.vertices).into_iter().collect();
         }
@@ -26,9 +74,10 @@ impl Mesh {
         let scale = size.max();
         let points: Vec<Vector> =
             self.points().iter().map(|p| Vector::from_array(((p - low) / scale).into())).collect();
-        let parts = VHACD::decompose(&VHACDParameters::default(), &points, &self.triangles, false);
+        let parameters = fineness.parameters();
+        let parts = VHACD::decompose(&parameters, &points, &self.triangles, false);
         let back = |p: &Vector| <[f64; 3]>::from(Vector3::from(p.to_array()) * scale + low);
-        let hulls = parts.compute_convex_hulls(DOWNSAMPLING);
+        let hulls = parts.compute_convex_hulls(parameters.convex_hull_downsampling);
         hulls.iter().filter_map(|(points, _)| Mesh::convex_hull(&points.iter().map(back).collect::<Vec<_>>())).collect()
     }
 }
@@ -43,7 +92,7 @@ mod tests {
     fn an_angle_is_two_blocks() {
         let mut angle = block([1.0, 0.2, 0.2]);
         angle.append(&block([0.2, 1.0, 0.2]), &Pose::translation(0.4, 0.5, 0.0));
-        let pieces = angle.convex_pieces();
+        let pieces = angle.convex_pieces(Fineness::default());
         let volume: f64 = pieces.iter().map(Mesh::volume).sum();
         assert!(pieces.len() >= 2 && pieces.iter().all(Mesh::is_convex));
         assert!((volume - 0.072).abs() < 0.012, "{volume}");
@@ -51,8 +100,8 @@ mod tests {
 
     #[test]
     fn what_is_convex_or_flat() {
-        assert_eq!(tetrahedron().convex_pieces().len(), 1);
+        assert_eq!(tetrahedron().convex_pieces(Fineness::default()).len(), 1);
         let flat = Mesh::new(vec![[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]], vec![[0, 1, 2]]).unwrap();
-        assert!(flat.convex_pieces().is_empty());
+        assert!(flat.convex_pieces(Fineness::default()).is_empty());
     }
 }

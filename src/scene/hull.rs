@@ -32,6 +32,21 @@ impl Mesh {
         hulls.into_iter().next()
     }
 
+    /// The hull of points with its faces moved outwards by `growth` (m), when that is positive.
+    pub fn grown_hull(points: &[[f64; 3]], growth: f64) -> Option<Mesh> {
+        let hull = Self::convex_hull(points)?;
+        if growth <= 0.0 {
+            return Some(hull);
+        }
+        let moved = |triangle: &[u32; 3]| {
+            let shift = hull.area_vector(triangle).try_normalize(0.0).unwrap_or_default() * growth;
+            hull.corners(triangle)
+                .into_iter()
+                .flat_map(move |corner| [corner + shift, corner - shift].map(<[f64; 3]>::from))
+        };
+        Self::convex_hull(&hull.triangles.iter().flat_map(moved).collect::<Vec<_>>())
+    }
+
     /// Whether the mesh is closed and has the points inside, to within `tolerance` (m). Of many points a part
     /// is looked at.
     fn encloses(&self, points: &[[f64; 3]], tolerance: f64) -> bool {
@@ -99,5 +114,15 @@ mod tests {
             assert_eq!(Mesh::convex_hull(&[CORNER[0], CORNER[1], CORNER[2], fourth]), None);
         }
         assert_eq!(Mesh::convex_hull(&[]), None);
+    }
+
+    #[test]
+    fn a_grown_cube_is_larger_by_its_growth() {
+        let corners: Vec<_> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect();
+        let grown = Mesh::grown_hull(&corners, 0.5).expect("a cube");
+        assert_eq!(grown.aabb(), Some(([-0.5; 3], [1.5; 3])));
+        // The faces are moved, the edges are cut off: 1 + 6 / 2 + 12 / 8 + 8 / 48.
+        assert!((grown.volume() - (1.0 + 3.0 + 1.5 + 1.0 / 6.0)).abs() < 1e-6, "{}", grown.volume());
+        assert_eq!(Mesh::grown_hull(&corners, -1.0).map(|hull| hull.vertices.len()), Some(8));
     }
 }

@@ -4,6 +4,7 @@
 
 use std::rc::Rc;
 
+use super::decomposition::Fineness;
 use super::mass::MassProperties;
 use super::mesh::Mesh;
 use super::primitive::PrimitiveKind;
@@ -158,17 +159,29 @@ impl Scene {
     /// # Errors
     /// When the object is no shape or has no volume.
     pub fn convex_decomposition(&self, handle: Handle) -> SceneResult<(Shape, Pose)> {
+        let (pieces, pose) = self.convex_shapes(handle, Fineness::default())?;
+        let parts: Vec<Part> = pieces.into_iter().flat_map(|piece| piece.parts).collect();
+        let bounding_box = box_of(&parts).ok_or(SceneError::InvalidData)?;
+        Ok((Shape { parts, bounding_box, ..self.object(handle)?.shape()?.clone() }, pose))
+    }
+
+    /// Convex pieces of a shape as shapes in its frame, and where that lies. They look like the original.
+    ///
+    /// # Errors
+    /// When the object is no shape or has no volume.
+    pub fn convex_shapes(&self, handle: Handle, fineness: Fineness) -> SceneResult<(Vec<Shape>, Pose)> {
         let original = self.object(handle)?.shape()?;
         let looks = original.parts.first().map_or_else(Shape::mesh_appearance, |part| part.appearance.clone());
-        let mut parts = Vec::new();
-        for mesh in original.mesh().convex_pieces() {
+        let mut pieces = Vec::new();
+        for mesh in original.mesh().convex_pieces(fineness) {
             let mut piece = Shape::from_mesh(mesh, looks.clone())?;
             piece.parts.iter_mut().for_each(|part| part.convex = true);
-            parts.append(&mut piece.parts);
+            pieces.push(piece);
         }
-        let flat = || SceneError::Refused("the shape has no volume to divide.".into());
-        let bounding_box = box_of(&parts).ok_or_else(flat)?;
-        Ok((Shape { parts, bounding_box, ..original.clone() }, self.world_pose(handle)?))
+        if pieces.is_empty() {
+            return Err(SceneError::Refused("the shape has no volume to divide.".into()));
+        }
+        Ok((pieces, self.world_pose(handle)?))
     }
 
     /// Takes a single mesh apart into its islands. None when it is one island. The original is still there.

@@ -1,0 +1,99 @@
+//! `simConvex`: hulls of objects and points, and convex pieces of shapes.
+//!
+//! There is one algorithm to divide shapes, V-HACD by parry; `hacd` uses it as well.
+
+use api_macro::api;
+
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::decomposition::Fineness;
+use crate::scene::mesh::Mesh;
+use crate::scene::shape::Shape;
+use crate::scene::{Data, Handle, Kind, SceneError};
+use crate::script::{Handles, Table};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![hull, qhull, vhacd, hacd];
+
+/// The hull of shapes, dummies, point clouds and octrees together.
+#[api("simConvex.hull")]
+fn hull(cx: &mut Cx, object_handles: Handles, #[default(0.0)] growth: f64) -> Result<Handle> {
+    let mut points = Vec::new();
+    for raw in object_handles.0 {
+        let handle = Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?;
+        points.extend(cx.scene().outline_points(handle)?);
+    }
+    if points.is_empty() {
+        return Err(refused("empty input"));
+    }
+    let mut shape = Shape::from_mesh(grown(&points, growth)?, Shape::mesh_appearance())?;
+    shape.parts.iter_mut().for_each(|part| part.convex = true);
+    cx.sim().clone().add_object("shape", Kind::Shape(Box::new(shape)))
+}
+
+/// The hull of points.
+#[api("simConvex.qhull")]
+fn qhull(_cx: &Cx, points: Vec<f64>, #[default(0.0)] growth: f64) -> Result<(Vec<f64>, Vec<i64>)> {
+    if points.is_empty() {
+        return Err(refused("empty input"));
+    }
+    let (points, rest) = points.as_chunks();
+    if !rest.is_empty() {
+        return Err(ApiError::TableSize);
+    }
+    let hull = grown(points, growth)?;
+    Ok((hull.flat_vertices(), hull.flat_indices()))
+}
+
+/// Convex pieces of a shape, as new shapes.
+#[api("simConvex.vhacd")]
+fn vhacd(cx: &mut Cx, shape_handle: Handle, #[default(Table(Data::Nil))] params: Table) -> Result<Vec<Handle>> {
+    divide(cx, shape_handle, fineness(&params.0)?)
+}
+
+/// The same: the parameters of the other algorithm mean nothing here.
+#[api("simConvex.hacd")]
+fn hacd(cx: &mut Cx, shape_handle: Handle, #[default(Table(Data::Nil))] params: Table) -> Result<Vec<Handle>> {
+    let _ = params;
+    divide(cx, shape_handle, Fineness::default())
+}
+
+fn divide(cx: &mut Cx, original: Handle, fineness: Fineness) -> Result<Vec<Handle>> {
+    let (shapes, pose) = cx.scene().convex_shapes(original, fineness)?;
+    let mut handles = Vec::new();
+    for shape in shapes {
+        let handle = cx.sim().clone().add_object("convex", Kind::Shape(Box::new(shape)))?;
+        cx.scene_mut().set_world_pose(handle, pose)?;
+        handles.push(handle);
+    }
+    Ok(handles)
+}
+
+/// `resolution` counts voxels in all, `alpha` and `beta` prefer cuts along symmetries.
+fn fineness(params: &Data) -> Result<Fineness> {
+    let number = |name: &str, usual: f64| match params.field(name) {
+        None | Some(Data::Nil) => Ok(usual),
+        Some(value) => value.as_f64().filter(|x| x.is_finite() && *x >= 0.0).ok_or_else(|| invalid(name)),
+    };
+    Ok(Fineness {
+        voxels: number("resolution", 1e5)?,
+        concavity: number("concavity", 0.1)?,
+        plane_downsampling: number("plane_downsampling", 4.0)? as u32,
+        hull_downsampling: number("hull_downsampling", 4.0)? as u32,
+        alpha: number("alpha", 0.05)?,
+        beta: number("beta", 0.05)?,
+    })
+}
+
+fn grown(points: &[[f64; 3]], growth: f64) -> Result<Mesh> {
+    if !points.as_flattened().iter().chain([&growth]).all(|x| x.is_finite()) {
+        return Err(SceneError::InvalidData.into());
+    }
+    Mesh::grown_hull(points, growth).ok_or_else(|| refused("the points do not span a volume."))
+}
+
+fn invalid(field: &str) -> ApiError {
+    refused(&format!("invalid '{field}' field."))
+}
+
+fn refused(why: &str) -> ApiError {
+    SceneError::Refused(why.into()).into()
+}
