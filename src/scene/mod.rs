@@ -73,6 +73,7 @@ pub mod texture_mapping;
 pub mod time_optimal;
 mod tree;
 mod value_type;
+pub mod volume_faces;
 mod voxelize;
 
 pub use change::{Change, Changes, Counters, Field};

@@ -36,6 +36,7 @@ impl ProximitySensor {
             angle_threshold: limit(64, 10),
             entity: -1,
             ray_colour: Colour { emission: RAY_GLOW, ..Colour::new([0.0; 3]) },
+            known_faces: None,
             detection: None,
         })
     }

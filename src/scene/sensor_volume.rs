@@ -40,13 +40,9 @@ impl Volume {
     /// End points of the edges of the volume in the sensor's frame.
     pub fn edges(&self, volume_type: i64) -> Vec<[Point; 2]> {
         match volume_type {
-            PYRAMID => {
-                let near = rectangle(self.x_size[0], self.y_size[0], self.offset);
-                prism(&near, &rectangle(self.x_size[1], self.y_size[1], self.offset + self.range))
-            }
-            CYLINDER => {
-                let near = circle(self.radius[0], self.offset, self.faces[0]);
-                prism(&near, &circle(self.radius[1], self.offset + self.range, self.faces[0]))
+            PYRAMID | CYLINDER => {
+                let [near, far] = ends(self, volume_type);
+                prism(&near, &far)
             }
             DISC => self.disc(),
             CONE => self.cone(),
@@ -113,14 +109,23 @@ impl Volume {
     }
 }
 
+/// The polygons at both ends of a pyramid or a cylinder.
+pub(super) fn ends(volume: &Volume, volume_type: i64) -> [Vec<Point>; 2] {
+    let depths = [volume.offset, volume.offset + volume.range];
+    [0, 1].map(|end| match volume_type {
+        CYLINDER => circle(volume.radius[end], depths[end], volume.faces[0]),
+        _ => rectangle(volume.x_size[end], volume.y_size[end], depths[end]),
+    })
+}
+
 fn rectangle(x: f64, y: f64, z: f64) -> Vec<Point> {
     [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[i, j]| [0.5 * i * x, 0.5 * j * y, z]).to_vec()
 }
 
-/// A polygon of `faces` corners (3 to 512) on a circle around z.
+/// A polygon of `faces` corners (3 to 512) on a circle around z; x goes through the middle of a side.
 fn circle(radius: f64, z: f64, faces: i64) -> Vec<Point> {
     let corners = faces.clamp(3, 512);
-    let corner = |i: i64| (TAU * i as f64 / corners as f64).sin_cos();
+    let corner = |i: i64| (TAU * (i as f64 + 0.5) / corners as f64).sin_cos();
     (0..corners).map(corner).map(|(sin, cos)| [radius * cos, radius * sin, z]).collect()
 }
 

@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::Handle;
 use super::colour::Colour;
 use super::sensor_volume::Volume;
+use super::volume_faces::KnownFaces;
 
 /// What a proximity sensor sees with.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +29,8 @@ pub struct ProximitySensor {
     pub angle_threshold: f64,
     pub entity: i64,
     pub ray_colour: Colour,
+    /// What the file it is from said bounds the volume.
+    pub known_faces: Option<Box<KnownFaces>>,
     /// What it found when it was handled last.
     pub detection: Option<Detection>,
 }

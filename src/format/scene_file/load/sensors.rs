@@ -1,10 +1,12 @@
 //! Sensors, cameras, lights, and colours (sections 7.1 and 7.4 of the format).
 
 use super::Context;
+use crate::format::ttt::Counted;
 use crate::format::ttt::chunks as file;
 use crate::scene::colour::Colour;
 use crate::scene::sensor_volume::{PYRAMID, RAY, Volume};
 use crate::scene::sensors::{Camera, Light, ProximitySensor, View, VisionSensor};
+use crate::scene::volume_faces::VolumeFaces;
 
 const EVERYTHING: i32 = -1;
 /// Where this bit of a colour is clear, it is translucent.
@@ -54,7 +56,7 @@ pub(super) fn proximity_sensor(context: &Context<'_>, chunk: &file::ProximitySen
     let bit = |bit: u8| switches >> bit & 1 == 1;
     let old_angle = chunk.old_angle_threshold.filter(|_| bit(2));
     let [samples, required] = chunk.randomized.unwrap_or([1, 1]);
-    ProximitySensor {
+    let mut sensor = ProximitySensor {
         volume_type: i64::from(chunk.sensor_type.unwrap_or(RAY as i32)).clamp(PYRAMID, RAY),
         volume: volume(chunk.volume.as_ref()),
         explicit: bit(7),
@@ -72,8 +74,26 @@ pub(super) fn proximity_sensor(context: &Context<'_>, chunk: &file::ProximitySen
             .colour3
             .as_ref()
             .map_or(Colour::new([1.0; 3]), |c| colour(c, Colour::new([1.0; 3]), context.header.serialization < 17)),
+        known_faces: None,
         detection: None,
+    };
+    if let Some(faces) = chunk.volume.as_ref().and_then(faces) {
+        sensor.keep_faces(faces);
     }
+    sensor
+}
+
+/// What bounds the volume, where the file says it.
+fn faces(chunk: &file::Volume) -> Option<VolumeFaces> {
+    let list = |list: &Option<Counted<f64>>| list.as_ref().map_or_else(Vec::new, |Counted(list)| list.clone());
+    chunk.planes_inside.is_some().then(|| VolumeFaces {
+        planes_inside: list(&chunk.planes_inside),
+        planes_outside: list(&chunk.planes_outside),
+        normals_inside: list(&chunk.normals_inside),
+        normals_outside: list(&chunk.normals_outside),
+        edges: list(&chunk.edges),
+        close_edges: list(&chunk.non_detect_edges),
+    })
 }
 
 fn volume(chunk: Option<&file::Volume>) -> Volume {

@@ -4,8 +4,9 @@ use super::{Context, colour};
 use crate::format::ttt::Counted;
 use crate::format::ttt::chunks as file;
 use crate::scene::Handle;
-use crate::scene::sensor_volume::{RAY, Volume};
+use crate::scene::sensor_volume::Volume;
 use crate::scene::sensors::{Camera, Light, ProximitySensor, VisionSensor};
+use crate::scene::volume_faces::VolumeFaces;
 
 /// The first type of proximity sensors; their volumes count from 0.
 const FIRST_SENSOR_TYPE: i32 = 30;
@@ -47,7 +48,7 @@ pub(super) fn proximity_sensor(
     ];
     file::ProximitySensor {
         sensor_type: Some(sensor.volume_type as i32),
-        volume: Some(volume(&sensor.volume, shape, sensor.volume_type == RAY)),
+        volume: Some(volume(&sensor.volume, shape, sensor.faces())),
         size: Some(sensor.size),
         angle_threshold: Some(sensor.angle_threshold),
         switches: Some(bits(&switches)),
@@ -61,21 +62,25 @@ pub(super) fn proximity_sensor(
     }
 }
 
-fn volume(volume: &Volume, shape: i32, is_ray: bool) -> file::Volume {
+fn volume(volume: &Volume, shape: i32, faces: VolumeFaces) -> file::Volume {
     let [x, x_far] = volume.x_size;
     let [y, y_far] = volume.y_size;
     let [radius, radius_far] = volume.radius;
-    let [faces, faces_far] = volume.faces.map(|n| n as i32);
+    let [sides, sides_far] = volume.faces.map(|n| n as i32);
     let [subdivisions, subdivisions_far] = volume.subdivisions.map(|n| n as i32);
-    let ray = vec![0.0, 0.0, volume.offset, 0.0, 0.0, volume.offset + volume.range];
     file::Volume {
         volume_type: Some(shape),
         sizes: Some([volume.offset, volume.range, x, y, x_far, y_far, radius, radius_far, volume.angle]),
         inside_angle: Some(volume.inside_gap),
-        faces: Some([faces, faces_far, subdivisions, subdivisions_far]),
+        faces: Some([sides, sides_far, subdivisions, subdivisions_far]),
         smallest_distance: Some(volume.close_threshold),
         switches: Some(0),
-        edges: is_ray.then_some(Counted(ray)),
+        planes_inside: Some(Counted(faces.planes_inside)),
+        planes_outside: Some(Counted(faces.planes_outside)),
+        normals_inside: Some(Counted(faces.normals_inside)),
+        normals_outside: Some(Counted(faces.normals_outside)),
+        edges: Some(Counted(faces.edges)),
+        non_detect_edges: Some(Counted(faces.close_edges)),
         ..file::Volume::default()
     }
 }
