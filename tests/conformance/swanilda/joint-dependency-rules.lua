@@ -4,25 +4,7 @@
 -- tol: 1e-6
 -- topic: joints
 sim = require 'sim'
-
-local function text(value)
-    if math.type(value) == 'float' then
-        return (string.format('%.6f', value):gsub('^-(0%.0+)$', '%1'))
-    elseif type(value) ~= 'table' then
-        return tostring(value)
-    end
-    local t = {}
-    for i, x in ipairs(value) do t[i] = text(x) end
-    return '{' .. table.concat(t, ' ') .. '}'
-end
-
-local function try(what, f, ...)
-    local r = table.pack(pcall(f, ...))
-    if not r[1] then return print(what, 'error', (tostring(r[2]):gsub('\\nstack.*', ''):gsub('^.-in sim', 'sim'))) end
-    local t = {}
-    for i = 2, r.n do t[i - 1] = text(r[i]) end
-    print(what, table.concat(t, ' '))
-end
+local try = require('lib.trial').try
 
 local R <const>, S <const>, P <const> = sim.joint_revolute, sim.joint_spherical, sim.joint_prismatic
 local KINEMATIC <const>, DEPENDENT <const> = sim.jointmode_kinematic, sim.jointmode_dependent

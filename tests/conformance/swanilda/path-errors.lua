@@ -4,21 +4,7 @@
 -- tol: 1e-7
 -- topic: motion
 sim = require 'sim'
-
-local function text(value)
-    if type(value) ~= 'table' then return type(value) == 'number' and string.format('%.8g', value) or tostring(value) end
-    local t = {}
-    for i, x in ipairs(value) do t[i] = text(x) end
-    return '{' .. table.concat(t, ' ') .. '}'
-end
-
-local function try(what, f, ...)
-    local r = table.pack(pcall(f, ...))
-    if not r[1] then return print(what, 'error', (tostring(r[2]):gsub('\nstack.*', ''):gsub('^.-:%d+: ', ''))) end
-    local t = {}
-    for i = 2, r.n do t[i - 1] = text(r[i]) end
-    print(what, table.concat(t, ' '))
-end
+local try = require('lib.trial').try
 
 local P <const>, L <const>, P3 <const> = {0, 0, 1, 0, 1, 1}, {0, 1, 2}, {0, 0, 0, 1, 0, 0, 1, 1, 0}
 local nan <const> = 0 / 0

@@ -4,25 +4,8 @@
 -- tol: 1e-6
 -- topic: shapes
 sim = require 'sim'
-
-local function text(value)
-    if math.type(value) == 'float' then
-        return (string.format('%.6f', value):gsub('^-(0%.0+)$', '%1'))
-    elseif type(value) ~= 'table' then
-        return tostring(value)
-    end
-    local t = {}
-    for i, x in ipairs(value) do t[i] = text(x) end
-    return '{' .. table.concat(t, ' ') .. '}'
-end
-
-local function try(what, f, ...)
-    local r = table.pack(pcall(f, ...))
-    if not r[1] then return print(what, 'error', (tostring(r[2]):gsub('\\nstack.*', ''):gsub('^.-in sim', 'sim'))) end
-    local t = {}
-    for i = 2, r.n do t[i - 1] = text(r[i]) end
-    print(what, table.concat(t, ' '))
-end
+local trial = require 'lib.trial'
+local try, text = trial.try, trial.text
 
 local function cube(x, size)
     local handle = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {size or 0.1, size or 0.1, size or 0.1})
