@@ -62,11 +62,10 @@ fn inspect_tells_what_is_in_a_scene() {
 #[test]
 fn inspect_tells_what_is_missing() {
     let folder = folder();
-    let scene =
-        unpacked(folder.path(), |text| text.replace("sim.setJointTargetPosition", "sim.insertObjectIntoOctree"));
+    let scene = unpacked(folder.path(), |text| text.replace("sim.setJointTargetPosition", "sim.cameraFitToView"));
     let output = command("inspect", &[&scene]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stdout(&output).contains("missing      sim.insertObjectIntoOctree"), "{}", stdout(&output));
+    assert!(stdout(&output).contains("missing      sim.cameraFitToView"), "{}", stdout(&output));
 }
 
 #[test]
@@ -100,11 +99,10 @@ fn doctor_tells_what_works() {
     assert_eq!(works.status.code(), Some(0), "{}", stdout(&works));
     let folder = folder();
     let file = folder.path().join("robot.lua");
-    fs::write(&file, "sim = require 'sim'\nsim.getObject('/a')\nsim.insertObjectIntoOctree(1, 2, 0)\n")
-        .expect("writable");
+    fs::write(&file, "sim = require 'sim'\nsim.getObject('/a')\nsim.cameraFitToView(1, 2, 0)\n").expect("writable");
     let output = command("doctor", &[folder.path()]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stdout(&output).contains("sim.insertObjectIntoOctree: line 3"), "{}", stdout(&output));
+    assert!(stdout(&output).contains("sim.cameraFitToView: line 3"), "{}", stdout(&output));
     let json = command("doctor", &[&file, Path::new("--json")]);
     let report: Value = serde_json::from_slice(&json.stdout).expect("JSON");
     assert_eq!(report["summary"]["missing"], 1);
