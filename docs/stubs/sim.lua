@@ -476,12 +476,12 @@ function sim.createOctree(voxelSize, options, pointSize) end
 
 --- Creates a path object from control points.
 ---@param ctrlPts number[] poses, seven numbers each, at least two
----@param options? integer 2 closed, 16 orientation computed from the direction
+---@param options? integer 1 hidden while a simulation runs, 2 closed, 4 a shape along it, 16 orientation computed from the direction
 ---@param subdiv? integer number of points of the sampled path
 ---@param smoothness? number strength of the rounded corners, 0 to 1
 ---@param orientationMode? integer axes along the path and up: 0 xy, 1 xz, 2 yx, 3 yz, 4 zx, 5 zy
 ---@param upVector? number[] what is up when the orientation is computed
----@return integer pathHandle a dummy, with custom data PATHCTRLPTS and PATH (seven doubles per point)
+---@return integer pathHandle a dummy, with custom data PATHCTRLPTS and PATH (seven doubles per point); dummies below it are the control points
 function sim.createPath(ctrlPts, options, subdiv, smoothness, orientationMode, upVector) end
 
 --- A new, empty point cloud at the world's origin.

@@ -20,12 +20,12 @@ local CREATE_ARGS = {
 --- Creates a path object from control points.
 -- @api int pathHandle = sim.createPath(float[] ctrlPts, int options = 0, int subdiv = 100, float smoothness = 1.0, int orientationMode = 0, float[3] upVector = {0, 0, 1})
 -- @param ctrlPts poses, seven numbers each, at least two
--- @param options 2 closed, 16 orientation computed from the direction
+-- @param options 1 hidden while a simulation runs, 2 closed, 4 a shape along it, 16 orientation computed from the direction
 -- @param subdiv number of points of the sampled path
 -- @param smoothness strength of the rounded corners, 0 to 1
 -- @param orientationMode axes along the path and up: 0 xy, 1 xz, 2 yx, 3 yz, 4 zx, 5 zy
 -- @param upVector what is up when the orientation is computed
--- @return pathHandle a dummy, with custom data PATHCTRLPTS and PATH (seven doubles per point)
+-- @return pathHandle a dummy, with custom data PATHCTRLPTS and PATH (seven doubles per point); dummies below it are the control points
 function M.createPath(...)
     local ctrlPts, options, subdiv, smoothness, mode, up = check(CREATE_ARGS, ...)
     if subdiv < 2 then error('subdiv has to be 2 at least.', 2) end
