@@ -60,7 +60,7 @@ fn the_terminal_shows_a_line_per_file_failures_and_a_list() {
         "\nFAIL a_test.lua (2 of 5 tests failed, 2 pending, ",
         "PASS b_test.lua (1 test, ",
         "\nSlowest tests:\n",
-        "2 passed, 1 failed, 1 errors, 2 pending in ",
+        "2 passed, 1 failed, 1 error, 2 pending in ",
     ] {
         assert!(text.contains(part), "{part}:\n{text}");
     }
@@ -135,7 +135,7 @@ fn tap_takes_standard_output() {
         ]
     );
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(told.contains("1 passed, 1 failed, 1 errors, 2 pending"), "{told}");
+    assert!(told.contains("1 passed, 1 failed, 1 error, 2 pending"), "{told}");
 }
 
 #[test]

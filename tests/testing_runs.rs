@@ -74,6 +74,26 @@ fn a_scene_that_does_not_end_is_ended() {
 }
 
 #[test]
+fn a_test_that_is_stopped_tells_where_it_was() {
+    let suite = "
+    local sim = require 'sim'
+    local t = require 'swanilda.test'
+    it('loops', function()
+        while true do end
+    end)
+    it('has a script that loops', function()
+        local code = 'function sysCall_actuation()\\n  while true do end\\nend'
+        sim.setObjectAlias(sim.createScript(sim.scripttype_simulation, code), 'robot')
+        t.step()
+    end)";
+    let (code, output) = run(&[("loop_test.lua", suite)], &["--timeout", "2"]);
+    assert_eq!(code, 1);
+    for place in ["It was at loop_test.lua:5:", "It was at [string \"/robot\"]:2:", "--> /robot:2"] {
+        assert!(output.contains(place), "{place}:\n{output}");
+    }
+}
+
+#[test]
 fn what_scripts_write_belongs_to_their_test() {
     let suite = "
     local sim = require 'sim'

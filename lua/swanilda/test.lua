@@ -103,7 +103,9 @@ function t._checkErrors()
     if allowErrors then return end
     for _, line in ipairs(lines) do
         if line.level == 'error' and line.origin then
-            local message = ('script %s raised an error: %s'):format(line.origin, line.text)
+            -- The traceback stays in the console.
+            local text = line.text:gsub('\nstack traceback:.*', '')
+            local message = ('script %s raised an error: %s'):format(line.origin, text)
             error({ message = message, script = line.origin }, 0)
         end
     end

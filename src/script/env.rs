@@ -114,6 +114,13 @@ impl Env {
         self.sim.upgrade().is_none_or(|sim| sim.is_interrupted())
     }
 
+    /// Lets the runner of a test know where code is that has to stop.
+    pub(crate) fn note_interruption(&self, stack: Stack<'_>) {
+        if let Some(bench) = self.sim.upgrade().as_ref().and_then(|sim| sim.test_bench.get()) {
+            bench.note_interruption(|| stack.traceback_from(0));
+        }
+    }
+
     /// Turns what a call has changed into events, if anybody listens.
     pub(crate) fn tell_changes(&self) {
         if self.events_wanted.get()

@@ -131,6 +131,8 @@ pub struct TestBench {
     lines: RefCell<Vec<ConsoleLine>>,
     /// Lines of standard output and error that have no end so far.
     unfinished: [RefCell<Vec<u8>>; 2],
+    /// Where Lua code was when it was told to stop.
+    interruption: RefCell<Option<String>>,
     size: Cell<usize>,
     lost: Cell<usize>,
 }
@@ -156,6 +158,16 @@ impl TestBench {
         let texts = self.unfinished.iter().map(|text| text.borrow().clone()).zip(LEVELS);
         let begun = texts.filter(|(text, _)| !text.is_empty());
         begun.map(|(text, level)| ConsoleLine::printed(level, &text, time)).collect()
+    }
+
+    /// Lua code was told to stop; the first time counts, since what catches errors is stopped again.
+    pub(crate) fn note_interruption(&self, trace: impl FnOnce() -> String) {
+        self.interruption.borrow_mut().get_or_insert_with(trace);
+    }
+
+    /// Lua's traceback of where it was when it was told to stop.
+    pub fn take_interruption(&self) -> Option<String> {
+        self.interruption.take()
     }
 
     /// Hands the console over, with a last line that tells what did not fit.

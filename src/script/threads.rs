@@ -16,6 +16,7 @@ const LEVELS: &CStr = c"swanilda.levels";
 pub(crate) fn on_count(stack: Stack<'_>, can_yield: bool) -> Verdict {
     let env = Env::of(stack);
     if env.is_watched() && env.is_interrupted() {
+        env.note_interruption(stack);
         return Verdict::Fail("interrupted.");
     }
     if can_yield && slice_is_used_up(stack, env) { Verdict::Yield } else { Verdict::GoOn }

@@ -74,6 +74,8 @@ pub struct Outcome {
     pub trace: String,
     /// The line of the test's file where it went wrong.
     pub line: Option<u32>,
+    /// Where it was when it had to be stopped.
+    pub(super) stopped_at: Option<String>,
     /// The path of the script of the scene that raised an error.
     pub script: Option<String>,
     /// The source where it went wrong: of the script, then of the test.
@@ -102,6 +104,7 @@ impl Outcome {
             todo: false,
             trace: String::new(),
             line: None,
+            stopped_at: None,
             script: None,
             excerpts: Vec::new(),
             time: 0.0,

@@ -85,7 +85,26 @@ impl Session {
         (outcome.time, outcome.steps) = (self.sim.time(), self.sim.steps());
         outcome.goldens = self.bench.goldens.take();
         outcome.console = self.bench.take_lines();
+        self.tell_interruption(&mut outcome);
         outcome
+    }
+
+    /// A test that had to be stopped: where it was, as far as that is in its file or in a script of the scene.
+    fn tell_interruption(&self, outcome: &mut Outcome) {
+        let Some(trace) = self.bench.take_interruption() else { return };
+        outcome.console.retain(|line| !(line.level == "error" && line.text.starts_with("interrupted.")));
+        let own = format!("{}:", self.bench.file);
+        let is_known = |frame: &&str| {
+            let shown = positions(frame);
+            frame.starts_with(&own) || shown.iter().any(|(name, _)| self.sim.source_shown_as(name).is_some())
+        };
+        let frames = || trace.lines().map(str::trim);
+        outcome.line = frames().find_map(|frame| frame.strip_prefix(&own)?.split(':').next()?.parse().ok());
+        outcome.message = frames().find(is_known).unwrap_or_default().to_owned();
+        outcome.stopped_at = Some(outcome.message.clone()).filter(|place| !place.is_empty());
+        outcome.excerpts.clear();
+        self.quote(outcome);
+        outcome.trace = trace;
     }
 
     /// Runs what is left to tear down after the last test, which fails when that does.

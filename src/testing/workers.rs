@@ -144,6 +144,9 @@ impl Watch<'_> {
             if running.stop.load(Ordering::Relaxed) {
                 outcome.status = Status::Error;
                 outcome.message = too_long(self.shared.config.allowance.wall);
+                if let Some(place) = outcome.stopped_at.take() {
+                    outcome.message += &format!("\nIt was at {place}");
+                }
             }
         }
         // What the user interrupted has no outcome.

@@ -141,10 +141,11 @@ impl Terminal {
 
     /// The last line: counts and time.
     fn counts(&self, summary: &Summary) -> String {
+        let errors = summary.count(Status::Error);
         let counts = [
             (summary.count(Status::Passed), "passed", GREEN),
             (summary.count(Status::Failed), "failed", RED),
-            (summary.count(Status::Error), "errors", RED),
+            (errors, if errors == 1 { "error" } else { "errors" }, RED),
             (summary.count(Status::Pending), "pending", YELLOW),
             (summary.not_run, "not run", YELLOW),
             (summary.deselected, "deselected", DIM),

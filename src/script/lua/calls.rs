@@ -103,10 +103,15 @@ impl<'a> Stack<'a> {
         String::from_utf8_lossy(&place).into_owned()
     }
 
-    /// Lua's traceback of this coroutine.
+    /// Lua's traceback of this coroutine, without the running function, which is a callback.
     pub(crate) fn traceback(self) -> String {
+        self.traceback_from(1)
+    }
+
+    /// The same from a level on: 0 is the running function.
+    pub(crate) fn traceback_from(self, level: c_int) -> String {
         // SAFETY: pushes one string.
-        unsafe { ffi::luaL_traceback(self.raw(), self.raw(), std::ptr::null(), 1) };
+        unsafe { ffi::luaL_traceback(self.raw(), self.raw(), std::ptr::null(), level) };
         let text = self.text(-1).unwrap_or_default();
         self.pop(1);
         String::from_utf8_lossy(&text).into_owned()
