@@ -9,6 +9,7 @@ const INNER: &[&str] = &[
     "base",
     "deprecate",
     "json_scanner",
+    "coverage_loaders",
     "defaultMainScript",
     "luassert/arguments",
     "luassert/array",
@@ -48,6 +49,7 @@ const INNER: &[&str] = &[
     "swanilda/modload",
     "swanilda/pathmodel",
     "swanilda/quaternion",
+    "swanilda/test/recordings",
     "swanilda/trajectory",
 ];
 

@@ -81,7 +81,7 @@ impl Env {
             library_data: RefCell::default(),
             warned: RefCell::default(),
             watched: sim.options.limits.is_some(),
-            coverage: sim.options.count_lines.then(Coverage::new),
+            coverage: sim.options.count_lines.then(Coverage::default),
         }
     }
 
@@ -141,14 +141,6 @@ impl Env {
     }
 }
 
-impl Drop for Env {
-    fn drop(&mut self) {
-        if let Some(sim) = self.sim.upgrade() {
-            sim.keep_line_counts(self);
-        }
-    }
-}
-
 /// A Lua state with its environment.
 pub(crate) struct Runtime {
     // Dropped first: finalizers may still call API functions, which look at the environment.
@@ -166,5 +158,13 @@ impl Runtime {
 
     pub(crate) fn stack(&self) -> Stack<'_> {
         self.lua.stack()
+    }
+}
+
+impl Drop for Runtime {
+    fn drop(&mut self) {
+        if let Some(sim) = self.env.sim.upgrade() {
+            sim.keep_line_counts(self);
+        }
     }
 }

@@ -78,7 +78,7 @@ impl Sim {
             return Err(LuaError { text: ApiError::TooDeep(MAX_DEPTH).to_string() });
         }
         stack.load(&code, &name, false)?;
-        self.begin_coverage(script, &runtime.env, &name, &code);
+        self.begin_coverage(script, runtime, &name, &code);
         if old_calls::are_expected_by(&code) { old_calls::begin(stack, self) } else { stack.protected_call(0, 0) }
     }
 

@@ -28,6 +28,11 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
     stack.push_int(runtime.env.script.id);
     stack.set_global("sim_script_handle");
     load_module(stack, sim, "base").and_then(|()| stack.protected_call(0, 0))?;
+    if runtime.env.coverage.is_some() {
+        load_module(stack, sim, "coverage_loaders")?;
+        push_callback(stack, count, std::ptr::null());
+        stack.protected_call(1, 0)?;
+    }
     if sim.options.limits.is_some() {
         shared_process::install(sim, stack)?;
     }
@@ -35,6 +40,15 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
         return Ok(());
     }
     load_module(stack, sim, "no_unsafe").and_then(|()| stack.protected_call(0, 0))
+}
+
+/// Gives a function that was just loaded what counts its lines.
+fn count(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+    stack.set_top(1);
+    if let Some(coverage) = &Env::of(stack).coverage {
+        coverage.count_function(stack);
+    }
+    Ok(1)
 }
 
 /// `math.random` starts from the simulator's seed: Lua's own start is different in every state. From seeds that follow each other its generator

@@ -1,9 +1,11 @@
 //! The lines of a Lua text that can run, as Lua's compiler sees them: the lines of the instructions of all its functions.
 //!
-//! They are read from the compiled text, whose format is that of Lua 5.4. Left out is what is no statement of the text: the return that
+//! Left out is what is no statement of the text: the return that
 //! ends every function, and lines with nothing but `end`, `else` and brackets, where the compiler puts instructions of the lines around.
 
 use std::collections::BTreeSet;
+
+use super::bytecode::{Chunk, Prototype};
 
 /// A function of a text.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,126 +26,25 @@ pub fn executable(text: &[u8]) -> Option<Vec<Function>> {
         text.splice(0..0, *b"--");
     }
     let bytecode = super::super::compile(&text, "=").ok()?;
-    let mut reader = Reader(bytecode.get(HEADER_SIZE..)?);
     let mut found = Vec::new();
     let source: Vec<&[u8]> = text.split(|&byte| byte == b'\n').collect();
-    reader.function(&mut found, &source)?;
+    add(&Chunk::read(&bytecode)?.main, &mut found, &source)?;
     found.sort();
     Some(found)
 }
 
-/// Signature, version, format, check data, sizes, two check numbers, number of upvalues.
-const HEADER_SIZE: usize = 4 + 1 + 1 + 6 + 3 + 8 + 8 + 1;
-
-/// In place of a difference between lines: the line is given in full.
-const ABSOLUTE: i8 = -0x80;
-
-/// Types of constants.
-const FLOAT: u8 = 0x13;
-const INTEGER: u8 = 0x03;
-const SHORT_STRING: u8 = 0x04;
-const LONG_STRING: u8 = 0x14;
-
-struct Reader<'a>(&'a [u8]);
-
-impl<'a> Reader<'a> {
-    fn take(&mut self, size: usize) -> Option<&'a [u8]> {
-        let (taken, rest) = self.0.split_at_checked(size)?;
-        self.0 = rest;
-        Some(taken)
+/// Adds a function and those inside of it.
+fn add(function: &Prototype<'_>, found: &mut Vec<Function>, source: &[&[u8]]) -> Option<()> {
+    function.inner.iter().try_for_each(|inner| add(inner, found, source))?;
+    // The return that ends every function is none of the text; the first instruction of one with `...` only arranges its arguments.
+    let (_, lines) = function.lines.split_last()?;
+    let lines = lines.iter().skip(usize::from(function.is_vararg)).copied();
+    let lines: BTreeSet<u32> = lines.filter(|&line| is_statement(source, line)).collect();
+    let line = u32::try_from(function.line).ok()?;
+    if !lines.is_empty() {
+        found.push(Function { line, lines: lines.into_iter().collect(), name: name(line_of(source, line)) });
     }
-
-    fn byte(&mut self) -> Option<u8> {
-        self.take(1).map(|bytes| bytes[0])
-    }
-
-    /// Seven bits a byte, the highest first; the last byte is marked.
-    fn size(&mut self) -> Option<usize> {
-        let mut size = 0_usize;
-        loop {
-            let byte = self.byte()?;
-            size = size.checked_mul(0x80)? | usize::from(byte & 0x7f);
-            if byte & 0x80 != 0 {
-                return Some(size);
-            }
-        }
-    }
-
-    fn string(&mut self) -> Option<()> {
-        let size = self.size()?;
-        self.take(size.saturating_sub(1)).map(drop)
-    }
-
-    /// Reads a function with those inside of it.
-    fn function(&mut self, found: &mut Vec<Function>, source: &[&[u8]]) -> Option<()> {
-        self.string()?;
-        let (first, _last) = (self.size()?, self.size()?);
-        let (_parameters, is_vararg, _registers) = (self.byte()?, self.byte()? != 0, self.byte()?);
-        let instructions = self.size()?;
-        self.take(instructions.checked_mul(4)?)?;
-        self.constants()?;
-        let upvalues = self.size()?;
-        self.take(upvalues.checked_mul(3)?)?;
-        for _ in 0..self.size()? {
-            self.function(found, source)?;
-        }
-        let mut lines = self.lines(first)?;
-        self.names()?;
-        lines.pop();
-        // The first instruction of a function with `...` only arranges its arguments.
-        let lines = lines.into_iter().skip(usize::from(is_vararg)).filter(|&line| is_statement(source, line));
-        let lines: BTreeSet<u32> = lines.collect();
-        let line = u32::try_from(first).ok()?;
-        if !lines.is_empty() {
-            found.push(Function { line, lines: lines.into_iter().collect(), name: name(line_of(source, line)) });
-        }
-        Some(())
-    }
-
-    fn constants(&mut self) -> Option<()> {
-        for _ in 0..self.size()? {
-            match self.byte()? {
-                FLOAT | INTEGER => drop(self.take(8)?),
-                SHORT_STRING | LONG_STRING => self.string()?,
-                _ => {}
-            }
-        }
-        Some(())
-    }
-
-    /// The line of each instruction.
-    fn lines(&mut self, defined: usize) -> Option<Vec<u32>> {
-        let count = self.size()?;
-        let differences = self.take(count)?;
-        let mut absolute = Vec::new();
-        for _ in 0..self.size()? {
-            absolute.push((self.size()?, self.size()?));
-        }
-        let mut absolute = absolute.into_iter();
-        let mut line = defined as i64;
-        let mut lines = Vec::with_capacity(count);
-        for &difference in differences {
-            line = match difference as i8 {
-                ABSOLUTE => absolute.next()?.1 as i64,
-                difference => line + i64::from(difference),
-            };
-            lines.push(u32::try_from(line).ok()?);
-        }
-        Some(lines)
-    }
-
-    /// Names of local variables and upvalues.
-    fn names(&mut self) -> Option<()> {
-        for _ in 0..self.size()? {
-            self.string()?;
-            self.size()?;
-            self.size()?;
-        }
-        for _ in 0..self.size()? {
-            self.string()?;
-        }
-        Some(())
-    }
+    Some(())
 }
 
 fn line_of<'a>(source: &[&'a [u8]], line: u32) -> &'a [u8] {

@@ -1,11 +1,13 @@
-//! Which lines of scripts run, and how often.
+//! Which lines of scripts run.
 //!
 //! A state counts the lines of its script's own text and of Lua files that were loaded by name (`@file`); what comes with the simulator is
-//! not counted. Here is what one state counts, and what a simulator collects from its states. Lua tells the lines (`lua::lines`); which
-//! lines there are to run says `executable`. Reports are made elsewhere.
+//! not counted. Which lines there are to run says `executable`. Texts get `probes` when they are loaded, which note the lines that run; a line
+//! counts once for each state that has run it. Here is what one state counts, and what a simulator collects from its states. Reports
+//! are made elsewhere.
 
+mod bytecode;
 mod executable;
-mod functions;
+mod probes;
 mod state;
 mod text;
 
@@ -14,11 +16,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 pub use executable::{Function, executable};
-pub(crate) use functions::{FunctionCache, Place};
 pub(crate) use state::Coverage;
 pub use text::read_text;
 
-use super::env::Env;
+use super::env::Runtime;
 use super::instance::Script;
 use super::sim::Sim;
 use crate::scene::Kind;
@@ -39,21 +40,18 @@ pub enum CountedText {
     },
 }
 
-/// How often lines ran: the first entry is that of line 1. Lines after the last entry never did.
+/// In how many states lines ran: the first entry is that of line 1. Lines after the last entry never did.
 pub type Counts = Vec<u64>;
 
 /// The counts of many texts.
 #[derive(Debug, Clone, Default)]
 pub struct LineCounts {
     pub texts: BTreeMap<CountedText, Counts>,
-    /// How often Lua stopped to tell a line, a call or a return, which is what counting costs.
-    pub events: u64,
 }
 
 impl LineCounts {
     /// Adds what another simulator, or another state, has counted.
     pub fn merge(&mut self, other: Self) {
-        self.events += other.events;
         other.texts.into_iter().for_each(|(text, counts)| self.add(text, &counts));
     }
 
@@ -68,18 +66,18 @@ impl LineCounts {
 
 impl Sim {
     /// Takes over what a state has counted that is going to end.
-    pub(crate) fn keep_line_counts(&self, env: &Env) {
-        if let Some(coverage) = &env.coverage
+    pub(crate) fn keep_line_counts(&self, runtime: &Runtime) {
+        if let Some(coverage) = &runtime.env.coverage
             && let Ok(mut kept) = self.line_counts.try_borrow_mut()
         {
-            kept.merge(coverage.take(self, &env.script));
+            kept.merge(coverage.take(self, &runtime.env.script, runtime.stack()));
         }
     }
 
     /// Hands over what all states have counted since the last time. Scripts of the scene that have not run are there without counts.
     pub(crate) fn take_line_counts(&self) -> LineCounts {
         let running: Vec<_> = self.scripts.borrow().values().filter_map(|script| script.current_runtime()).collect();
-        running.iter().for_each(|runtime| self.keep_line_counts(&runtime.env));
+        running.iter().for_each(|runtime| self.keep_line_counts(runtime));
         let mut counts = self.line_counts.take();
         let idle = self.countable_objects();
         idle.into_iter().for_each(|text| counts.add(text, &[]));
@@ -99,12 +97,13 @@ impl Sim {
         scripts.collect()
     }
 
-    /// A script's text is going to run in its state.
-    pub(crate) fn begin_coverage(&self, script: &Script, env: &Env, chunk_name: &str, text: &[u8]) {
-        if let Some(coverage) = &env.coverage
+    /// A script's text is going to run in its state; its function is on top of the stack.
+    pub(crate) fn begin_coverage(&self, script: &Script, runtime: &Runtime, chunk_name: &str, text: &[u8]) {
+        if let Some(coverage) = &runtime.env.coverage
             && self.counts_text_of(script, text)
         {
             coverage.begin(chunk_name, self.path_of_script(script).unwrap_or_default(), text);
+            coverage.count_function(runtime.stack());
         }
     }
 

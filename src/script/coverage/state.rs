@@ -1,36 +1,35 @@
-//! What one state counts.
-//!
-//! To tell every line slows Lua down several times. So when only functions have run for a while whose lines have all run before, or that
-//! are not counted at all, Lua is asked to tell calls and returns instead, until a function runs that may have something new. Which lines
-//! have run is exact therefore, and how often is not: it is the least they did.
+//! What one state counts: which of its texts have probes, and what those have noted.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::ffi::CStr;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
 use std::sync::Arc;
 
-use super::functions::Place;
-use super::text::{Text, read_text};
-use super::{CountedText, FunctionCache, LineCounts, executable};
+use super::probes::with_probes;
+use super::text::read_text;
+use super::{CountedText, Counts, LineCounts, executable};
 use crate::script::instance::Script;
+use crate::script::lua::{Stack, Type};
 use crate::script::sim::Sim;
 
 /// Texts of one state beyond which nothing is counted: Lua code can name any text.
 const MAX_TEXTS: usize = 1000;
-/// How many lines with nothing new are looked at before lines are no longer told.
-const PATIENCE: u32 = 64;
+/// The tables the probes write to, by chunk name.
+const NOTES: &CStr = c"swanilda.coverage";
 
 /// What one state counts.
+#[derive(Default)]
 pub(crate) struct Coverage {
-    /// Which functions stand where, as far as they have just run.
-    pub functions: Rc<FunctionCache>,
     texts: RefCell<Vec<Text>>,
     own: RefCell<Option<Own>>,
-    /// Lines told since the last one that could be new.
-    idle: Cell<u32>,
-    events: Cell<u64>,
-    /// How often the count of instructions began anew before it was complete.
-    lost_counts: Cell<u32>,
+}
+
+/// A text that is counted.
+struct Text {
+    chunk_name: Box<[u8]>,
+    /// The lines that can run.
+    lines: BTreeSet<u32>,
 }
 
 /// The script's own text.
@@ -41,35 +40,27 @@ struct Own {
 }
 
 impl Coverage {
-    pub(crate) fn new() -> Self {
-        Self {
-            functions: Rc::new(FunctionCache::new()),
-            texts: RefCell::default(),
-            own: RefCell::default(),
-            idle: Cell::new(0),
-            events: Cell::new(0),
-            lost_counts: Cell::new(0),
-        }
-    }
-
     /// The script's text is going to run under that name.
     pub(super) fn begin(&self, chunk_name: &str, path: String, text: &[u8]) {
-        self.functions.clear();
         self.own.replace(Some(Own { chunk_name: chunk_name.into(), path, text: text.into() }));
     }
 
-    /// Where the function stands that begins at a line of the text with that name; None when the text is not counted.
-    pub(crate) fn place_of(&self, chunk_name: &[u8], line: i32) -> Option<Place> {
-        let text = self.text_of(chunk_name)?;
-        let line = u32::try_from(line).unwrap_or_default();
-        Some(Place { text: text as u32, function: self.texts.borrow()[text].function_at(line) })
+    /// Gives the function on top, which was just compiled, probes, if its text is counted.
+    pub(crate) fn count_function(&self, stack: Stack<'_>) {
+        let Some(chunk_name) = stack.chunk_name_of_function() else { return };
+        let Some(lines) = self.lines_of(&chunk_name) else { return };
+        stack.push_value(-1);
+        let Some((bytecode, upvalue)) = with_probes(&stack.dump(), &lines) else { return };
+        push_notes(stack, &chunk_name);
+        stack.replace_function(&bytecode, i32::from(upvalue));
     }
 
-    fn text_of(&self, chunk_name: &[u8]) -> Option<usize> {
-        if let Some(known) = self.texts.borrow().iter().position(|text| *text.chunk_name == *chunk_name) {
-            return Some(known);
-        }
+    /// The lines that can run of the text with that name; None when it is not counted.
+    fn lines_of(&self, chunk_name: &[u8]) -> Option<BTreeSet<u32>> {
         let mut texts = self.texts.borrow_mut();
+        if let Some(known) = texts.iter().find(|text| *text.chunk_name == *chunk_name) {
+            return Some(known.lines.clone());
+        }
         if texts.len() >= MAX_TEXTS {
             return None;
         }
@@ -78,66 +69,68 @@ impl Coverage {
             Some(own) => own.text.to_vec(),
             None => read_text(Path::new(&*String::from_utf8_lossy(chunk_name.strip_prefix(b"@")?)))?,
         };
-        texts.push(Text::new(chunk_name, executable(&text).unwrap_or_default()));
-        Some(texts.len() - 1)
+        let functions = executable(&text).unwrap_or_default();
+        let lines: BTreeSet<u32> = functions.into_iter().flat_map(|function| function.lines).collect();
+        texts.push(Text { chunk_name: chunk_name.into(), lines: lines.clone() });
+        Some(lines)
     }
 
-    /// A line runs at a place, or somewhere that is not counted; false when lines need not be told for now.
-    pub(crate) fn line(&self, place: Option<Place>, line: i32) -> bool {
-        self.events.set(self.events.get() + 1);
-        if let Some(place) = place
-            && let Some(text) = self.texts.borrow_mut().get_mut(place.text as usize)
-        {
-            text.count(line);
-            if !text.is_complete(place.function) {
-                self.idle.set(0);
-                return true;
-            }
-        }
-        self.idle.set(self.idle.get() + 1);
-        let goes_on = self.idle.get() < PATIENCE;
-        if !goes_on {
-            self.idle.set(0);
-        }
-        goes_on
-    }
-
-    /// A function begins to run, or goes on, that stands there; whether its lines must be told.
-    pub(crate) fn enter(&self, place: Option<Place>) -> bool {
-        self.events.set(self.events.get() + 1);
-        place.is_some_and(|place| {
-            self.texts.borrow().get(place.text as usize).is_some_and(|text| !text.is_complete(place.function))
-        })
-    }
-
-    /// The count of instructions begins anew, in the middle as a rule.
-    pub(crate) fn note_lost_count(&self) {
-        self.lost_counts.set(self.lost_counts.get() + 1);
-    }
-
-    /// Whether so many instructions were lost to the count that its hook should have come.
-    pub(crate) fn is_late(&self) -> bool {
-        let is_late = self.lost_counts.get() >= 2;
-        if is_late {
-            self.lost_counts.set(0);
-        }
-        is_late
-    }
-
-    /// Hands over what has been counted, and begins anew.
-    pub(super) fn take(&self, sim: &Sim, script: &Script) -> LineCounts {
-        let mut all = LineCounts { events: self.events.take(), ..LineCounts::default() };
+    /// Hands over what has been noted, and begins anew.
+    pub(super) fn take(&self, sim: &Sim, script: &Script, stack: Stack<'_>) -> LineCounts {
+        let mut all = LineCounts::default();
         let own = self.own.borrow();
-        for text in self.texts.borrow_mut().iter_mut() {
-            let counts = std::mem::take(&mut text.counts);
+        for text in self.texts.borrow().iter() {
             let counted = match own.as_ref().filter(|own| *own.chunk_name == *text.chunk_name) {
                 Some(own) => own.counted(sim, script),
                 None => CountedText::File(PathBuf::from(String::from_utf8_lossy(&text.chunk_name[1..]).into_owned())),
             };
-            all.add(counted, &counts);
+            all.add(counted, &text.take_notes(stack));
         }
         all
     }
+}
+
+impl Text {
+    /// 1 for each line that has run since the last time.
+    fn take_notes(&self, stack: Stack<'_>) -> Counts {
+        let mut counts = vec![0; self.lines.last().map_or(0, |&line| line as usize)];
+        let top = stack.top();
+        push_notes(stack, &self.chunk_name);
+        let notes = stack.top();
+        for &line in &self.lines {
+            let name = line.to_string();
+            let is_noted = stack.raw_get_field(notes, &name) != Type::Nil
+                || stack.raw_get_index(notes, i64::from(line)) != Type::Nil;
+            stack.set_top(notes);
+            if is_noted {
+                counts[line as usize - 1] = 1;
+                stack.push_nil();
+                stack.raw_set_field(notes, &name);
+                stack.push_nil();
+                stack.raw_set_index(notes, i64::from(line));
+            }
+        }
+        stack.set_top(top);
+        counts
+    }
+}
+
+/// Pushes the table that the probes of a text write to.
+fn push_notes(stack: Stack<'_>, chunk_name: &[u8]) {
+    let name = String::from_utf8_lossy(chunk_name);
+    if stack.push_registry(NOTES) != Type::Table {
+        stack.pop(1);
+        stack.new_table(0, 1);
+        stack.push_value(-1);
+        stack.set_registry(NOTES);
+    }
+    if stack.raw_get_field(-1, &name) != Type::Table {
+        stack.pop(1);
+        stack.new_table(0, 0);
+        stack.push_value(-1);
+        stack.raw_set_field(-3, &name);
+    }
+    stack.remove(-2);
 }
 
 impl Own {

@@ -1,13 +1,12 @@
-//! The hook: every so many instructions it pre-empts coroutines and ends code that may not go on; at every line it counts, where lines are
-//! counted.
+//! The hook: every so many instructions it pre-empts coroutines and ends code that may not go on.
 
 use std::ffi::c_int;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use mlua_sys as ffi;
 
+use super::Stack;
 use super::callback::panic_message;
-use super::{Stack, lines};
 
 /// How many virtual machine instructions pass between two looks at the budget.
 pub(crate) const HOOK_INTERVAL: c_int = 1000;
@@ -58,11 +57,11 @@ fn set_interval(stack: Stack<'_>, interval: c_int) {
     }
 }
 
-/// Sets the hook: for every `interval` instructions, with an interval of 0 for none; and for every line, where lines are counted.
+/// Sets the hook for every `interval` instructions; none with an interval of 0.
 unsafe fn set_hook(raw: *mut ffi::lua_State, interval: c_int) {
     // SAFETY: `raw` is a coroutine of a living state.
     unsafe {
-        let mask = lines::mask(Stack::from_raw(raw)) | if interval > 0 { ffi::LUA_MASKCOUNT } else { 0 };
+        let mask = if interval > 0 { ffi::LUA_MASKCOUNT } else { 0 };
         ffi::lua_sethook(raw, (mask != 0).then_some(hook as ffi::lua_Hook), mask, interval);
     }
 }
@@ -110,13 +109,10 @@ pub(crate) enum Verdict {
     Fail(&'static str),
 }
 
-/// The hook: counts a line; or yields, with no values, or raises when the host says so.
-unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, record: *mut ffi::lua_Debug) {
+/// The hook: yields, with no values, or raises when the host says so.
+unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
     // SAFETY: Lua calls the hook of a running coroutine. Yields and errors leave it by `longjmp`; nothing is owned here.
     unsafe {
-        if (*record).event != ffi::LUA_HOOKCOUNT && !lines::note(raw, record) {
-            return;
-        }
         match ask(Stack::from_raw(raw), ffi::lua_isyieldable(raw) != 0) {
             Step::GoOn => {}
             Step::Yield => drop(ffi::lua_yield(raw, 0)),

@@ -18,7 +18,7 @@ mod callback;
 mod calls;
 mod coroutine;
 mod file;
-mod lines;
+mod functions;
 mod object;
 mod pool;
 mod stack;

@@ -8,7 +8,6 @@ use std::alloc::{Layout, alloc, dealloc, handle_alloc_error};
 use std::ptr::NonNull;
 use std::rc::Rc;
 
-use super::super::coverage::FunctionCache;
 use super::Budget;
 
 /// Sizes are rounded up to a multiple of this, which is also the alignment.
@@ -25,8 +24,6 @@ struct Free(Option<NonNull<Free>>);
 
 pub(super) struct Pool {
     pub(super) budget: Rc<Budget>,
-    /// Is told which blocks are freed, where lines are counted.
-    pub(super) functions: Option<Rc<FunctionCache>>,
     free: [Option<NonNull<Free>>; CLASSES],
     chunks: Vec<(NonNull<u8>, Layout)>,
     /// What is left of the newest chunk.
@@ -36,14 +33,7 @@ pub(super) struct Pool {
 
 impl Pool {
     pub(super) fn new(budget: Rc<Budget>) -> Self {
-        Self {
-            budget,
-            functions: None,
-            free: [None; CLASSES],
-            chunks: Vec::new(),
-            rest: NonNull::dangling(),
-            rest_len: 0,
-        }
+        Self { budget, free: [None; CLASSES], chunks: Vec::new(), rest: NonNull::dangling(), rest_len: 0 }
     }
 
     /// A block of at least `size` bytes, 1 to [`LARGEST`].

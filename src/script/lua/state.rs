@@ -26,10 +26,7 @@ impl State {
         // SAFETY: `allocate` never returns null for the sizes asked for here and by pushes, so neither fails.
         // The extra space of a main thread is copied into each of its coroutines.
         unsafe {
-            let mut pool = Pool::new(budget);
-            pool.functions =
-                owner.as_ref().and_then(|env| env.coverage.as_ref()).map(|coverage| Rc::clone(&coverage.functions));
-            let pool = NonNull::from(Box::leak(Box::new(pool)));
+            let pool = NonNull::from(Box::leak(Box::new(Pool::new(budget))));
             let raw = ffi::lua_newstate(allocate, pool.as_ptr().cast());
             let raw = NonNull::new(raw).expect("the allocator aborts rather than fail");
             *ffi::lua_getextraspace(raw.as_ptr()).cast::<*const Env>() = owner;
@@ -121,9 +118,6 @@ unsafe fn resize(block: *mut c_void, size: usize) -> *mut c_void {
 }
 
 unsafe fn free_block(pool: &mut Pool, block: NonNull<u8>, size: usize) {
-    if let Some(functions) = &pool.functions {
-        functions.forget(block.as_ptr().cast());
-    }
     // SAFETY: small blocks come from the pool, large ones from libc.
     unsafe {
         match size {

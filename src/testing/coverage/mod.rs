@@ -11,7 +11,6 @@ mod record;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 pub use record::Record;
 
@@ -25,17 +24,14 @@ pub struct Coverage {
     pub records: BTreeMap<PathBuf, Record>,
     /// Copies to write of the texts that have no file.
     copies: BTreeMap<PathBuf, Vec<u8>>,
-    /// How many lines and calls were told, of these and of other texts.
-    pub events: u64,
-    /// What that took of the time of the tests, as far as it can be told; all threads together.
-    pub cost: Option<Duration>,
+    /// How many times longer short lines of Lua take that are counted, if that could be measured.
+    pub cost: Option<f64>,
 }
 
 impl Coverage {
     /// What to report in the file `report` of `counts`; the tests themselves, `tests`, are left out.
     pub(super) fn new(report: &Path, tests: &[PathBuf], counts: LineCounts) -> Self {
-        let mut coverage = Self { events: counts.events, ..Self::default() };
-        coverage.cost = cost::of_an_event().map(|cost| cost.mul_f64(counts.events as f64));
+        let mut coverage = Self { cost: cost::of_a_loop(), ..Self::default() };
         let mut places = Places::new(report, tests);
         for (text, counts) in counts.texts {
             coverage.add(&mut places, &text, &counts);
