@@ -51,7 +51,7 @@ Recordings
 
 local _, native = ...
 local sim = require('sim')
-local quantities = require('swanilda.test.recordings')
+local recorder = require('swanilda.test.recordings')
 
 local t = { faults = {} }
 
@@ -375,10 +375,10 @@ end
 
 ---------------------------------------------------------------- recordings
 
-quantities.time, quantities.signal = t.time, t.signal
+recorder.time, recorder.signal = t.time, t.signal
 
-function t.golden(name, recorded, options)
-    local recording = quantities.begin(name, recorded, options)
+function t.golden(name, quantities, options)
+    local recording = recorder.begin(name, quantities, options)
     recordings[#recordings + 1] = recording
     if sim.getSimulationState() ~= sim.simulation_stopped then recording:sample() end
     return recording
