@@ -2,8 +2,8 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{Field, Handle, Kind, Object, References, SceneError, extension_string, flag, special};
+use super::{ApiFn, Cx, Result, functions};
+use crate::scene::{Field, Handle, Kind, Object, References, Scene, SceneError, extension_string, flag, special};
 use crate::script::{Handles, Number, ObjectRef};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -89,7 +89,7 @@ fn explicit_flag(object: &mut Object) -> std::result::Result<&mut bool, SceneErr
 /// What an object, or the scene, says to renderers: `povray {focalBlur {true}} openGL3 {...}`.
 ///
 /// @param objectHandle the object, or sim.handle_scene
-/// @param index -1: of the object itself; those of its colours are not kept
+/// @param index -1: of the object itself; from 0: of the colour of a mesh, of another object only 0
 /// @param key one entry, the innermost name first: `focalBlur@povray`; nothing for the whole text
 /// @return theString nothing when there is no such entry
 #[api("sim.getExtensionString")]
@@ -99,18 +99,27 @@ fn get_extension_string(
     index: Number,
     #[default(None)] key: Option<String>,
 ) -> Result<Option<String>> {
-    if index.0 >= 0 {
-        return Err(ApiError::NotImplemented("sim.getExtensionString of colours".into()));
-    }
     let scene = cx.scene();
-    let text = match object_handle.0 {
-        special::SCENE => &scene.settings().surroundings.extension_string,
-        raw => &scene.object(Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?)?.extension_string,
+    let text = match (object_handle.0, usize::try_from(index.0)) {
+        (special::SCENE, _) => &scene.settings().surroundings.extension_string,
+        (raw, Err(_)) => &object(&scene, raw)?.extension_string,
+        (raw, Ok(index)) => colour_extension(object(&scene, raw)?, index).ok_or(SceneError::InvalidArgument)?,
     };
     Ok(match key {
         None => Some(text.clone()),
         Some(key) => extension_string::entry(text, &key).map(str::to_owned),
     })
+}
+
+fn object(scene: &Scene, raw: i64) -> Result<&Object> {
+    Ok(scene.object(Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?)?)
+}
+
+fn colour_extension(object: &Object, index: usize) -> Option<&String> {
+    match &object.kind {
+        Kind::Shape(shape) => shape.parts.get(index).map(|part| &part.appearance.colour_extension),
+        _ => (index == 0).then_some(&object.colour_extension),
+    }
 }
 
 /// Whether a sensor or graph is left out when all are handled.

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use super::{Handle, SceneError, SceneResult};
 
-/// A graph: all its streams have a slot for each time that was recorded.
+/// A graph: its streams have a slot for each time that was recorded since they are there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Graph {
     pub explicit: bool,
@@ -42,7 +42,7 @@ pub struct Stream {
     pub transformation: Transformation,
     /// What the next slot records.
     pub next: Option<f64>,
-    /// As many as the graph has times; none where the values are fixed.
+    /// Of the last slots; those before them are gaps. None where the values are fixed.
     pub samples: VecDeque<Sample>,
     /// Times and values that no recording changes.
     pub fixed: Option<Vec<[f64; 2]>>,
@@ -188,7 +188,6 @@ impl Graph {
             return Ok(known.style.id);
         }
         stream.style.id = self.free_id();
-        stream.samples = vec![Sample::default(); self.times.len()].into();
         let id = stream.style.id;
         self.streams.push(stream);
         Ok(id)
@@ -248,11 +247,13 @@ impl Graph {
         Ok(free)
     }
 
-    /// Takes what a file holds; a stream that has not a sample for each time gets gaps.
+    /// Takes what a file holds. Samples that are not as many as the times are left out.
     pub fn restore(&mut self, times: VecDeque<f64>, mut streams: Vec<Stream>, curves: Vec<Curve>) {
         let slots = times.len();
         for stream in streams.iter_mut() {
-            stream.samples.resize(if stream.fixed.is_some() { 0 } else { slots }, Sample::default());
+            if stream.fixed.is_some() || stream.samples.len() != slots {
+                stream.samples.clear();
+            }
         }
         (self.times, self.streams, self.curves) = (times, streams, curves);
     }

@@ -18,7 +18,10 @@ impl Graph {
         self.times.push_back(time);
         let surplus = self.times.len().saturating_sub(most);
         self.times.drain(..surplus);
-        self.streams.iter_mut().for_each(|stream| drop(stream.samples.drain(..surplus.min(stream.samples.len()))));
+        for stream in &mut self.streams {
+            let surplus = stream.samples.len().saturating_sub(self.times.len());
+            stream.samples.drain(..surplus);
+        }
     }
 
     /// Forgets what was recorded. What is fixed stays.
@@ -34,7 +37,12 @@ impl Graph {
     pub fn values(&self, stream: &Stream) -> Vec<[f64; 2]> {
         match &stream.fixed {
             Some(fixed) => fixed.clone(),
-            None => self.times.iter().zip(stream.slots()).filter_map(|(time, value)| Some([*time, value?])).collect(),
+            None => self
+                .times
+                .iter()
+                .zip(stream.slots(self.times.len()))
+                .filter_map(|(time, value)| Some([*time, value?]))
+                .collect(),
         }
     }
 
@@ -46,7 +54,7 @@ impl Graph {
         let slots = [0, 1, 2].map(|axis| {
             let id = curve.streams[axis];
             let stream = self.streams.iter().find(|stream| stream.style.id == id && axis < curve.dimensions);
-            stream.map(Stream::slots)
+            stream.map(|stream| stream.slots(self.times.len()))
         });
         let coordinate = |slot: usize, axis: usize| match &slots[axis] {
             Some(values) => values.get(slot).copied().flatten(),
@@ -58,12 +66,13 @@ impl Graph {
 }
 
 impl Stream {
-    /// The value of each slot: multiplied, moved, and averaged.
-    fn slots(&self) -> Vec<Option<f64>> {
+    /// The value of each of the slots of a graph: multiplied, moved, and averaged.
+    fn slots(&self, all: usize) -> Vec<Option<f64>> {
         let Transformation { multiplier, offset, period, .. } = self.transformation;
         let scaled =
             |sample: &Sample| Some(multiplier * sample.transformed? + offset).filter(|value| value.is_finite());
-        let scaled: Vec<Option<f64>> = self.samples.iter().map(scaled).collect();
+        let before = std::iter::repeat_n(None, all.saturating_sub(self.samples.len()));
+        let scaled: Vec<Option<f64>> = before.chain(self.samples.iter().map(scaled)).collect();
         match usize::try_from(period) {
             Ok(period) if period > 1 => averaged(&scaled, period),
             _ => scaled,
@@ -129,7 +138,7 @@ mod tests {
             graph.stream_mut(id).unwrap().next = *value;
             graph.record(0.05 * slot as f64);
         }
-        graph.streams()[0].slots()
+        graph.streams()[0].slots(given.len())
     }
 
     #[track_caller]
@@ -166,6 +175,16 @@ mod tests {
         let transformation = Transformation { multiplier: 2.0, offset: 1.0, period: 2, ..Transformation::default() };
         let given = [Some(1.0), Some(3.0), None, Some(5.0)];
         assert_near(&recorded(transformation, &given), &[None, Some(5.0), None, Some(11.0)]);
+    }
+
+    #[test]
+    fn slots_before_a_stream_are_gaps() {
+        let mut graph = Graph::default();
+        (0..3).for_each(|time| graph.record(f64::from(time)));
+        let id = graph.add_stream(Stream::new(style("late"))).unwrap();
+        graph.stream_mut(id).unwrap().next = Some(7.0);
+        graph.record(3.0);
+        assert_eq!(graph.values(&graph.streams()[0]), [[3.0, 7.0]]);
     }
 
     #[test]

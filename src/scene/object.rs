@@ -62,6 +62,8 @@ pub struct Object {
     pub assembly: Assembly,
     /// Settings of renderers and the like, such as `povray {...} openGL3 {...}`.
     pub extension_string: String,
+    /// The same of its colour; meshes have their own.
+    pub colour_extension: String,
     /// Parameters of the old parameter dialog: name and value as text.
     pub user_params: Vec<(String, String)>,
     /// Tagged lists of handles: `(tag, handles)`; -1 stands for an object that is gone.
@@ -181,6 +183,7 @@ impl Object {
             kept: Kept::default(),
             assembly: Assembly::default(),
             extension_string: String::new(),
+            colour_extension: String::new(),
             user_params: Vec::new(),
             references: Vec::new(),
             original_references: Vec::new(),

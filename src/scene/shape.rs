@@ -158,6 +158,8 @@ impl Default for Material {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Appearance {
     pub colour_name: String,
+    /// Settings of renderers.
+    pub colour_extension: String,
     pub colour: Colour,
     pub culling: bool,
     pub wireframe: bool,
@@ -171,6 +173,7 @@ impl Appearance {
     pub fn new(ambient_diffuse: [f32; 3]) -> Self {
         Self {
             colour_name: String::new(),
+            colour_extension: String::new(),
             colour: Colour::new(ambient_diffuse),
             culling: false,
             wireframe: false,

@@ -157,5 +157,6 @@ fn colour(new: &mut Object, context: &Context<'_>, class: &Class) {
     if let Some(chunk) = chunk {
         let brighter = context.header.serialization < 17 && !matches!(class, Class::Light(_));
         new.colour = colour(chunk, new.colour, brighter);
+        new.colour_extension = chunk.extension_string.as_ref().map(Text::decode).unwrap_or_default();
     }
 }

@@ -211,6 +211,8 @@ fn appearance(data: &MeshData) -> Appearance {
     let mut appearance = Appearance::new([1.0; 3]);
     if let Some(chunk) = &data.colour {
         appearance.colour = colour(chunk, appearance.colour, false);
+        appearance.colour_extension =
+            chunk.extension_string.as_ref().map(crate::format::ttt::Text::decode).unwrap_or_default();
         appearance.colour_name = chunk.name.as_ref().map(crate::format::ttt::Text::decode).unwrap_or_default();
     }
     let switches = data.switches.unwrap_or(0);

@@ -23,9 +23,11 @@ pub(super) fn graph(context: &Context<'_>, graph: &Graph, colour: Option<file::C
         bgfg: Some([r, g, b, x, y, z]),
         buffer: Some([graph.buffer_size as i32, graph.times().len() as i32]),
         times: Some(Rest(graph.times().collect())),
-        streams: of_time(false).map(stream).collect(),
+        streams: of_time(false).map(|of| stream(of, graph.times().len())).collect(),
         curves: graph.curves.iter().filter(|curve| !curve.old).map(curve).collect(),
-        old_streams: of_time(true).filter_map(|stream| Some(old_stream(context, stream, stream.source?))).collect(),
+        old_streams: of_time(true)
+            .filter_map(|stream| Some(old_stream(context, stream, stream.source?, graph.times().len())))
+            .collect(),
         old_curves_3d: old_curves(3),
         old_curves_2d: old_curves(2),
         gps: Some(bits(&[(graph.cyclic, 0), (true, 1), (true, 2), (true, 3), (graph.explicit, 4)])),
@@ -37,7 +39,8 @@ fn flags(first: bool, style: &Style, fixed: Option<u8>) -> u8 {
     bits(&[(first, 0), (style.label, 1), (style.linked, 2)]) | fixed.map_or(0, |bit| 1 << bit)
 }
 
-fn stream(stream: &Stream) -> file::DataStream {
+/// A stream of a graph with so many slots.
+fn stream(stream: &Stream, slots: usize) -> file::DataStream {
     let (style, transformation) = (&stream.style, &stream.transformation);
     file::DataStream {
         name_and_unit: Some((style.name.as_str().into(), style.unit.as_str().into())),
@@ -51,9 +54,16 @@ fn stream(stream: &Stream) -> file::DataStream {
             transformation.cyclic_range,
         )),
         flags: Some(flags(stream.visible, style, stream.fixed.as_ref().map(|_| 4))),
-        data: stream.fixed.is_none().then(|| Rest(stream.samples.iter().flat_map(slot).collect())),
+        data: (!stream.samples.is_empty())
+            .then(|| Rest(samples(stream, slots).flat_map(|sample| slot(&sample)).collect())),
         static_values: stream.fixed.as_ref().map(|points| Counted(points.as_flattened().to_vec())),
     }
+}
+
+/// A sample for each slot; those from before the stream was there are gaps.
+fn samples(stream: &Stream, slots: usize) -> impl Iterator<Item = Sample> {
+    let before = slots.saturating_sub(stream.samples.len());
+    std::iter::repeat_n(Sample::default(), before).chain(stream.samples.iter().copied())
 }
 
 /// A value, what became of it, and whether there are such.
@@ -86,10 +96,11 @@ fn curve(curve: &Curve) -> file::Curve {
 /// One of the two numbers of a sample.
 type Half = fn(&Sample) -> Option<f64>;
 
-fn old_stream(context: &Context<'_>, stream: &Stream, source: OldSource) -> file::OldDataStream {
+fn old_stream(context: &Context<'_>, stream: &Stream, source: OldSource, slots: usize) -> file::OldDataStream {
     let (style, transformation) = (&stream.style, &stream.transformation);
-    let values = |of: Half| stream.samples.iter().map(|s| of(s).unwrap_or(0.0)).collect();
-    let valid = |of: Half| Rest(stream.samples.iter().map(|s| of(s).is_some().into()).collect());
+    let all: Vec<Sample> = if stream.samples.is_empty() { Vec::new() } else { samples(stream, slots).collect() };
+    let values = |of: Half| all.iter().map(|sample| of(sample).unwrap_or(0.0)).collect();
+    let valid = |of: Half| Rest(all.iter().map(|sample| of(sample).is_some().into()).collect());
     let (raw, transformed): (Half, Half) = (|s| s.raw, |s| s.transformed);
     file::OldDataStream {
         name: Some(style.name.as_str().into()),

@@ -122,7 +122,9 @@ fn object(context: &mut Context<'_>, handle: Handle, base: Option<Handle>) -> Sc
 }
 
 fn class(context: &mut Context<'_>, object: &Object) -> Class {
-    let colour = Some(colour::colour(&object.colour));
+    let mut colour = colour::colour(&object.colour);
+    colour.extension_string = Some(object.colour_extension.as_str().into());
+    let colour = Some(colour);
     match &object.kind {
         Kind::Shape(shape) => Class::Shape(Box::new(shape::shape(context, shape))),
         Kind::Joint(joint) => Class::Joint(Box::new(mechanics::joint(context, joint, colour))),

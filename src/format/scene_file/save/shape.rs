@@ -185,6 +185,7 @@ fn drawing(appearance: &Appearance) -> u8 {
 fn appearance(data: &mut MeshData, appearance: &Appearance) {
     let mut chunk = colour::colour(&appearance.colour);
     chunk.name = Some(appearance.colour_name.as_str().into());
+    chunk.extension_string = Some(appearance.colour_extension.as_str().into());
     data.colour = Some(chunk);
     data.shading = Some((appearance.shading_angle, 1));
     data.edge_threshold_angle = Some(appearance.edge_angle);
