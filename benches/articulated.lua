@@ -24,6 +24,7 @@ function sysCall_init()
         local along = ALTERNATE and i % 2 == 1
         sim.setObjectPose(joint, along and pose or sim.multiplyPoses(pose, ACROSS))
         sim.setObjectParent(joint, parent, true)
+        sim.setStringProperty(joint, 'rapier.solver', 'SOLVER')
         if target then
             sim.setObjectInt32Param(joint, sim.jointintparam_dynctrlmode, sim.jointdynctrl_position)
             sim.setJointTargetForce(joint, 200)

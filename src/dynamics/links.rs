@@ -1,8 +1,8 @@
 //! Joints, force sensors and welds as constraints between bodies.
 //!
 //! What holds them is the articulation, which solves all of them exactly. Those of bodies that touch something are rapier's impulse
-//! joints as well, so that contacts and links can answer each other within a sub-step. rapier's multibodies would not do: they have no
-//! loops, no moving bases, and no reading of what a link or a motor bears.
+//! joints as well, so that contacts and links can answer each other within a sub-step; those that scripts hand to rapier are nothing
+//! else. rapier's multibodies would not do: they have no loops, no moving bases, and no reading of what a link or a motor bears.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;

@@ -172,7 +172,7 @@ impl Dynamics {
         contacts::ask_about_all(world, self.asks);
         let_sleep(&self.bodies, &self.links, world, self.asks);
         self.contacts.forget_resting();
-        self.articulation.follow(&self.links, &scene.all_breadth_first(), &self.bodies, world);
+        self.articulation.follow(&mut self.links, &scene.all_breadth_first(), &self.bodies, world);
         self.revision = Some(scene.changes().dynamics_revision());
     }
 

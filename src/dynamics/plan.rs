@@ -8,7 +8,7 @@ use std::rc::Rc;
 
 use super::frozen::Frozen;
 use crate::scene::dummy::LinkType;
-use crate::scene::joint::{Joint, JointMode, JointType};
+use crate::scene::joint::{Joint, JointMode, JointSolver, JointType};
 use crate::scene::mass::MassProperties;
 use crate::scene::mesh::Mesh;
 use crate::scene::shape::{Primitive, Shape};
@@ -102,6 +102,8 @@ pub(super) struct LinkPlan {
     pub tip: Pose,
     /// Metres per radian: a screw moves along its axis while it turns.
     pub pitch: f64,
+    /// What the joint asks for; one joint speaks for its chain.
+    pub solver: JointSolver,
     /// Whether `second` is the child of the link in the scene, whose pose follows from the link.
     pub second_is_child: bool,
 }
@@ -272,6 +274,7 @@ fn link(scene: &Scene, handle: Handle, roles: &BTreeMap<Handle, bool>) -> Option
         base: object.pose(),
         tip,
         pitch: object.joint().map_or(0.0, pitch),
+        solver: object.joint().map_or(JointSolver::Exact, |joint| joint.solver),
         second_is_child,
     })
 }
@@ -289,6 +292,7 @@ fn weld(scene: &Scene, dummy: &Object, first: Handle, roles: &BTreeMap<Handle, b
         base: dummy.pose(),
         tip: partner.pose(),
         pitch: 0.0,
+        solver: JointSolver::Exact,
         second_is_child: false,
     })
 }

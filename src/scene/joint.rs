@@ -39,6 +39,30 @@ pub enum Control {
     Callback = 16,
 }
 
+/// What holds a chain of dynamic joints together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum JointSolver {
+    /// All joints of the chain are solved at once, exactly.
+    #[default]
+    Exact,
+    /// The engine's impulse joints, one after the other.
+    Impulse,
+}
+
+impl JointSolver {
+    /// As scripts call it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Impulse => "impulse",
+        }
+    }
+
+    pub fn from_word(word: &str) -> Option<Self> {
+        [Self::Exact, Self::Impulse].into_iter().find(|solver| solver.word() == word)
+    }
+}
+
 /// A joint: revolute values in rad, prismatic ones in m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
@@ -75,6 +99,7 @@ pub struct Joint {
     /// Metres per turn; revolute joints only.
     pub screw_lead: f64,
     pub dependency: Option<Dependency>,
+    pub solver: JointSolver,
     /// The kinematic motion in progress.
     pub motion: Option<Motion>,
     /// Length and diameter, for display.
@@ -138,6 +163,7 @@ impl Joint {
             motor_lock: false,
             screw_lead: 0.0,
             dependency: None,
+            solver: JointSolver::Exact,
             motion: None,
             size: [0.15, 0.02],
             error: None,

@@ -41,6 +41,8 @@ pub enum ApiError {
     PropertyType,
     #[error("property could not be written.")]
     PropertyNotWritable,
+    #[error("there is no solver '{0}': it is 'exact' or 'impulse'.")]
+    UnknownSolver(String),
     #[error("property could not be read.")]
     PropertyNotReadable,
     #[error("property cannot be removed.")]

@@ -15,6 +15,7 @@ use crate::dynamics::links::Links;
 use crate::dynamics::plan::LinkPlan;
 use crate::dynamics::world::World;
 use crate::scene::Handle;
+use crate::scene::joint::JointSolver;
 
 /// How often the set of acting motors and stops may be corrected in a sub-step.
 const ROUNDS: usize = 8;
@@ -34,6 +35,9 @@ pub(super) struct Chain {
     meetings: Vec<Meeting>,
     pub pattern: Pattern,
     pub matrix: Matrix,
+    /// Whether a joint asks for rapier's joints, and whether there is a screw, which rapier does not know.
+    asks_rapier: bool,
+    has_screw: bool,
 }
 
 /// Two links, or one with itself, at a body that moves: each by index and side.
@@ -45,9 +49,16 @@ struct Meeting {
 impl Chain {
     /// Adds a link; those added first are eliminated first.
     pub(super) fn add(&mut self, link: Handle, plan: &LinkPlan, bodies: &Bodies) {
+        self.asks_rapier |= plan.solver == JointSolver::Impulse;
+        self.has_screw |= plan.pitch != 0.0;
         if let (Some(first), Some(second)) = (self.mover(plan.first, bodies), self.mover(plan.second, bodies)) {
             self.nodes.push(Node::new(link, plan.kind, [first, second]));
         }
+    }
+
+    /// Whether the links are left to rapier alone.
+    pub(super) fn is_rapiers(&self) -> bool {
+        self.asks_rapier && !self.has_screw
     }
 
     fn mover(&mut self, shape: Handle, bodies: &Bodies) -> Option<usize> {
@@ -87,6 +98,10 @@ impl Chain {
 
     fn moving(&self) -> impl Iterator<Item = &Mover> {
         self.movers.iter().filter(|mover| mover.moves())
+    }
+
+    pub(super) fn moving_shapes(&self) -> impl Iterator<Item = Handle> {
+        self.moving().map(|mover| mover.shape)
     }
 
     /// Whether one of these shapes is a body of the chain.

@@ -40,24 +40,27 @@ pub(super) struct Articulation {
 }
 
 impl Articulation {
-    /// Lays out the systems for the links there are. `order`: base-to-tip.
-    pub(super) fn follow(&mut self, links: &Links, order: &[Handle], bodies: &Bodies, world: &mut World) {
+    /// Lays out the systems for the links there are; chains of which a joint asks for it are left to rapier. `order`: base-to-tip.
+    pub(super) fn follow(&mut self, links: &mut Links, order: &[Handle], bodies: &Bodies, world: &mut World) {
         self.chains.iter().for_each(|chain| chain.leave_gyration_to_rapier(true, world));
         let plan = |handle: &Handle| links.get(handle).map(|link| (*handle, &link.plan));
         let plans: Vec<(Handle, &LinkPlan)> = order.iter().rev().filter_map(plan).collect();
         let moving = |shape: Handle| bodies.get(shape).filter(|body| body.build.dynamic).map(|_| shape);
         let ends: Vec<_> = plans.iter().map(|(_, plan)| [moving(plan.first), moving(plan.second)]).collect();
         let numbers = partition::partition(&ends);
-        self.chains.clear();
-        self.chains.resize_with(numbers.iter().max().map_or(0, |last| last + 1), Chain::default);
-        for ((handle, plan), &number) in plans.into_iter().zip(&numbers) {
-            self.chains[number].add(handle, plan, bodies);
+        let mut chains = Vec::new();
+        chains.resize_with(numbers.iter().max().map_or(0, |last| last + 1), Chain::default);
+        for ((handle, plan), number) in plans.into_iter().zip(numbers) {
+            chains[number].add(handle, plan, bodies);
         }
+        let (rapiers, exact): (Vec<Chain>, Vec<Chain>) = chains.into_iter().partition(Chain::is_rapiers);
+        rapiers.iter().for_each(|chain| chain.share(true, links, world));
+        self.chains = exact;
         self.chains.iter_mut().for_each(Chain::lay_out);
-        let places = ends.iter().zip(&numbers);
-        self.chain_of =
-            places.flat_map(|(ends, &number)| ends.iter().flatten().map(move |&end| (end, number))).collect();
         self.chains.iter().for_each(|chain| chain.leave_gyration_to_rapier(false, world));
+        let shapes =
+            |(index, chain): (usize, &Chain)| chain.moving_shapes().map(|shape| (shape, index)).collect::<Vec<_>>();
+        self.chain_of = self.chains.iter().enumerate().flat_map(shapes).collect();
     }
 
     pub(super) fn is_empty(&self) -> bool {

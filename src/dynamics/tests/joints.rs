@@ -1,6 +1,7 @@
 //! Single joints: control, stops, readings.
 
 use super::*;
+use crate::scene::joint::JointSolver;
 
 #[test]
 fn position_control_decays_geometrically() {
@@ -108,4 +109,39 @@ fn a_joint_that_is_placed_takes_its_body_along() {
     near(start.rotation.angle_to(&end.rotation), 0.3, 1e-6);
     // The engine has this one joint only, not those of the places before.
     assert_eq!(bench.dynamics.world.as_ref().expect("a world").joints.len(), 1);
+}
+
+#[test]
+fn a_chain_of_which_a_joint_asks_for_it_is_left_to_rapier() {
+    let mut bench = Bench::new();
+    let (joint, arm) = bench.arm(0.01, 0.1, |joint| {
+        (joint.control, joint.target_force, joint.solver) = (Control::Position, 50.0, JointSolver::Impulse);
+    });
+    let sensor = bench.object(Kind::ForceSensor(Box::<ForceSensor>::default()), Pose::translation(0.2, 0.0, 1.0), arm);
+    let tip = bench.ghost([0.3, 0.0, 1.0], true);
+    bench.hang(tip, sensor);
+    bench.run(40);
+    assert!(bench.dynamics.articulation.is_empty());
+    near(bench.height(arm), 1.0, 1e-2);
+    near(bench.joint(joint).force.expect("simulated"), 9.81 * (0.1 + 0.3), 0.05);
+    let object = bench.scene.object(sensor).expect("exists");
+    let (force, torque) = object.force_sensor().expect("a sensor").filtered.expect("data");
+    near(force[2], -9.81, 0.05);
+    near(torque[1], 0.981, 0.05);
+    let changed = bench.scene.try_modify(joint, Field::Joint, |object| {
+        object.joint_mut()?.solver = JointSolver::Exact;
+        Ok(())
+    });
+    changed.expect("a joint");
+    bench.run(20);
+    assert!(!bench.dynamics.articulation.is_empty());
+    near(bench.height(arm), 1.0, 1e-4);
+}
+
+#[test]
+fn a_screw_keeps_its_chain_exact() {
+    let mut bench = Bench::new();
+    bench.arm(0.01, 0.1, |joint| (joint.solver, joint.screw_lead) = (JointSolver::Impulse, 0.01));
+    bench.run(1);
+    assert!(!bench.dynamics.articulation.is_empty());
 }

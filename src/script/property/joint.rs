@@ -2,9 +2,10 @@
 
 use super::access::{Accessor, object_properties, placed_properties};
 use super::{PoseArray, Quaternion};
-use crate::scene::joint::{Control, JointMode};
+use crate::scene::joint::{Control, JointMode, JointSolver};
 use crate::scene::pose::{pose_to_array, quaternion_from_array, quaternion_to_array};
 use crate::scene::{Handle, Pose, Scene, SceneError, SceneResult};
+use crate::script::error::ApiError;
 
 pub(super) const JOINT: &[Accessor] = object_properties! {
     "jointLength": f64, |o| o.joint()?.size[0], Appearance |o, length| o.joint_mut()?.size[0] = length;
@@ -57,6 +58,10 @@ pub(super) const STATE: &[Accessor] = placed_properties! {
     "jointMode": i64, |s, h| s.object(h)?.joint()?.mode as i64, |s, h, mode| {
         let mode = JointMode::from_code(mode).ok_or(SceneError::InvalidData)?;
         s.set_joint_mode(h, mode)?;
+    };
+    "rapier.solver": String, |s, h| s.object(h)?.joint()?.solver.word().to_owned(), |s, h, word| {
+        let solver = JointSolver::from_word(&word).ok_or(ApiError::UnknownSolver(word))?;
+        s.modify_joint(h, |joint| joint.solver = solver)?;
     };
     "dynCtrlMode": i64, |s, h| s.object(h)?.joint()?.control as i64, |s, h, mode| {
         let control = Control::from_code(mode).ok_or(SceneError::InvalidData)?;
