@@ -21,7 +21,7 @@ const INTERRUPTED: u8 = 130;
 /// Serve programs that drive the simulator: an idle simulator with the ZeroMQ remote API
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// The Lua file of the scene [default: the default scene]
+    /// The scene: a Lua file, one of CoppeliaSim, or a folder made by unpack [default: the default scene]
     scene: Option<PathBuf>,
     /// Leave out the ZeroMQ remote API
     #[arg(long, conflicts_with = "remote_api")]

@@ -179,7 +179,8 @@ impl TestBench {
         self.size.set(0);
         let lost = self.lost.take();
         if lost > 0 {
-            let text = format!("{lost} more lines: a test may write {CONSOLE_SIZE} bytes.");
+            let plural = if lost == 1 { "" } else { "s" };
+            let text = format!("{lost} more line{plural}: a test may write {CONSOLE_SIZE} bytes.");
             lines.push(ConsoleLine { time, origin: None, level: "warning", text, undecorated: false });
         }
         lines
