@@ -141,6 +141,7 @@ fn results_with_recordings_are_told_as_they_come() {
     assert!(at("ERROR a_test.lua::b") < at("FAIL a_test.lua::c"), "c waits for those before it: {output}");
 }
 
+/// With coverage, which must not change what a script does.
 #[test]
 fn the_conformance_suite_runs_through_the_runner() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -148,7 +149,9 @@ fn the_conformance_suite_runs_through_the_runner() {
     let known = std::fs::read_to_string(root.join("tests/conformance/KNOWN.md")).expect("the list is there");
     let pending = known.lines().filter(|line| line.starts_with("| `")).count();
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
-    command.args(["test", "tests/conformance"]).current_dir(root);
+    let dir = tempfile::tempdir().expect("a folder");
+    let coverage = format!("--coverage={}", dir.path().join("lcov.info").display());
+    command.args(["test", "tests/conformance", &coverage]).current_dir(root);
     let output = run_within(&mut command, Duration::from_secs(300)).expect("it ends");
     assert!(output.contains(&format!("{} passed, {pending} pending", cases - pending)), "{output}");
 }
