@@ -100,6 +100,11 @@ impl Chain {
         self.movers.iter().filter(|mover| mover.moves())
     }
 
+    /// A tree has as many links as bodies at most.
+    pub(super) fn has_loops(&self) -> bool {
+        self.nodes.len() > self.moving().count()
+    }
+
     pub(super) fn moving_shapes(&self) -> impl Iterator<Item = Handle> {
         self.moving().map(|mover| mover.shape)
     }

@@ -156,14 +156,16 @@ impl Mover {
         (self.pose, self.com, self.shift) = (place.pose, place.com, place.shift);
     }
 
-    /// Tells rapier where the body was shifted to, which makes its velocity another one; `most` bounds its spin, rad/s.
-    pub(super) fn tell(&self, world: &mut World, step: f64, most: f64) {
+    /// Tells rapier where the body was shifted to, which makes its velocity another one if that `learns` of it; `most` bounds its spin,
+    /// rad/s.
+    pub(super) fn tell(&self, world: &mut World, step: f64, learns: bool, most: f64) {
         let Some(rigid) = world.bodies.get_mut(self.rigid) else { return };
         if (self.shift == Vector6::zeros() && self.rotor.is_none()) || !is_finite(&self.pose) {
             return;
         }
         rigid.set_position(to_pose(&self.pose), false);
-        let [linear, angular] = [0, 3].map(|part| to_vector((self.shift.fixed_rows::<3>(part) / step).into()));
+        let learnt = if learns { self.shift } else { Vector6::zeros() };
+        let [linear, angular] = [0, 3].map(|part| to_vector((learnt.fixed_rows::<3>(part) / step).into()));
         rigid.set_linvel(rigid.linvel() + linear, false);
         let gained = self.rotor.as_ref().map_or(Vector3::zeros(), |rotor| rotor.gained);
         let spin = rigid.angvel() + angular + to_vector(gained.into());

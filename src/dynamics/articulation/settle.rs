@@ -33,8 +33,10 @@ impl Chain {
             mover.shift = Vector6::zeros();
             mover.turn_with_axis(spin, before, step);
         }
-        let most = if self.close_gaps(links) { f64::MAX } else { RESOLVED_TURN / step };
-        self.movers.iter().for_each(|mover| mover.tell(world, step, most));
+        let is_closed = self.close_gaps(links);
+        let most = if is_closed { f64::MAX } else { RESOLVED_TURN / step };
+        let learns = is_closed || !self.has_loops();
+        self.movers.iter().for_each(|mover| mover.tell(world, step, learns, most));
     }
 
     /// Forces act along the links as they were. Where that leads nowhere, as near a position in which a loop can fold two ways, the bodies
@@ -43,6 +45,8 @@ impl Chain {
         let mut pushes = self.gaps(links);
         let mut wide = widest(&pushes);
         let mut is_current = false;
+        let begin = (wide > WIDE && self.has_loops())
+            .then(|| (wide, self.movers.iter().map(Mover::place_now).collect::<Vec<Place>>()));
         for _ in 0..ROUNDS {
             if wide < CLOSED || !wide.is_finite() {
                 break;
@@ -63,6 +67,10 @@ impl Chain {
                 break;
             }
             is_current = true;
+        }
+        // What cannot be closed at all, as a loop that is too short, stays open.
+        if let Some((_, places)) = begin.filter(|(before, _)| wide > before * (1.0 - PROGRESS)) {
+            self.movers.iter_mut().zip(places).for_each(|(mover, place)| mover.take_back(place));
         }
         wide <= WIDE
     }

@@ -75,3 +75,23 @@ fn a_loop_with_more_ties_than_freedom_turns() {
     near(bench.joint(rocker).position, bench.joint(crank).position, 1e-9);
     near(bench.height(coupler) - 1.0, 0.2 * 2.0f64.cos(), 1e-3);
 }
+
+/// Two bars of 0.2 m between bases 0.5 m apart.
+#[test]
+fn a_loop_that_is_too_short_rests_open() {
+    let mut bench = Bench::new();
+    let [base, far] = [0.0, 0.5].map(|x| bench.ghost([x, 0.0, 1.0], false));
+    let hinge = || Kind::Joint(Box::new(Joint::new(JointType::Revolute, JointMode::Dynamic)));
+    let mut last = base;
+    for x in [0.0, 0.2] {
+        let joint = bench.object(hinge(), along_y([x, 0.0, 1.0]), last);
+        last = bench.shape([0.2, 0.02, 0.02], [x + 0.1, 0.0, 1.0], 0.5, true, false);
+        bench.hang(last, joint);
+    }
+    let end = bench.object(hinge(), along_y([0.4, 0.0, 1.0]), last);
+    let tie = || Kind::Dummy(Dummy { link_type: LinkType::LoopClosure, ..Dummy::new(0.01) });
+    let ties = [(end, 0.4), (far, 0.5)].map(|(parent, x)| bench.object(tie(), along_y([x, 0.0, 1.0]), parent));
+    bench.scene.link_dummies(ties[0], Some(ties[1])).expect("two dummies");
+    bench.run(40);
+    near(bench.height(last), 1.0, 0.01);
+}
