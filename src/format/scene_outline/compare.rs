@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Item, Outline, lines};
+use super::{Item, Mesh, Outline, lines};
 
 /// Numbers that differ by less, relative to their size, are the same: saving rounds.
 const SAME: f64 = 1e-6;
@@ -10,7 +10,7 @@ const SAME: f64 = 1e-6;
 /// The differences in words, one per line, then those of scripts; empty when there are none.
 pub fn differences(a: &Outline, b: &Outline) -> String {
     let mut out = String::new();
-    fields(&mut out, "scene", &a.settings, &b.settings);
+    fields(&mut out, "scene", &a.settings, &b.settings, |_| false);
     let pairs = pairs(a, b);
     let paired: BTreeSet<&str> = pairs.iter().map(|(old, _)| old.path.as_str()).collect();
     let found: BTreeSet<&str> = pairs.iter().map(|(_, new)| new.path.as_str()).collect();
@@ -28,7 +28,11 @@ pub fn differences(a: &Outline, b: &Outline) -> String {
         if old.kind != new.kind {
             out += &format!("changed {}: {} -> {}\n", new.path, old.kind, new.kind);
         }
-        fields(&mut out, &new.path, &old.fields, &new.fields);
+        let same_mesh = |name: &str| match (old.meshes.get(name), new.meshes.get(name)) {
+            (Some(old), Some(new)) => old.is_near(new),
+            _ => false,
+        };
+        fields(&mut out, &new.path, &old.fields, &new.fields, same_mesh);
         scripts(&mut out, &new.path, &old.scripts, &new.scripts);
     }
     out
@@ -47,13 +51,22 @@ fn pairs<'a>(a: &'a Outline, b: &'a Outline) -> Vec<(&'a Item, &'a Item)> {
     a.objects.iter().filter_map(pair).collect()
 }
 
-fn fields(out: &mut String, path: &str, a: &[(String, String)], b: &[(String, String)]) {
+/// `is_same` knows by their names fields that are the same though their values are not.
+fn fields(
+    out: &mut String,
+    path: &str,
+    a: &[(String, String)],
+    b: &[(String, String)],
+    is_same: impl Fn(&str) -> bool,
+) {
     let new: BTreeMap<&str, &str> = b.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
     let old: BTreeSet<&str> = a.iter().map(|(name, _)| name.as_str()).collect();
     for (name, value) in a {
         let word = if name == "pose" { "moved  " } else { "changed" };
         match new.get(name.as_str()) {
-            Some(other) if !same(value, other) => out.push_str(&format!("{word} {path}: {name}: {value} -> {other}\n")),
+            Some(other) if !same(value, other) && !is_same(name) => {
+                out.push_str(&format!("{word} {path}: {name}: {value} -> {other}\n"));
+            }
             Some(_) => {}
             None => out.push_str(&format!("changed {path}: {name}: {value} -> nothing\n")),
         }
@@ -76,6 +89,16 @@ fn same(a: &str, b: &str) -> bool {
     a == b || (x.len() == y.len() && x.iter().zip(&y).all(|(a, b)| near(a, b)))
 }
 
+impl Mesh {
+    /// The same but for rounding, which changes the sums.
+    fn is_near(&self, other: &Self) -> bool {
+        let near = |(a, b): (&f32, &f32)| f64::from((a - b).abs()) <= SAME * f64::from(1.0 + a.abs());
+        self.indices == other.indices
+            && self.vertices.len() == other.vertices.len()
+            && self.vertices.iter().zip(&other.vertices).all(near)
+    }
+}
+
 fn scripts(out: &mut String, path: &str, a: &[(String, String)], b: &[(String, String)]) {
     let names: BTreeSet<&str> = a.iter().chain(b).map(|(name, _)| name.as_str()).collect();
     let find = |list: &[(String, String)], name: &str| {
@@ -92,10 +115,11 @@ fn scripts(out: &mut String, path: &str, a: &[(String, String)], b: &[(String, S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::scene_file::SceneFile;
     use crate::format::scene_file::tests::{own_files, real_files};
-    use crate::format::ttt::File;
+    use crate::format::scene_file::{SceneFile, save};
     use crate::format::ttt::tree::Class;
+    use crate::format::ttt::{File, Rest};
+    use crate::scene::Scene;
 
     fn outline(file: File) -> Outline {
         Outline::new(SceneFile::new(file).unwrap()).unwrap()
@@ -111,6 +135,35 @@ mod tests {
             let file = File::read(&std::fs::read(&path).unwrap()).unwrap();
             assert_eq!(differences(&outline(file.clone()), &outline(file)), "", "{}", path.display());
         }
+    }
+
+    #[test]
+    fn a_scene_that_is_saved_again_is_the_same() {
+        for path in own_files().into_iter().chain(real_files().into_iter().take(6)) {
+            let file = File::read(&std::fs::read(&path).unwrap()).unwrap();
+            let (mut scene, source) = (Scene::new(), SceneFile::new(file.clone()).unwrap());
+            let as_scene = !source.is_model();
+            let loaded = source.add_to(&mut scene, as_scene).unwrap();
+            let saved = save::scene(&scene, &loaded.scripts).unwrap();
+            let (mut told, other) = (outline(file), outline(saved));
+            // A model is saved as the scene that it is in.
+            if !as_scene {
+                told.settings.clone_from(&other.settings);
+            }
+            assert_eq!(differences(&told, &other), "", "{}", path.display());
+        }
+    }
+
+    #[test]
+    fn meshes_may_differ_by_rounding() {
+        let moved = |metres: f32| {
+            let mut file = robot();
+            let pool = file.contents.mesh_pool.as_mut().unwrap();
+            pool.vertices.iter_mut().for_each(|Rest(vertices)| vertices[0] += metres);
+            outline(file)
+        };
+        assert_eq!(differences(&moved(0.0), &moved(1e-7)), "");
+        assert!(differences(&moved(0.0), &moved(1e-3)).contains(".triangles: "), "a millimetre counts");
     }
 
     #[test]

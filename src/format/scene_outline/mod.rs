@@ -63,6 +63,14 @@ pub struct Item {
     pub scripts: Vec<(String, String)>,
     /// How many triangles it has.
     pub triangles: usize,
+    /// Its meshes, by the names of the fields with their sums.
+    meshes: BTreeMap<String, Mesh>,
+}
+
+/// A mesh as it is stored: three numbers for a vertex, three indices for a triangle.
+struct Mesh {
+    vertices: Vec<f32>,
+    indices: Vec<i32>,
 }
 
 impl Outline {
@@ -118,8 +126,13 @@ fn item(
     let tree = super::ttt::object_node(object);
     let Node::Table(entries) = &tree else { unreachable!("objects are tables") };
     let kind = entries.iter().map(|(name, _)| name.as_str()).find(|name| *name != "Object").unwrap_or("Object");
-    let mut walk =
-        Walk { paths, pool: file.contents.mesh_pool.as_ref(), fields: Vec::new(), scripts: Vec::new(), triangles: 0 };
+    let mut walk = Walk {
+        paths,
+        pool: file.contents.mesh_pool.as_ref(),
+        fields: Vec::new(),
+        scripts: Vec::new(),
+        meshes: BTreeMap::new(),
+    };
     // What all objects have goes without a name, what the type adds under the name of the type.
     entries.iter().for_each(|(name, node)| walk.visit(if name == "Object" { "" } else { name }, node));
     let id = object.common.persistent_id.as_ref().map(|id| id.decode()).unwrap_or_default();
@@ -130,7 +143,8 @@ fn item(
         persistent_id: id,
         fields: walk.fields,
         scripts: walk.scripts,
-        triangles: walk.triangles,
+        triangles: walk.meshes.values().map(|mesh| mesh.indices.len() / 3).sum(),
+        meshes: walk.meshes,
     }
 }
 
@@ -140,7 +154,7 @@ struct Walk<'a> {
     pool: Option<&'a MeshPool>,
     fields: Vec<(String, String)>,
     scripts: Vec<(String, String)>,
-    triangles: usize,
+    meshes: BTreeMap<String, Mesh>,
 }
 
 impl Walk<'_> {
@@ -188,9 +202,10 @@ impl Walk<'_> {
             return;
         };
         let bytes = vertices.iter().flat_map(|n| n.to_le_bytes()).chain(indices.iter().flat_map(|n| n.to_le_bytes()));
-        self.triangles += indices.len() / 3;
         let sum = format!("{} vertices, {} triangles, sum {:016x}", vertices.len() / 3, indices.len() / 3, sum(bytes));
-        self.fields.push((format!("{name}.triangles"), sum));
+        let name = format!("{name}.triangles");
+        self.meshes.insert(name.clone(), Mesh { vertices: vertices.clone(), indices: indices.clone() });
+        self.fields.push((name, sum));
     }
 }
 
@@ -227,7 +242,7 @@ fn attach(objects: &mut [Item], paths: &BTreeMap<i64, String>, scripts: &[Loaded
 fn settings(file: &File) -> Vec<(String, String)> {
     let tree = file.to_node();
     let paths = BTreeMap::new();
-    let mut walk = Walk { paths: &paths, pool: None, fields: Vec::new(), scripts: Vec::new(), triangles: 0 };
+    let mut walk = Walk { paths: &paths, pool: None, fields: Vec::new(), scripts: Vec::new(), meshes: BTreeMap::new() };
     for part in ["simulation", "dynamics", "environment", "custom_data"] {
         if let Some(node) = tree.get("contents").and_then(|contents| contents.get(part)) {
             walk.visit(part, node);
