@@ -3,29 +3,17 @@
 use std::collections::BTreeMap;
 
 use super::mesh::Mesh;
+use super::partition::partition;
 
 impl Mesh {
     /// The connected pieces, in the order of their first triangles: lists of triangles.
     pub fn islands(&self) -> Vec<Vec<usize>> {
-        let mut group: Vec<usize> = (0..self.vertices.len()).collect();
-        for &[a, b, c] in &self.triangles {
-            let root = find(&mut group, a as usize);
-            for corner in [b, c] {
-                let other = find(&mut group, corner as usize);
-                group[other] = root;
-            }
+        let mut islands: Vec<Vec<usize>> = Vec::new();
+        for (triangle, island) in partition(self.triangles.iter().copied()).into_iter().enumerate() {
+            islands.resize(islands.len().max(island + 1), Vec::new());
+            islands[island].push(triangle);
         }
-        let mut pieces: BTreeMap<usize, usize> = BTreeMap::new();
-        let mut triangles: Vec<Vec<usize>> = Vec::new();
-        for (index, triangle) in self.triangles.iter().enumerate() {
-            let root = find(&mut group, triangle[0] as usize);
-            let piece = *pieces.entry(root).or_insert(triangles.len());
-            if piece == triangles.len() {
-                triangles.push(Vec::new());
-            }
-            triangles[piece].push(index);
-        }
-        triangles
+        islands
     }
 
     /// The mesh of some of the triangles, with the vertices they use.
@@ -44,15 +32,6 @@ impl Mesh {
         }
         part
     }
-}
-
-/// The representative of a vertex; paths are halved on the way.
-fn find(group: &mut [usize], mut vertex: usize) -> usize {
-    while group[vertex] != vertex {
-        group[vertex] = group[group[vertex]];
-        vertex = group[vertex];
-    }
-    vertex
 }
 
 #[cfg(test)]

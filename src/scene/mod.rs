@@ -45,6 +45,7 @@ mod object;
 mod object_params;
 pub mod octree;
 mod outline;
+pub(crate) mod partition;
 mod path;
 pub mod point_cloud;
 pub mod pose;

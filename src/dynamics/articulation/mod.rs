@@ -13,7 +13,6 @@ mod block_cholesky;
 mod chain;
 mod mover;
 mod node;
-mod partition;
 mod rotor;
 mod settle;
 mod taut;
@@ -30,6 +29,7 @@ use super::links::Links;
 use super::plan::LinkPlan;
 use super::world::World;
 use crate::scene::Handle;
+use crate::scene::partition::partition;
 
 /// The links of a scene and the order they are solved in.
 #[derive(Default)]
@@ -46,8 +46,8 @@ impl Articulation {
         let plan = |handle: &Handle| links.get(handle).map(|link| (*handle, &link.plan));
         let plans: Vec<(Handle, &LinkPlan)> = order.iter().rev().filter_map(plan).collect();
         let moving = |shape: Handle| bodies.get(shape).filter(|body| body.build.dynamic).map(|_| shape);
-        let ends: Vec<_> = plans.iter().map(|(_, plan)| [moving(plan.first), moving(plan.second)]).collect();
-        let numbers = partition::partition(&ends);
+        let ends = |(_, plan): &(Handle, &LinkPlan)| [plan.first, plan.second].into_iter().filter_map(moving);
+        let numbers = partition(plans.iter().map(ends));
         let mut chains = Vec::new();
         chains.resize_with(numbers.iter().max().map_or(0, |last| last + 1), Chain::default);
         for ((handle, plan), number) in plans.into_iter().zip(numbers) {
