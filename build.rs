@@ -1,4 +1,4 @@
-//! Lists the Lua files of `lua/` for embedding: module name and path.
+//! Lists the Lua files of `lua/` for embedding: module name and path. The folders right below `lua/` are rooms; they are not part of names.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -10,13 +10,13 @@ fn main() {
     export_lua();
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it")).join("lua");
     let mut files = Vec::new();
-    collect(&root, &mut files);
+    for room in fs::read_dir(&root).expect("lua/ is part of the package").flatten() {
+        collect(&room.path(), &room.path(), &mut files);
+    }
     files.sort();
     let mut table = String::from("&[\n");
-    for file in &files {
-        let name = file.strip_prefix(&root).expect("collected below the root").with_extension("");
-        let name = name.to_str().expect("our file names are ASCII").replace('\\', "/");
-        writeln!(table, "({name:?}, include_str!({:?})),", file.display().to_string()).expect("strings take all");
+    for (name, path) in &files {
+        writeln!(table, "({name:?}, include_str!({path:?})),").expect("strings take all");
     }
     table.push(']');
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it")).join("lua_files.rs");
@@ -38,13 +38,16 @@ fn export_lua() {
     }
 }
 
-fn collect(dir: &Path, files: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(dir).expect("lua/ is part of the package").flatten() {
+/// Module name and path of every Lua file below `dir`, which lies in `room`.
+fn collect(room: &Path, dir: &Path, files: &mut Vec<(String, String)>) {
+    for entry in fs::read_dir(dir).expect("rooms are folders").flatten() {
         let path = entry.path();
         if path.is_dir() {
-            collect(&path, files);
+            collect(room, &path, files);
         } else if path.extension().is_some_and(|extension| extension == "lua") {
-            files.push(path);
+            let name = path.strip_prefix(room).expect("collected below the room").with_extension("");
+            let name = name.to_str().expect("our file names are ASCII").replace('\\', "/");
+            files.push((name, path.display().to_string()));
         }
     }
 }

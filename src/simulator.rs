@@ -12,7 +12,7 @@ use std::time::Duration;
 use crate::api;
 use crate::format::scene_file::SceneFile;
 use crate::io::ZmqServer;
-use crate::scene::script_object::{ScriptObject, ScriptType};
+use crate::scene::tree::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, Scene};
 use crate::script::coverage::LineCounts;
 use crate::script::{

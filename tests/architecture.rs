@@ -19,7 +19,7 @@ const LAYERS: &[&[&str]] = &[
 const OWNERS: &[(&str, &str)] = &[
     ("rapier3d", "src/dynamics"),
     ("mlua_sys", "src/script/lua"),
-    ("directories", "src/script/app_storage"),
+    ("directories", "src/script/files/app_storage"),
     ("fs4", "src/script"),
     ("image", "src/format/picture.rs"),
     ("dns_lookup", "src/io/socket"),

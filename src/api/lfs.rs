@@ -1,4 +1,4 @@
-//! The native part of the Lua modules `lfs` and `lfsx`: folders, links and what is known of files. `lua/lfs.lua` gives it
+//! The native part of the Lua modules `lfs` and `lfsx`: folders, links and what is known of files. `lua/public/lfs.lua` gives it
 //! LuaFileSystem's form.
 //!
 //! These functions tell failures by results, as that library does: nil, the reason, and the system's number of it.
@@ -13,7 +13,7 @@ use api_macro::api;
 use super::{ApiFn, Cx, Result, functions};
 use crate::scene::{Data, Key};
 use crate::script::Results;
-use crate::script::file_lock::system_words;
+use crate::script::files::file_lock::system_words;
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![current_dir, change_dir, make_dir, remove_dir, link, touch, attributes, list, real_path, temp_dir];

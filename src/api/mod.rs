@@ -3,69 +3,32 @@
 //! A function is said once, with `#[api]`; its row joins the table of its file, and the tables join here. Names that need no code of
 //! their own stand in tables: constants, aliases, deprecations, old names, and the reference that tells what is missing.
 
-mod alias;
-mod auxiliary_console;
-mod collection;
-mod colour;
-mod custom_data;
-mod drawing;
-mod dummy;
-mod dynamics;
-mod engine_param;
-mod events;
-mod force_sensor;
-mod global;
-mod graph;
-mod images;
-mod joint;
-mod joint_motion;
-mod joint_shape_old;
+mod data;
+mod display;
+mod files;
 mod lfs;
 mod mime;
-mod object_copy;
-mod object_param;
-mod object_pose;
-mod object_property;
-mod object_tree;
-mod packing;
-mod param;
-mod param_property;
-mod pose_maths;
-mod property;
+mod motion;
+mod objects;
+mod old;
+mod parameters;
 mod remote;
-mod ruckig;
-mod scene_file;
-mod script_old;
 mod scripts;
-mod sensor_objects;
 mod sensors;
-mod serial;
-mod shape;
-mod shape_convex;
-mod shape_group;
-mod shape_mass;
-mod signal;
+mod shapes;
 mod sim_convex;
 mod sim_ws;
-mod simulation;
 mod socket;
 mod subprocess;
 mod testing;
 mod testing_run;
-mod texture;
-mod thread;
-mod time;
-mod trajectory;
-mod tube;
-mod user_param;
-mod voxel_objects;
-mod voxels;
 mod zmq;
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use crate::script::{Bound, Embedded, FILES, Registry, cbor, file_lock};
+use crate::script::files::file_lock;
+use crate::script::{Bound, Embedded, FILES, Registry, cbor};
 
 pub(crate) use crate::script::Member;
 
@@ -80,54 +43,54 @@ use functions;
 
 /// All native functions, file by file.
 pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
-    ("Globals", global::FUNCTIONS),
-    ("Scripts", scripts::FUNCTIONS),
-    ("Older script functions", script_old::FUNCTIONS),
-    ("Time and chance", time::FUNCTIONS),
-    ("Simulation", simulation::FUNCTIONS),
-    ("Threads", thread::FUNCTIONS),
-    ("Names and paths", alias::FUNCTIONS),
-    ("Poses of objects", object_pose::FUNCTIONS),
-    ("Pose maths", pose_maths::FUNCTIONS),
-    ("Object tree", object_tree::FUNCTIONS),
-    ("Copies and models", object_copy::FUNCTIONS),
-    ("Object properties", object_property::FUNCTIONS),
-    ("Object parameters", object_param::FUNCTIONS),
-    ("Collections", collection::FUNCTIONS),
-    ("Shapes", shape::FUNCTIONS),
-    ("Mass of shapes", shape_mass::FUNCTIONS),
-    ("Groups of shapes", shape_group::FUNCTIONS),
-    ("Convex and extruded shapes", shape_convex::FUNCTIONS),
-    ("Colours", colour::FUNCTIONS),
-    ("Textures", texture::FUNCTIONS),
-    ("Joints", joint::FUNCTIONS),
-    ("Joint motion", joint_motion::FUNCTIONS),
-    ("Old functions of joints and shapes", joint_shape_old::FUNCTIONS),
-    ("Dummies", dummy::FUNCTIONS),
-    ("Force sensors", force_sensor::FUNCTIONS),
-    ("Sensors", sensors::FUNCTIONS),
-    ("Sensor objects", sensor_objects::FUNCTIONS),
-    ("Ruckig", ruckig::FUNCTIONS),
-    ("Time-optimal trajectories", trajectory::FUNCTIONS),
-    ("Dynamics", dynamics::FUNCTIONS),
-    ("Engine parameters", engine_param::FUNCTIONS),
-    ("Events", events::FUNCTIONS),
-    ("Images", images::FUNCTIONS),
-    ("Properties", property::FUNCTIONS),
-    ("Simulator parameters", param::FUNCTIONS),
-    ("Custom data", custom_data::FUNCTIONS),
-    ("Signals", signal::FUNCTIONS),
-    ("Packing", packing::FUNCTIONS),
-    ("Tubes", tube::FUNCTIONS),
-    ("Serial ports", serial::FUNCTIONS),
+    ("Globals", scripts::global::FUNCTIONS),
+    ("Scripts", scripts::script::FUNCTIONS),
+    ("Older script functions", old::script::FUNCTIONS),
+    ("Time and chance", scripts::time::FUNCTIONS),
+    ("Simulation", scripts::simulation::FUNCTIONS),
+    ("Threads", scripts::thread::FUNCTIONS),
+    ("Names and paths", objects::alias::FUNCTIONS),
+    ("Poses of objects", objects::pose::FUNCTIONS),
+    ("Pose maths", objects::pose_maths::FUNCTIONS),
+    ("Object tree", objects::tree::FUNCTIONS),
+    ("Copies and models", objects::copy::FUNCTIONS),
+    ("Object properties", objects::property::FUNCTIONS),
+    ("Object parameters", old::object_param::FUNCTIONS),
+    ("Collections", objects::collection::FUNCTIONS),
+    ("Shapes", shapes::shape::FUNCTIONS),
+    ("Mass of shapes", shapes::mass::FUNCTIONS),
+    ("Groups of shapes", shapes::group::FUNCTIONS),
+    ("Convex and extruded shapes", shapes::convex::FUNCTIONS),
+    ("Colours", shapes::colour::FUNCTIONS),
+    ("Textures", shapes::texture::FUNCTIONS),
+    ("Joints", motion::joint::FUNCTIONS),
+    ("Joint motion", motion::joint_motion::FUNCTIONS),
+    ("Old functions of joints and shapes", old::joint_shape::FUNCTIONS),
+    ("Dummies", objects::dummy::FUNCTIONS),
+    ("Force sensors", sensors::force_sensor::FUNCTIONS),
+    ("Sensors", sensors::state::FUNCTIONS),
+    ("Sensor objects", sensors::create::FUNCTIONS),
+    ("Ruckig", motion::ruckig::FUNCTIONS),
+    ("Time-optimal trajectories", motion::trajectory::FUNCTIONS),
+    ("Dynamics", motion::dynamics::FUNCTIONS),
+    ("Engine parameters", old::engine_param::FUNCTIONS),
+    ("Events", scripts::events::FUNCTIONS),
+    ("Images", display::images::FUNCTIONS),
+    ("Properties", data::property::FUNCTIONS),
+    ("Simulator parameters", parameters::param::FUNCTIONS),
+    ("Custom data", data::custom_data::FUNCTIONS),
+    ("Signals", old::signal::FUNCTIONS),
+    ("Packing", data::packing::FUNCTIONS),
+    ("Tubes", old::tube::FUNCTIONS),
+    ("Serial ports", files::serial::FUNCTIONS),
     ("Programs", subprocess::SIM_FUNCTIONS),
-    ("Consoles, messages of the interface, semaphores", auxiliary_console::FUNCTIONS),
-    ("User parameters", user_param::FUNCTIONS),
-    ("Octrees and point clouds", voxels::FUNCTIONS),
-    ("Objects in octrees and point clouds", voxel_objects::FUNCTIONS),
-    ("Scene files", scene_file::FUNCTIONS),
-    ("Graphs", graph::FUNCTIONS),
-    ("Display", drawing::FUNCTIONS),
+    ("Consoles, messages of the interface, semaphores", display::auxiliary_console::FUNCTIONS),
+    ("User parameters", old::user_param::FUNCTIONS),
+    ("Octrees and point clouds", sensors::voxels::FUNCTIONS),
+    ("Objects in octrees and point clouds", sensors::voxel_objects::FUNCTIONS),
+    ("Scene files", files::scene_file::FUNCTIONS),
+    ("Graphs", display::graph::FUNCTIONS),
+    ("Display", display::drawing::FUNCTIONS),
 ];
 
 /// Native functions of Lua modules: `module.function` each. A Lua file of the module's name gets them as its second argument.
@@ -162,17 +125,17 @@ pub(crate) const LIBRARIES: &[(&str, &[ApiFn])] = &[
 ];
 
 /// `name<TAB>value` of every constant of `sim`.
-pub(crate) const CONSTANTS: &str = include_str!("constants.tsv");
+pub(crate) const CONSTANTS: &str = include_str!("tables/constants.tsv");
 /// `old<TAB>new`: names that do exactly what another does.
-pub(crate) const ALIASES: &str = include_str!("aliases.tsv");
+pub(crate) const ALIASES: &str = include_str!("tables/aliases.tsv");
 /// `name<TAB>replacement`: names that log their deprecation at the first call.
-pub(crate) const DEPRECATED: &str = include_str!("deprecated.tsv");
+pub(crate) const DEPRECATED: &str = include_str!("tables/deprecated.tsv");
 /// `simName<TAB>name`: old global names that follow no rule.
-const OLD_NAMES: &str = include_str!("old_names.tsv");
+const OLD_NAMES: &str = include_str!("tables/old_names.tsv");
 /// `name<TAB>category<TAB>deprecated<TAB>signature` of every function CoppeliaSim's reference has.
-pub(crate) const REFERENCE: &str = include_str!("reference.tsv");
+pub(crate) const REFERENCE: &str = include_str!("tables/reference.tsv");
 /// `name<TAB>tier` of the reference's functions: T1 is what published code uses most.
-pub(crate) const TIERS: &str = include_str!("tiers.tsv");
+pub(crate) const TIERS: &str = include_str!("tables/tiers.tsv");
 
 /// Everything scripts can reach, by name. One per process.
 pub(crate) fn registry() -> &'static Registry {
@@ -254,12 +217,12 @@ pub(crate) fn embedded_files() -> impl Iterator<Item = (&'static str, &'static s
     FILES.iter().copied()
 }
 
-/// Module name and text of the files in `lua/sim`.
+/// Module name and text of the files in `lua/library/sim`.
 pub(crate) fn lua_files() -> impl Iterator<Item = (&'static str, &'static str)> {
     embedded_files().filter(|(module, _)| module.starts_with("sim/"))
 }
 
-/// Functions of the files in `lua/sim`: each is a line `function M.name(`.
+/// Functions of the files in `lua/library/sim`: each is a line `function M.name(`.
 fn add_lua_functions(registry: &mut Registry, notices: &Notices) {
     for (module, source) in lua_files() {
         for name in

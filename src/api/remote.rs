@@ -1,4 +1,4 @@
-//! The native part of the remote APIs (`lua/remote`): messages of programs outside.
+//! The native part of the remote APIs (`lua/library/remote`): messages of programs outside.
 
 use std::collections::HashMap;
 use std::sync::LazyLock;

@@ -5,8 +5,8 @@
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::decomposition::Fineness;
 use crate::scene::mesh::Mesh;
+use crate::scene::mesh::decomposition::Fineness;
 use crate::scene::shape::Shape;
 use crate::scene::{Data, Handle, Kind, SceneError};
 use crate::script::{Handles, Table};

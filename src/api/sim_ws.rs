@@ -7,7 +7,7 @@ use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
 use crate::io::{SendError, WsEndpoint, WsPages, WsRequest};
-use crate::script::web_sockets::{Endpoint, Occasion, Role, handle_number};
+use crate::script::channels::web_sockets::{Endpoint, Occasion, Role, handle_number};
 use crate::script::{Bytes, Handler, ScriptFunction};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![

@@ -7,7 +7,7 @@ use api_macro::api;
 
 use super::testing::{bench, line_data};
 use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::script_object::ScriptType;
+use crate::scene::tree::script_object::ScriptType;
 use crate::scene::{Data, Key};
 use crate::script::Options;
 use crate::script::test_bench::{RunReport, RunRequest};

@@ -7,7 +7,7 @@ use std::time::Duration;
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
 
-use crate::script::verbosity;
+use crate::script::log::verbosity;
 use crate::{Console, LogLine, RunTotals};
 
 /// How lines are written.

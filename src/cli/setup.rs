@@ -8,7 +8,7 @@ use super::progress::Progress;
 use crate::format::scene_file::{self, SceneFile};
 use crate::format::scene_input::SceneInput;
 use crate::format::ttt::FileError;
-use crate::script::verbosity;
+use crate::script::log::verbosity;
 use crate::{Options, ScriptKind, Simulator};
 
 /// How the simulator is set up

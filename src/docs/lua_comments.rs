@@ -3,7 +3,7 @@
 use super::row::{Doc, Function, Parameter, Returned};
 use crate::api;
 
-/// The category of each file of `lua/sim`.
+/// The category of each file of `lua/library/sim`.
 const CATEGORIES: &[(&str, &str)] = &[
     ("sim/data", "Custom data"),
     ("sim/deprecated", "Old names"),

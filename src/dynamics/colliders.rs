@@ -10,8 +10,8 @@ use rapier3d_f64::prelude::SharedShape;
 use super::convert::{to_pose, to_vector};
 use super::plan::PartForm;
 use crate::scene::mesh::Mesh;
-use crate::scene::primitive::PrimitiveKind;
 use crate::scene::shape::Primitive;
+use crate::scene::shape::primitive::PrimitiveKind;
 
 /// The smallest thickness of anything, metres.
 const THIN: f64 = 0.0001;

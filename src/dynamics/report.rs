@@ -11,11 +11,11 @@ use super::motors::wrap;
 use super::plan::LinkKind;
 use super::world::World;
 use super::{Dynamics, Pass};
-use crate::scene::dynamics_report::JointReport;
-use crate::scene::force_sensor::{Filter, ForceSensor};
 use crate::scene::joint::Joint;
-use crate::scene::poses::is_place;
+use crate::scene::pose::placement::is_place;
+use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
 use crate::scene::shape::Velocity;
+use crate::scene::simulation::dynamics_report::JointReport;
 use crate::scene::{Field, Handle, Kind, Pose, Scene};
 
 /// Bits of [`Object::dynamic_flag`](crate::scene::Object::dynamic_flag).

@@ -9,10 +9,10 @@ mod sleep;
 use bench::{Bench, STEP, along_y, near};
 
 use super::*;
-use crate::scene::dummy::{Dummy, LinkType};
-use crate::scene::force_sensor::ForceSensor;
 use crate::scene::joint::Control;
 use crate::scene::joint::JointType;
+use crate::scene::sensor::force_sensor::ForceSensor;
+use crate::scene::tree::dummy::{Dummy, LinkType};
 use crate::scene::{Field, Kind, Pose};
 
 #[test]

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::custom_data::Edited;
+use super::values::custom_data::Edited;
 use super::{Handle, Holder, Namespace, Uid};
 
 /// What changed about an object.

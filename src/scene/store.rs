@@ -2,10 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::object::{Kind, Object};
 use super::shape::Part;
 use super::shape::Shape;
-use super::{Change, Changes, CustomData, Field, Handle, Kept, SceneError, SceneResult, Settings, Uid, identity};
+use super::tree::identity;
+use super::tree::object::{Kind, Object};
+use super::{Change, Changes, CustomData, Field, Handle, Kept, SceneError, SceneResult, Settings, Uid};
 
 /// Identifiers of meshes begin above all handles and their flags: both name targets of properties.
 pub const FIRST_MESH_UID: Uid = 100_000_000;
@@ -28,7 +29,7 @@ pub struct Scene {
     pub(super) referrers: BTreeSet<Handle>,
     /// Collections ever made.
     pub(super) collections_made: i64,
-    pub(super) followers: super::joint_dependency::Followers,
+    pub(super) followers: super::joint::dependency::Followers,
     /// A simulation runs: new objects remember their state.
     pub(super) in_run: bool,
     settings: Settings,
@@ -37,7 +38,7 @@ pub struct Scene {
     pub custom_data: CustomData,
     /// Signals of the scene itself; they are not saved.
     pub signals: CustomData,
-    pub(super) textures: BTreeMap<i64, super::texture::Texture>,
+    pub(super) textures: BTreeMap<i64, super::appearance::texture::Texture>,
     /// Values of the scene itself that have no effect here, as scripts set them.
     pub kept: Kept,
 }
@@ -265,7 +266,7 @@ fn is_sensor(kind: &Kind) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::dummy::Dummy;
+    use crate::scene::tree::dummy::Dummy;
 
     fn dummy(scene: &mut Scene) -> SceneResult<Handle> {
         scene.add("dummy", Kind::Dummy(Dummy::new(0.01)))

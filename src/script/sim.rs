@@ -8,26 +8,26 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use super::attached::log_suffix;
 use super::binding::Registry;
-use super::by_handle::ByHandle;
-use super::clock::Clock;
-use super::console::{Console, LogLine};
+use super::binding::by_handle::ByHandle;
+use super::channels::system_semaphore::SystemSemaphores;
+use super::channels::tubes::Tubes;
+use super::channels::web_sockets::WebSockets;
 use super::coverage::LineCounts;
 use super::events::EventStream;
-use super::instance::{Detached, Script};
+use super::lifecycle::attached::log_suffix;
+use super::lifecycle::instance::{Detached, Script};
+use super::lifecycle::order::OrderCache;
+use super::lifecycle::random::Random;
+use super::log::console::{Console, LogLine};
+use super::log::verbosity;
 use super::lua::Budget;
-use super::order::OrderCache;
 use super::property::{AppData, SignalOwners};
-use super::random::Random;
-use super::system_semaphore::SystemSemaphores;
+use super::step::clock::Clock;
 use super::test_bench::TestBench;
-use super::tubes::Tubes;
-use super::verbosity;
-use super::web_sockets::WebSockets;
 use crate::dynamics::Dynamics;
 use crate::io::{EventLoop, SerialPort, ZmqServer, zmq};
-use crate::scene::script_object::ScriptType;
+use crate::scene::tree::script_object::ScriptType;
 use crate::scene::{Handle, Scene};
 
 /// The first handle of scripts that are no scene objects.
@@ -183,7 +183,7 @@ impl Sim {
             line_counts: RefCell::default(),
             next_detached: Cell::new(FIRST_DETACHED),
             once: RefCell::default(),
-            started: super::wall_clock::now(),
+            started: super::step::wall_clock::now(),
         })
     }
 

@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::rc::Rc;
 
-use super::console::{Console, LogLine, Stream};
+use super::Options;
 use super::coverage::LineCounts;
-use super::{Options, verbosity};
-use crate::scene::script_object::ScriptType;
+use super::log::console::{Console, LogLine, Stream};
+use super::log::verbosity;
+use crate::scene::tree::script_object::ScriptType;
 
 /// Bytes of the console a test may fill; the rest is counted only.
 const CONSOLE_SIZE: usize = 1 << 20;

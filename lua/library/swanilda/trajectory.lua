@@ -1,7 +1,7 @@
 --[[
 Shared by sim/motion.lua and sim/pose.lua: checks and limits of a motion, the trajectory object behind it, and following it to its end.
 
-Not a group of sim functions: those are in lua/sim.
+Not a group of sim functions: those are in lua/library/sim.
 ]]
 
 local sim = package.loaded.sim or require 'sim'

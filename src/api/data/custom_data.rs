@@ -5,7 +5,7 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::{CustomData, Data, Edit, Namespace, SceneError, special};
 use crate::script::{Bytes, Number, Section, Target};
 

@@ -3,7 +3,7 @@
 use api_macro::api;
 use base64::Engine;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::{Data, SceneError};
 use crate::script::{Bytes, Number, Table};
 use crate::wire::number_buffer::{Format, Mapping, transform};

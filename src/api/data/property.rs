@@ -2,7 +2,7 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Args, Cx, FromScript, Result, functions};
+use crate::api::{ApiError, ApiFn, Args, Cx, FromScript, Result, functions};
 use crate::scene::Data;
 use crate::script::{
     Bytes, Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Table, Text, Vector2, Vector3,

@@ -4,9 +4,10 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::Data;
-use crate::script::{AuxiliaryConsole, Bytes, Number, verbosity};
+use crate::script::log::verbosity;
+use crate::script::{AuxiliaryConsole, Bytes, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     auxiliary_console_open,

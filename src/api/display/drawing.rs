@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::{Data, Handle, SceneError, special};
 use crate::script::{ByHandle, Number, Rest};
 

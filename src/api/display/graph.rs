@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::graph::{Curve, Graph, Stream, Style, Transformation, TransformationKind};
 use crate::scene::{Data, Field, Handle, Kind, Object, SceneError, special};
 use crate::script::{Number, Results};

@@ -2,7 +2,7 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::format::picture::{Layout, Picture, PictureError};
 use crate::script::{Bytes, IntPair};
 
@@ -20,7 +20,7 @@ mod option {
     pub const FLIP_Y: i64 = 4;
 }
 
-pub(super) fn failure(error: PictureError) -> ApiError {
+pub(in crate::api) fn failure(error: PictureError) -> ApiError {
     ApiError::Other(error.to_string())
 }
 
@@ -44,7 +44,7 @@ fn load_image(_cx: &Cx, options: i64, filename: Bytes) -> Result<(Bytes, IntPair
     Ok((Bytes(picture.into_bytes()), resolution))
 }
 
-pub(super) fn read_file(name: &[u8]) -> Result<Vec<u8>> {
+pub(in crate::api) fn read_file(name: &[u8]) -> Result<Vec<u8>> {
     let name = String::from_utf8_lossy(name);
     std::fs::read(&*name).map_err(|error| ApiError::Other(format!("cannot read {name}: {error}.")))
 }

@@ -1,10 +1,10 @@
-//! `sim.*`: serial ports. Opening, closing and reading as scripts know them are in `lua/sim/serial.lua`.
+//! `sim.*`: serial ports. Opening, closing and reading as scripts know them are in `lua/library/sim/serial.lua`.
 //!
 //! Ports belong to the simulator, so that scripts may share a handle; they are closed when the simulation ends.
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::io::SerialPort;
 use crate::script::{Bytes, Number};
 

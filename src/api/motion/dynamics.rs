@@ -2,7 +2,7 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::{Field, Handle, Object, SceneError, flag, special};
 use crate::script::ObjectRef;
 

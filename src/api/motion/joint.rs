@@ -2,7 +2,7 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::joint::{Joint, JointMode, JointType};
 use crate::scene::{Handle, Kind, SceneError};
 use crate::script::Number;

@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::spline::Boundary;
-use crate::scene::time_optimal::{Limits, TimeOptimalError, TimedPath};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::motion::spline::Boundary;
+use crate::scene::motion::time_optimal::{Limits, TimeOptimalError, TimedPath};
 use crate::script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![generate_time_optimal_trajectory];

@@ -2,7 +2,7 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::{Data, Handle, SceneError, special};
 use crate::script::{Bytes, Table};
 

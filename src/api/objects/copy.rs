@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::{CopyOptions, Handle, SceneError};
 use crate::script::{Handles, Number};
 

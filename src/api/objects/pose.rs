@@ -4,8 +4,8 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::euler;
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::pose::euler;
 use crate::scene::pose::{self, Pose};
 use crate::scene::{Frame, Handle, Placement, SceneError, flag, special};
 use crate::script::{Args, FromScript, ObjectRef};
@@ -301,7 +301,7 @@ fn arrange<const N: usize>(
 }
 
 /// Refuses what is not a number; infinity passes.
-pub(super) fn checked<const N: usize>(numbers: [f64; N]) -> Result<[f64; N]> {
+pub(in crate::api) fn checked<const N: usize>(numbers: [f64; N]) -> Result<[f64; N]> {
     if numbers.iter().any(|number| number.is_nan()) { Err(SceneError::InvalidData.into()) } else { Ok(numbers) }
 }
 

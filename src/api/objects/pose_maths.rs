@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use super::object_pose::checked;
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::euler;
+use super::pose::checked;
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::pose::euler;
 use crate::scene::pose::{self, Pose, PoseError};
 use crate::script::{Args, FromScript};
 

@@ -2,8 +2,9 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
-use crate::scene::{Field, Handle, Kind, Object, References, Scene, SceneError, extension_string, flag, special};
+use crate::api::{ApiFn, Cx, Result, functions};
+use crate::scene::values::extension_string;
+use crate::scene::{Field, Handle, Kind, Object, References, Scene, SceneError, flag, special};
 use crate::script::{Handles, Number, ObjectRef};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![

@@ -2,8 +2,8 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
-use crate::scene::engine_params::is_step_size;
+use crate::api::{ApiFn, Cx, Result, functions};
+use crate::scene::parameters::engine::is_step_size;
 use crate::scene::{Handle, SceneError};
 use crate::script::Number;
 

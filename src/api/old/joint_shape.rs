@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
-use crate::scene::mass::MassProperties;
+use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::pose::{pose_from_matrix, pose_to_matrix};
+use crate::scene::shape::mass::MassProperties;
 use crate::scene::{Field, Handle, Pose, SceneError};
 use crate::script::Number;
 

@@ -6,8 +6,8 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use super::script_old;
-use super::{ApiFn, Cx, Result, functions};
+use super::script;
+use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::{Data, Handle, SceneError};
 use crate::script::{Bytes, Number, Script, Text};
 
@@ -42,7 +42,7 @@ fn object(raw: i64) -> Result<Handle> {
 #[api("sim.getObjectInt32Param")]
 fn get_object_int32_param(cx: &Cx, object_handle: Number, parameter_id: Number) -> Result<Option<i64>> {
     match script(cx, object_handle.0, parameter_id.0) {
-        Some(script) => script_old::int_param(cx, &script, parameter_id.0).map(Some),
+        Some(script) => script::int_param(cx, &script, parameter_id.0).map(Some),
         None => Ok(cx.scene().int_param(object(object_handle.0)?, parameter_id.0)?),
     }
 }
@@ -56,7 +56,7 @@ fn get_object_int32_param(cx: &Cx, object_handle: Number, parameter_id: Number) 
 #[api("sim.setObjectInt32Param")]
 fn set_object_int32_param(cx: &mut Cx, object_handle: Number, parameter_id: Number, parameter: Number) -> Result<i64> {
     if let Some(script) = script(cx, object_handle.0, parameter_id.0) {
-        script_old::set_param(cx, &script, parameter_id.0, Data::Int(parameter.0))?;
+        script::set_param(cx, &script, parameter_id.0, Data::Int(parameter.0))?;
         return Ok(1);
     }
     let object_handle = object(object_handle.0)?;
@@ -119,7 +119,7 @@ fn set_object_float_array_param(
 #[api("sim.getObjectStringParam")]
 fn get_object_string_param(cx: &Cx, object_handle: Number, parameter_id: Number) -> Result<Option<Text>> {
     match script(cx, object_handle.0, parameter_id.0) {
-        Some(script) => script_old::string_param(cx, &script, parameter_id.0),
+        Some(script) => script::string_param(cx, &script, parameter_id.0),
         None => Ok(cx.scene().string_param(object(object_handle.0)?, parameter_id.0)?.map(Text)),
     }
 }
@@ -132,7 +132,7 @@ fn get_object_string_param(cx: &Cx, object_handle: Number, parameter_id: Number)
 #[api("sim.setObjectStringParam")]
 fn set_object_string_param(cx: &mut Cx, object_handle: Number, parameter_id: Number, parameter: Bytes) -> Result<()> {
     if let Some(script) = script(cx, object_handle.0, parameter_id.0) {
-        return script_old::set_param(cx, &script, parameter_id.0, Data::Text(parameter.0));
+        return script::set_param(cx, &script, parameter_id.0, Data::Text(parameter.0));
     }
     let object_handle = object(object_handle.0)?;
     cx.scene_mut().set_string_param(object_handle, parameter_id.0, &parameter.0)?;

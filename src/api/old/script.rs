@@ -4,9 +4,9 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use super::scripts::script_of;
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::script_object::ScriptType;
+use crate::api::scripts::script::script_of;
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::tree::script_object::ScriptType;
 use crate::scene::{Data, Handle, SceneError, ValueType, special};
 use crate::script::{Bytes, Number, Script, Target, Text};
 
@@ -231,21 +231,21 @@ fn get_script_int32_param(cx: &Cx, script_handle: Number, parameter_id: Number) 
     int_param(cx, &script_of(cx, script_handle.0)?, parameter_id.0)
 }
 
-pub(super) fn int_param(cx: &Cx, script: &Rc<Script>, parameter: i64) -> Result<i64> {
+pub(in crate::api) fn int_param(cx: &Cx, script: &Rc<Script>, parameter: i64) -> Result<i64> {
     match read(cx, script, Attribute::from_number(parameter)?)? {
         Data::Int(value) => Ok(value),
         value => Ok(i64::from(value.truthy())),
     }
 }
 
-pub(super) fn string_param(cx: &Cx, script: &Rc<Script>, parameter: i64) -> Result<Option<Text>> {
+pub(in crate::api) fn string_param(cx: &Cx, script: &Rc<Script>, parameter: i64) -> Result<Option<Text>> {
     match read(cx, script, Attribute::from_number(parameter)?)? {
         Data::Text(text) => Ok(Some(Text(text))),
         _ => Ok(None),
     }
 }
 
-pub(super) fn set_param(cx: &Cx, script: &Rc<Script>, parameter: i64, value: Data) -> Result<()> {
+pub(in crate::api) fn set_param(cx: &Cx, script: &Rc<Script>, parameter: i64, value: Data) -> Result<()> {
     write(cx, script, Attribute::from_number(parameter)?, value)
 }
 

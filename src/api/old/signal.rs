@@ -4,7 +4,7 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::Namespace;
 use crate::script::{Bytes, Number, PropertyValue, Target, Text};
 

@@ -2,7 +2,7 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use crate::api::{ApiFn, Cx, Result, functions};
 use crate::script::{Bytes, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![tube_open, tube_write, tube_read, tube_status, tube_close];

@@ -2,8 +2,8 @@
 
 use api_macro::api;
 
-use super::scripts::script_of;
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::api::scripts::script::script_of;
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::{Data, Field, Handle, Scene, special};
 use crate::script::{Number, Results};
 

@@ -8,8 +8,9 @@ use std::path::Path;
 use api_macro::api;
 
 use super::param_property::{self, FLOATS, INTEGERS, LEVELS, LIGHT, SWITCHES, TEXTS};
-use super::{ApiFn, Cx, Result, functions};
-use crate::scene::{SceneError, euler};
+use crate::api::{ApiFn, Cx, Result, functions};
+use crate::scene::SceneError;
+use crate::scene::pose::euler;
 use crate::script::{Bytes, Color, Number, PropertyValue, Target, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -285,5 +286,5 @@ fn set_named_string_param(cx: &mut Cx, param_name: String, string_param: Text) -
 /// Lets plugins of the original handle what came from outside. There are none; main scripts call it all the same.
 #[api("sim.handleExtCalls")]
 fn handle_ext_calls(cx: &mut Cx) -> Result<()> {
-    super::simulation::main_script_only(cx)
+    crate::api::scripts::simulation::main_script_only(cx)
 }

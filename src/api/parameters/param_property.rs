@@ -1,6 +1,6 @@
 //! Numbered parameters of the simulator that are properties by another name: the property is where the value is.
 
-use super::{Cx, Result};
+use crate::api::{Cx, Result};
 use crate::scene::special::{APP, SCENE};
 use crate::script::{PropertyValue, Target};
 
@@ -8,7 +8,7 @@ use crate::script::{PropertyValue, Target};
 type Twin = (i64, i64, &'static str);
 
 /// `sim.intparam_*`.
-pub(super) const INTEGERS: &[Twin] = &[
+pub(in crate::api) const INTEGERS: &[Twin] = &[
     (11, SCENE, "visibilityLayers"),
     (16, APP, "qtVersion"),
     (19, APP, "platform"),
@@ -28,7 +28,7 @@ pub(super) const INTEGERS: &[Twin] = &[
 ];
 
 /// `sim.boolparam_*`.
-pub(super) const SWITCHES: &[Twin] = &[
+pub(in crate::api) const SWITCHES: &[Twin] = &[
     (0, APP, "hierarchyEnabled"),
     (6, SCENE, "dynamicsEnabled"),
     (12, APP, "browserEnabled"),
@@ -40,14 +40,14 @@ pub(super) const SWITCHES: &[Twin] = &[
 ];
 
 /// `sim.floatparam_*`.
-pub(super) const FLOATS: &[Twin] =
+pub(in crate::api) const FLOATS: &[Twin] =
     &[(1, SCENE, "timeStep"), (3, SCENE, "dynamicsStepSize"), (5, SCENE, "dynamicsStepSize")];
 
 /// `sim.arrayparam_*` that are colours.
-pub(super) const LIGHT: &[Twin] = &[(5, SCENE, "ambientLight")];
+pub(in crate::api) const LIGHT: &[Twin] = &[(5, SCENE, "ambientLight")];
 
 /// `sim.stringparam_*`.
-pub(super) const TEXTS: &[Twin] = &[
+pub(in crate::api) const TEXTS: &[Twin] = &[
     (0, APP, "appPath"),
     (2, APP, "appArg1"),
     (3, APP, "appArg2"),
@@ -82,7 +82,7 @@ pub(super) const TEXTS: &[Twin] = &[
 ];
 
 /// Texts that set a level by its name.
-pub(super) const LEVELS: &[Twin] =
+pub(in crate::api) const LEVELS: &[Twin] =
     &[(121, APP, "consoleVerbosityStr"), (122, APP, "statusbarVerbosityStr"), (123, APP, "dialogVerbosityStr")];
 
 fn twin(twins: &[Twin], number: i64) -> Option<(Target, &'static str)> {
@@ -91,13 +91,13 @@ fn twin(twins: &[Twin], number: i64) -> Option<(Target, &'static str)> {
 }
 
 /// The value of the property that `number` is; None when it is none.
-pub(super) fn read<T: PropertyValue>(cx: &Cx, twins: &[Twin], number: i64) -> Result<Option<T>> {
+pub(in crate::api) fn read<T: PropertyValue>(cx: &Cx, twins: &[Twin], number: i64) -> Result<Option<T>> {
     let Some((target, name)) = twin(twins, number) else { return Ok(None) };
     Ok(T::from_data(cx.sim().read_property(&target, name, T::TYPE)?))
 }
 
 /// Sets the property that `number` is; tells whether it is one.
-pub(super) fn write<T: PropertyValue>(cx: &Cx, twins: &[Twin], number: i64, value: T) -> Result<bool> {
+pub(in crate::api) fn write<T: PropertyValue>(cx: &Cx, twins: &[Twin], number: i64, value: T) -> Result<bool> {
     let Some((target, name)) = twin(twins, number) else { return Ok(false) };
     cx.sim().write_property(&target, name, (T::TYPE, value.into_data()), cx.script())?;
     Ok(true)

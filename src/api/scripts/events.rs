@@ -2,7 +2,7 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::Data;
 use crate::script::{Bytes, Filters, Table};
 

@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::Data;
-use crate::script::verbosity;
+use crate::script::log::verbosity;
 use crate::script::{
     Args, FromScript, Hook, LevelChange, Rest, Results, ScriptFunction, SysCall, auto_level, changed_level,
     set_auto_level,

@@ -4,8 +4,8 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::script_object::{ScriptObject, ScriptType};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::tree::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, SceneError, special};
 use crate::script::{Bytes, Number, Rest, Results, Script};
 
@@ -52,7 +52,7 @@ fn remove_script(cx: &mut Cx, script_handle: Number) -> Result<()> {
 }
 
 /// The script a number means: a handle, or the caller itself.
-pub(super) fn script_of(cx: &Cx, raw: i64) -> Result<Rc<Script>> {
+pub(in crate::api) fn script_of(cx: &Cx, raw: i64) -> Result<Rc<Script>> {
     match raw {
         special::SELF => Ok(Rc::clone(cx.script())),
         _ => cx.sim().script(raw).ok_or(ApiError::NoSuchScript),
@@ -125,10 +125,10 @@ fn call_script_function(cx: &mut Cx, function_name: Callee, script_handle: Calle
 /// One of the two leading arguments of a call: a name or a handle.
 struct Callee(Data);
 
-impl super::FromScript for Callee {
+impl crate::api::FromScript for Callee {
     const TYPE: &'static str = "string/int";
 
-    fn from_script(args: &super::Args<'_>) -> Result<Self> {
+    fn from_script(args: &crate::api::Args<'_>) -> Result<Self> {
         Data::from_script(args).map(Self)
     }
 }

@@ -4,8 +4,8 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::script_object::ScriptType;
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::tree::script_object::ScriptType;
 use crate::script::{Group, Rest, SysCall};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -70,7 +70,7 @@ fn get_simulation_time_step(cx: &Cx) -> Result<f64> {
     Ok(cx.scene().settings().time_step)
 }
 
-pub(super) fn main_script_only(cx: &Cx) -> Result<()> {
+pub(in crate::api) fn main_script_only(cx: &Cx) -> Result<()> {
     if cx.script().script_type == ScriptType::Main { Ok(()) } else { Err(ApiError::MainScriptOnly) }
 }
 

@@ -1,8 +1,8 @@
-//! `sim.*`: the time slice of threads. Stepping and waiting are in `lua/sim/thread.lua`.
+//! `sim.*`: the time slice of threads. Stepping and waiting are in `lua/library/sim/thread.lua`.
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use crate::api::{ApiFn, Cx, Result, functions};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![set_auto_yield_delay, get_auto_yield_delay];
 

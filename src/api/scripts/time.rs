@@ -2,8 +2,8 @@
 
 use api_macro::api;
 
-use super::scripts::script_of;
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use super::script::script_of;
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::special;
 use crate::script::Number;
 

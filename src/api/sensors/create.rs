@@ -2,11 +2,11 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::colour::Component;
-use crate::scene::octree::{OcTree, cell_size};
-use crate::scene::point_cloud::PointCloud;
-use crate::scene::sensors::{ProximitySensor, VisionSensor};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::appearance::colour::Component;
+use crate::scene::sensor::{ProximitySensor, VisionSensor};
+use crate::scene::voxels::octree::{OcTree, cell_size};
+use crate::scene::voxels::point_cloud::PointCloud;
 use crate::scene::{Field, Handle, Kind, SceneError};
 use crate::script::Number;
 

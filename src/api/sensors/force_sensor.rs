@@ -2,8 +2,8 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::force_sensor::{Filter, ForceSensor};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
 use crate::scene::{Handle, Kind};
 use crate::script::Number;
 

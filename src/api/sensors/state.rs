@@ -4,9 +4,9 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::{Handle, Kind};
-use crate::script::verbosity;
+use crate::script::log::verbosity;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     handle_proximity_sensor,

@@ -3,9 +3,9 @@
 use api_macro::api;
 
 use super::voxels::{change_cloud, count};
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::octree::{Voxel, cell_size};
-use crate::scene::point_cloud::CloudPoint;
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::voxels::octree::{Voxel, cell_size};
+use crate::scene::voxels::point_cloud::CloudPoint;
 use crate::scene::{Field, Handle, Scene};
 use crate::script::Number;
 

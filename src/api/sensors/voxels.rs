@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::octree::Voxel;
-use crate::scene::point_cloud::{CloudPoint, PointCloud};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::voxels::octree::Voxel;
+use crate::scene::voxels::point_cloud::{CloudPoint, PointCloud};
 use crate::scene::{Data, Field, Handle, Pose, Scene};
 use crate::script::Number;
 
@@ -54,7 +54,7 @@ fn colours(scene: &Scene, handle: Handle, options: i64, given: Option<&[f64]>, c
     }
 }
 
-pub(super) fn count(len: usize) -> i64 {
+pub(in crate::api) fn count(len: usize) -> i64 {
     i64::try_from(len).unwrap_or(i64::MAX)
 }
 
@@ -184,7 +184,11 @@ fn insert_points(
     })
 }
 
-pub(super) fn change_cloud(scene: &mut Scene, handle: Handle, change: impl FnOnce(&mut PointCloud)) -> Result<i64> {
+pub(in crate::api) fn change_cloud(
+    scene: &mut Scene,
+    handle: Handle,
+    change: impl FnOnce(&mut PointCloud),
+) -> Result<i64> {
     Ok(scene.try_modify(handle, Field::Geometry, |object| {
         let cloud = object.point_cloud_mut()?;
         change(cloud);
@@ -278,7 +282,7 @@ fn set_cloud_options(
 ) -> Result<()> {
     let mut scene = cx.scene_mut();
     change_cloud(&mut scene, point_cloud_handle, |cloud| {
-        cloud.max_cell_size = crate::scene::octree::cell_size(max_voxel_size);
+        cloud.max_cell_size = crate::scene::voxels::octree::cell_size(max_voxel_size);
         cloud.max_points_in_cell = max_pt_cnt_per_voxel.0.max(1);
         cloud.random_colours = options.0 & 2 != 0;
         cloud.uses_octree = options.0 & 8 == 0;

@@ -2,8 +2,8 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::colour::{ColourName, Component};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::appearance::colour::{ColourName, Component};
 use crate::scene::{Data, Handle, SceneError};
 use crate::script::Number;
 

@@ -2,8 +2,8 @@
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::extrusion::Extrusion;
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::mesh::extrusion::Extrusion;
 use crate::scene::mesh::{Mesh, MeshError};
 use crate::scene::pose::pose_from_array;
 use crate::scene::shape::Shape;

@@ -2,7 +2,7 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::Handle;
 use crate::script::Number;
 

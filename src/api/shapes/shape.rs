@@ -2,12 +2,13 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions, texture};
+use super::texture;
+use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::mesh::{Mesh, MeshError};
 use crate::scene::pose::{pose_from_array, pose_to_array};
-use crate::scene::primitive::PrimitiveKind;
+use crate::scene::shape::build::PrimitiveOptions;
+use crate::scene::shape::primitive::PrimitiveKind;
 use crate::scene::shape::{Appearance, Part, Shape};
-use crate::scene::shape_build::PrimitiveOptions;
 use crate::scene::{Data, Handle, Key, Kind, Scene, SceneError};
 use crate::script::{Bytes, Number};
 

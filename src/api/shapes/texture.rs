@@ -4,14 +4,14 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use super::images::{failure, read_file};
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::api::display::images::{failure, read_file};
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::format::picture::{Layout, Picture};
-use crate::scene::euler::rotation_from_euler;
-use crate::scene::primitive::PrimitiveKind;
+use crate::scene::appearance::texture::Texture;
+use crate::scene::appearance::texture_mapping::{TextureMapping, TextureSource};
+use crate::scene::pose::euler::rotation_from_euler;
+use crate::scene::shape::primitive::PrimitiveKind;
 use crate::scene::shape::{Part, Shape};
-use crate::scene::texture::Texture;
-use crate::scene::texture_mapping::{TextureMapping, TextureSource};
 use crate::scene::{Data, Handle, Kind, Pose, Scene, SceneError};
 use crate::script::{Bytes, IntPair, Number};
 
@@ -235,7 +235,7 @@ fn write_texture(
 }
 
 /// The texture of `sim.createShape`: two coordinates for each of `corners` corners, and the pixels of an image.
-pub(super) fn of_mesh(
+pub(in crate::api) fn of_mesh(
     cx: &mut Cx,
     options: i64,
     coordinates: &[f64],
@@ -265,7 +265,7 @@ fn finite_list(numbers: &[f64]) -> Result<Rc<[f32]>> {
 }
 
 /// What `sim.getShapeViz` tells of the texture on a mesh; nothing where there is none, or no image of it.
-pub(super) fn viz(scene: &Scene, part: &Part) -> Option<Data> {
+pub(in crate::api) fn viz(scene: &Scene, part: &Part) -> Option<Data> {
     let mapping = part.texture.as_deref()?;
     let texture = scene.texture(mapping.source.raw()).ok()?;
     let [u, v] = mapping.repeat;

@@ -1,7 +1,7 @@
 //! The native part of LuaSocket's modules: what a script's sockets are, and the functions that belong to none.
 //!
 //! Scripts hold userdata that name a socket by its number; the sockets are kept for the script's state and go with it. The Lua files
-//! `lua/socket/*.lua` make classes of these functions.
+//! `lua/network/socket/*.lua` make classes of these functions.
 
 mod datagram;
 mod dns;
@@ -22,7 +22,8 @@ use api_macro::api;
 use super::{ApiFn, Args, Cx, FromScript, Result, functions};
 use crate::io::socket::{self, Datagram, Failure, Family, Role, Socket, Stream, descriptor};
 use crate::scene::Data;
-use crate::script::{ApiError, ByHandle, LuaNumber, Object, Results, wall_clock};
+use crate::script::step::wall_clock;
+use crate::script::{ApiError, ByHandle, LuaNumber, Object, Results};
 
 use results::{Created, Outcome};
 

@@ -1,4 +1,4 @@
-//! The native part of `simZMQ` (`lua/simZMQ.lua`): libzmq, call by call.
+//! The native part of `simZMQ` (`lua/modules/simZMQ.lua`): libzmq, call by call.
 //!
 //! No call waits but `poll` and `ctx_term`, which end with the program; how blocking functions wait is said in Lua, which can yield.
 

@@ -29,7 +29,7 @@ use super::links::Links;
 use super::plan::LinkPlan;
 use super::world::World;
 use crate::scene::Handle;
-use crate::scene::partition::partition;
+use crate::scene::mesh::partition::partition;
 
 /// The links of a scene and the order they are solved in.
 #[derive(Default)]

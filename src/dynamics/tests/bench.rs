@@ -2,9 +2,9 @@
 
 use super::super::*;
 use crate::scene::joint::JointType;
-use crate::scene::mass::MassProperties;
-use crate::scene::primitive::PrimitiveKind;
 use crate::scene::shape::Shape;
+use crate::scene::shape::mass::MassProperties;
+use crate::scene::shape::primitive::PrimitiveKind;
 use crate::scene::{Field, Kind, Pose};
 
 pub(super) const STEP: f64 = 0.05;

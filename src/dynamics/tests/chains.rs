@@ -1,7 +1,7 @@
 //! Chains that swing, light ones with heavy loads.
 
 use super::*;
-use crate::scene::mass::MassProperties;
+use crate::scene::shape::mass::MassProperties;
 
 /// A straight chain of rods of 0.1 m at rest.
 struct Chain {

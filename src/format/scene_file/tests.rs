@@ -6,9 +6,9 @@ use std::rc::Rc;
 
 use super::{Loaded, SceneFile, save};
 use crate::format::ttt::File;
-use crate::scene::engine_blocks::EngineValues;
-use crate::scene::primitive::PrimitiveKind;
+use crate::scene::parameters::engine_blocks::EngineValues;
 use crate::scene::shape::Shape;
+use crate::scene::shape::primitive::PrimitiveKind;
 use crate::scene::{DynamicsSettings, Handle, Kept, Kind, Object, Pose, Scene, Settings};
 
 /// The smaller ones of other people's scenes and models, where they are at hand.

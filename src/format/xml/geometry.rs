@@ -9,10 +9,10 @@ use super::table::{Step, Unit, word_of};
 use super::write::{Item, Writing, number};
 use crate::format::ttt::{FileResult, Node, PositionFirst, unit_quaternion};
 use crate::scene::Pose;
-use crate::scene::euler::{rotation_from_euler, rotation_to_euler};
-use crate::scene::mass::{MassProperties, solid};
 use crate::scene::mesh::Mesh;
-use crate::scene::primitive::{PrimitiveKind, heightfield, tessellate};
+use crate::scene::pose::euler::{rotation_from_euler, rotation_to_euler};
+use crate::scene::shape::mass::{MassProperties, solid};
+use crate::scene::shape::primitive::{PrimitiveKind, heightfield, tessellate};
 
 /// Of a body whose mass is not told, kg/m3.
 const DENSITY: f64 = 1000.0;
@@ -108,7 +108,7 @@ fn triangles(element: Element<'_>, data: &mut Node) -> Words<Mesh> {
             if !size.iter().all(|side: &f64| (0.0..1e9).contains(side)) {
                 return Err("the size of a primitive is out of range".into());
             }
-            let size = crate::scene::primitive::clamp_size(kind, size);
+            let size = crate::scene::shape::primitive::clamp_size(kind, size);
             set_primitive(data, code, size);
             tessellate(kind, size, false).ok_or_else(|| "this primitive has no size".into())
         }

@@ -8,7 +8,7 @@ use super::table::{Kind, Row, Unit, rows, word_of};
 use crate::format::ttt::Node;
 use crate::format::ttt::chunks::MeshPool;
 use crate::format::ttt::unit_quaternion;
-use crate::scene::euler::rotation_to_euler;
+use crate::scene::pose::euler::rotation_to_euler;
 
 const REVOLUTE: i64 = 10;
 

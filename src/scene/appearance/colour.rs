@@ -1,7 +1,7 @@
 //! Colours of objects, as scripts read and write them (SPEC-shapes section 8). Nothing is drawn.
 
-use super::shape::{Appearance, Shape};
-use super::{Field, Handle, Kind, Object, Scene, SceneError, SceneResult};
+use crate::scene::shape::{Appearance, Shape};
+use crate::scene::{Field, Handle, Kind, Object, Scene, SceneError, SceneResult};
 
 /// A colour, in 32 bits as the original keeps it. Values are not limited.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,7 +111,7 @@ impl Colour {
 
 impl Kind {
     /// The colour of a new object; shapes have theirs in their meshes. Values as files of the original hold them.
-    pub(super) fn default_colour(&self) -> Colour {
+    pub(in crate::scene) fn default_colour(&self) -> Colour {
         Colour::new(match self {
             Self::Joint(_) => [1.0, 0.3, 0.1],
             Self::Graph(_) => [0.15; 3],
@@ -253,7 +253,7 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::primitive::PrimitiveKind;
+    use crate::scene::shape::primitive::PrimitiveKind;
 
     #[test]
     fn colours_are_kept_in_32_bits_and_not_limited() {
@@ -267,13 +267,13 @@ mod tests {
     #[test]
     fn a_light_has_two_colours() {
         let mut scene = Scene::new();
-        let light = Kind::Light(Box::new(crate::scene::sensors::Light::new(3)));
+        let light = Kind::Light(Box::new(crate::scene::sensor::Light::new(3)));
         let light = scene.add("l", light).unwrap();
         assert_eq!(scene.set_object_colour(light, 1, Component::Specular, &[1.0, 0.0, 0.0]), Ok(true));
         assert_eq!(scene.object_colour(light, 1, Component::Specular), Ok(Some(vec![1.0, 0.0, 0.0])));
         assert_eq!(scene.object_colour(light, 0, Component::Specular), Ok(Some(vec![0.25; 3])));
         assert_eq!(scene.object_colour(light, 2, Component::Specular), Ok(None));
-        let dummy = scene.add("d", Kind::Dummy(crate::scene::dummy::Dummy::new(0.1))).unwrap();
+        let dummy = scene.add("d", Kind::Dummy(crate::scene::tree::dummy::Dummy::new(0.1))).unwrap();
         assert_eq!(scene.set_object_colour(dummy, 1, Component::Specular, &[0.0; 3]), Ok(false));
     }
 }

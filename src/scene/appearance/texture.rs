@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::{SceneError, SceneResult};
+use crate::scene::{SceneError, SceneResult};
 
 /// An image. Its first row is the bottom one.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -2,9 +2,9 @@
 
 use std::rc::Rc;
 
-use super::shape::{Part, Shape};
 use super::texture::Texture;
-use super::{Field, Handle, Object, Pose, Scene, SceneError, SceneResult};
+use crate::scene::shape::{Part, Shape};
+use crate::scene::{Field, Handle, Object, Pose, Scene, SceneError, SceneResult};
 
 /// Number of the first texture (`sim.object_texturestart`), and of the one that cannot be any more (`sim.object_textureend`).
 const FIRST: i64 = 2_180_009;
@@ -70,14 +70,14 @@ impl TextureMapping {
         }
     }
 
-    /// Turns each triangle as [`Mesh::flip`](super::mesh::Mesh::flip) does.
-    pub(super) fn flip(&mut self) {
+    /// Turns each triangle as [`Mesh::flip`](crate::scene::mesh::Mesh::flip) does.
+    pub(in crate::scene) fn flip(&mut self) {
         let turned = self.coordinates.as_chunks::<6>().0.iter().flat_map(|&[a, b, c, d, e, f]| [a, b, e, f, c, d]);
         self.coordinates = turned.collect();
     }
 
     /// The same on some of the triangles only.
-    pub(super) fn of_triangles(&self, triangles: &[usize]) -> Self {
+    pub(in crate::scene) fn of_triangles(&self, triangles: &[usize]) -> Self {
         let all = self.coordinates.as_chunks::<6>().0;
         let some = triangles.iter().filter_map(|at| all.get(*at)).flatten().copied();
         Self { coordinates: some.collect(), ..self.clone() }
@@ -168,7 +168,7 @@ impl Scene {
     }
 
     /// Forgets those of the textures that no mesh has.
-    pub(super) fn forget_unused_textures(&mut self, ids: &[i64]) {
+    pub(in crate::scene) fn forget_unused_textures(&mut self, ids: &[i64]) {
         for id in ids {
             if self.textures.contains_key(id) && !self.objects().any(|object| uses(object, *id)) {
                 self.textures.remove(id);
@@ -194,7 +194,7 @@ fn no_texture() -> SceneError {
 mod tests {
     use super::*;
     use crate::scene::Kind;
-    use crate::scene::primitive::PrimitiveKind;
+    use crate::scene::shape::primitive::PrimitiveKind;
 
     fn image(name: &str) -> Texture {
         Texture::new(name, [1, 1], false, &[1, 2, 3]).unwrap()

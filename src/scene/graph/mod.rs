@@ -1,5 +1,7 @@
 //! Graphs: streams of values over time, and curves made of them (SPEC-sensors 7). Nothing is drawn.
 
+pub(in crate::scene) mod record;
+
 use std::collections::VecDeque;
 
 use super::{Handle, SceneError, SceneResult};

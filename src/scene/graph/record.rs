@@ -1,6 +1,6 @@
 //! What graphs record, and what their streams and curves make of it.
 
-use super::graph::{Curve, Graph, Sample, Stream, Transformation, TransformationKind};
+use super::{Curve, Graph, Sample, Stream, Transformation, TransformationKind};
 
 impl Graph {
     /// Records what the streams have been given; nothing is a gap. A full graph that is not cyclic records nothing.
@@ -122,8 +122,8 @@ impl Transformation {
 
 #[cfg(test)]
 mod tests {
-    use super::super::graph::Style;
     use super::*;
+    use crate::scene::graph::Style;
 
     fn style(name: &str) -> Style {
         let name = name.to_owned();

@@ -4,8 +4,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::joint::{Control, Joint, JointMode, JointType, Motion};
-use super::{Field, Handle, Scene, SceneError, SceneResult};
+use super::{Control, Joint, JointMode, JointType, Motion};
+use crate::scene::{Field, Handle, Scene, SceneError, SceneResult};
 
 /// Farthest lower limits: rad of revolute, m of prismatic joints.
 const MIN_BOUNDS: (f64, f64) = (1e5, 1e3);
@@ -218,7 +218,7 @@ impl Scene {
     }
 
     /// Brings the position of a joint back into its interval, unless it has a master.
-    pub(super) fn relimit_joint(&mut self, handle: Handle) -> SceneResult<()> {
+    pub(in crate::scene) fn relimit_joint(&mut self, handle: Handle) -> SceneResult<()> {
         let joint = self.object(handle)?.joint()?;
         if joint.joint_type == JointType::Spherical || joint.dependency.is_some() {
             return Ok(());

@@ -2,15 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use super::joint::{Dependency, JointMode, JointType};
-use super::{Field, Handle, Scene, SceneResult};
+use super::{Dependency, JointMode, JointType};
+use crate::scene::{Field, Handle, Scene, SceneResult};
 
 /// Largest offset and coefficient.
 const BOUND: f64 = 1e4;
 
 /// Who follows whom, kept until a joint changes.
 #[derive(Debug, Default)]
-pub(super) struct Followers {
+pub(in crate::scene) struct Followers {
     revision: Option<u64>,
     by_master: BTreeMap<Handle, Vec<(Handle, Dependency)>>,
 }
@@ -77,7 +77,7 @@ impl Scene {
     }
 
     /// Moves the joints that follow `handle` and that the physics does not move itself.
-    pub(super) fn move_followers(&mut self, handle: Handle, position: f64) -> SceneResult<()> {
+    pub(in crate::scene) fn move_followers(&mut self, handle: Handle, position: f64) -> SceneResult<()> {
         self.refresh_followers();
         for (follower, law) in self.followers.of(handle).to_vec() {
             if self.object(follower)?.dynamic_flag == 0 {

@@ -1,9 +1,13 @@
 //! Joints as data: type, mode, limits, position, control parameters.
 
+pub mod control;
+pub(in crate::scene) mod dependency;
+pub mod motion;
+
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use std::f64::consts::{PI, TAU};
 
-use super::engine_params::ENGINES;
+use super::parameters::engine::ENGINES;
 use super::{Handle, Kept, Pose};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

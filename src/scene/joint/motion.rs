@@ -2,8 +2,8 @@
 //!
 //! The steps themselves come from scripts (`sysCall_joint`).
 
-use super::joint::{JointMode, Motion};
-use super::{Field, Handle, Object, Scene, SceneResult};
+use super::{JointMode, Motion};
+use crate::scene::{Field, Handle, Object, Scene, SceneResult};
 
 /// One step of a joint, as a script asks for it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::mesh::Mesh;
-use super::pose::Pose;
+use super::Mesh;
+use crate::scene::pose::Pose;
 
 /// Most face normals that the search for the tightest box tries, and the points it may look at in all.
 const BOX_DIRECTIONS: usize = 200;
@@ -136,8 +136,8 @@ fn outline(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::mesh::samples::{block, close};
     use super::*;
+    use crate::scene::mesh::samples::{block, close};
 
     #[test]
     fn tightest_box_is_ordered_and_found_when_rotated() {

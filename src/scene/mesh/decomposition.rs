@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 
-use super::mesh::Mesh;
+use super::Mesh;
 
 /// Meshes thinner than this part of their length have no inside to divide.
 const FLATTEST: f64 = 1e-4;
@@ -84,9 +84,9 @@ impl Mesh {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Pose;
-    use super::super::mesh::samples::{block, tetrahedron};
     use super::*;
+    use crate::scene::Pose;
+    use crate::scene::mesh::samples::{block, tetrahedron};
 
     #[test]
     fn an_angle_is_two_blocks() {

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::Pose;
-use super::mesh::{Mesh, MeshError};
+use super::{Mesh, MeshError};
+use crate::scene::Pose;
 
 /// Points of a section closer than this are one, metres.
 const SAME_POINT: f64 = 1e-9;

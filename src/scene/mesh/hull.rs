@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use nalgebra::Vector3;
 use parry3d_f64::{math::Vector, transformation::try_convex_hull};
 
-use super::mesh::Mesh;
+use super::Mesh;
 
 /// Points whose thickness is less than this part of their length count as flat.
 const FLATTEST: f64 = 1e-7;
@@ -102,8 +102,8 @@ fn shaken(p: [f64; 3], size: f64) -> Vector {
 
 #[cfg(test)]
 mod tests {
-    use super::super::mesh::samples::CORNER;
     use super::*;
+    use crate::scene::mesh::samples::CORNER;
 
     #[test]
     fn hulls_need_volume() {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::mesh::Mesh;
+use super::Mesh;
 use super::partition::partition;
 
 impl Mesh {
@@ -37,7 +37,7 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use crate::scene::Pose;
-    use crate::scene::primitive::{PrimitiveKind, tessellate};
+    use crate::scene::shape::primitive::{PrimitiveKind, tessellate};
 
     #[test]
     fn two_boxes_are_two_islands() {

@@ -3,6 +3,13 @@
 //! Triangles wind counter-clockwise seen from outside. A [`Mesh`] made by this module is valid: finite
 //! vertices, indices in range, three normals per triangle. Rules: SPEC-shapes sections 2 to 4.
 
+pub mod bounding_box;
+pub mod decomposition;
+pub mod extrusion;
+pub(in crate::scene) mod hull;
+pub(in crate::scene) mod islands;
+pub(crate) mod partition;
+
 use std::collections::{HashMap, HashSet};
 
 use nalgebra::Vector3;

@@ -247,7 +247,7 @@ fn advance(mut time: f64, duration: f64, base_cycle: f64, cycles: f64) -> f64 {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(in crate::scene) mod tests {
     use super::*;
 
     #[track_caller]

@@ -67,10 +67,10 @@ fn axis_step(
 
 /// A computed trajectory of the library.
 #[derive(Debug, Clone)]
-pub(super) struct Plan<const N: usize>(rsruckig::prelude::Trajectory<N>);
+pub(in crate::scene) struct Plan<const N: usize>(rsruckig::prelude::Trajectory<N>);
 
 impl<const N: usize> Plan<N> {
-    pub(super) fn new(input: &InputParameter<N>) -> Result<Self, RuckigError> {
+    pub(in crate::scene) fn new(input: &InputParameter<N>) -> Result<Self, RuckigError> {
         if !plannable(input) {
             return Err(RuckigError::Failed(INVALID_INPUT));
         }
@@ -89,12 +89,12 @@ impl<const N: usize> Plan<N> {
         }
     }
 
-    pub(super) fn duration(&self) -> f64 {
+    pub(in crate::scene) fn duration(&self) -> f64 {
         self.0.duration
     }
 
     /// Calls `each` with the axis and its position, velocity, acceleration at `time`.
-    pub(super) fn sample(&self, time: f64, mut each: impl FnMut(usize, (f64, f64, f64))) {
+    pub(in crate::scene) fn sample(&self, time: f64, mut each: impl FnMut(usize, (f64, f64, f64))) {
         self.0.state_to_integrate_from(time, &mut 0, |axis, t, p, v, a, j| {
             each(axis, rsruckig::util::integrate(t, p, v, a, j));
         });
@@ -137,8 +137,8 @@ fn plannable<const N: usize>(input: &InputParameter<N>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ruckig::tests::close;
     use super::*;
+    use crate::scene::motion::ruckig::tests::close;
 
     #[test]
     fn single_steps_of_a_joint() {

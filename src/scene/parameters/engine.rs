@@ -5,14 +5,14 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use super::{Data, ValueType};
+use crate::scene::{Data, ValueType};
 
 /// `owner<TAB>name<TAB>type<TAB>flags<TAB>state<TAB>default<TAB>numbers<TAB>bit`, in the order of enumeration.
 ///
 /// The state is `works` (the physics here uses it), `kept` (stored and read back) or `number` (kept, and no property). A list has a
 /// number per element. `bit` is the number that joins switches of an engine, and the bit of this one. Defaults are those of the file
 /// format and SPEC-dynamics 5 and 6; those of Vortex' switches, which neither tells, are our choice.
-const TABLE: &str = include_str!("engine_params.tsv");
+const TABLE: &str = include_str!("engine.tsv");
 
 /// The first real number of each engine is its step size: one for all here, a setting of the scene.
 const STEP_SIZES: [i64; 5] = [1, 9001, 18_001, 27_001, 37_001];
@@ -48,7 +48,7 @@ pub struct EngineParam {
 
 /// What a number means.
 #[derive(Debug)]
-pub(super) enum Numbered {
+pub(in crate::scene) enum Numbered {
     /// An element of a parameter; of one that is no list, the parameter itself.
     Element(&'static EngineParam, usize),
     /// Switches, each with its bit.
@@ -78,18 +78,18 @@ fn rows() -> &'static [Row] {
 fn row(line: &'static str) -> Row {
     let fields: Vec<&'static str> = line.split('\t').collect();
     let [owner, name, ty, flags, state, default, numbers, bit] = fields[..] else {
-        panic!("a line of engine_params.tsv has eight fields: {line}")
+        panic!("a line of engine.tsv has eight fields: {line}")
     };
-    let ty = ValueType::from_word(ty).expect("engine_params.tsv holds known types");
-    let integer = |text: &str| -> i64 { text.parse().expect("engine_params.tsv holds numbers as integers") };
+    let ty = ValueType::from_word(ty).expect("engine.tsv holds known types");
+    let integer = |text: &str| -> i64 { text.parse().expect("engine.tsv holds numbers as integers") };
     let param = EngineParam {
-        owner: owner_of(owner).unwrap_or_else(|| panic!("an unknown owner in engine_params.tsv: {line}")),
+        owner: owner_of(owner).unwrap_or_else(|| panic!("an unknown owner in engine.tsv: {line}")),
         name,
         ty,
         flags: integer(flags),
         works: state == "works",
         is_property: state != "number",
-        default: ty.parse(default).expect("engine_params.tsv holds defaults of the row's type"),
+        default: ty.parse(default).expect("engine.tsv holds defaults of the row's type"),
     };
     let bit = bit.split_once(':').map(|(number, bit)| (integer(number), integer(bit)));
     (param, numbers.split_whitespace().map(integer).collect(), bit)
@@ -107,7 +107,7 @@ fn owner_of(part: &str) -> Option<EngineOwner> {
 }
 
 /// What `number` stands for (`sim.bullet_*`, `sim.ode_*` and so on).
-pub(super) fn numbered(number: i64) -> Option<&'static Numbered> {
+pub(in crate::scene) fn numbered(number: i64) -> Option<&'static Numbered> {
     static NUMBERS: LazyLock<BTreeMap<i64, Numbered>> = LazyLock::new(numbers);
     NUMBERS.get(&number)
 }

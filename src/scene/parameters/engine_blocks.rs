@@ -2,11 +2,13 @@
 //!
 //! What a row holds beyond the numbers known here is ignored; it has no counterpart.
 
-use super::engine_params::{EngineOwner, Numbered, is_step_size, numbered};
+use super::engine::EngineParam;
+use super::engine::{EngineOwner, Numbered, is_step_size, numbered};
 use super::engine_values::{element, value_in, with_element};
-use super::joint::Joint;
-use super::shape::Material;
-use super::{Data, DynamicsSettings, Kept, dummy::Dummy, engine_params::EngineParam};
+use crate::scene::joint::Joint;
+use crate::scene::shape::Material;
+use crate::scene::tree::dummy::Dummy;
+use crate::scene::{Data, DynamicsSettings, Kept};
 
 /// The numbers of a row of parameters: the first one of the real ones and how many a file of 4.10 holds, then of the integers.
 #[derive(Debug, Clone, Copy)]
@@ -19,7 +21,7 @@ const fn rows(first_real: i64, reals: usize, first_int: i64, ints: usize) -> Row
     Rows { reals: (first_real, reals), ints: (first_int, ints) }
 }
 
-/// In the order of [`super::engine_params::ENGINES`].
+/// In the order of [`super::engine::ENGINES`].
 const SCENE: [Rows; 5] = [
     rows(1, 3, 1001, 3),
     rows(9001, 4, 10_001, 3),
@@ -46,7 +48,7 @@ const DUMMY: Rows = rows(46_001, 21, 47_001, 2);
 
 /// What has engine parameters of its own.
 pub trait EngineValues {
-    /// Those of one engine, by its place in [`super::engine_params::ENGINES`].
+    /// Those of one engine, by its place in [`super::engine::ENGINES`].
     fn rows(&self, engine: usize) -> Option<Rows>;
     fn value(&self, param: &EngineParam) -> Data;
     fn set(&mut self, param: &'static EngineParam, value: Data);

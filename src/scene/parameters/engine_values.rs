@@ -1,10 +1,10 @@
 //! The values of engine parameters. Those the physics here uses are fields of materials and joints; all others are kept beside them as
 //! they were set.
 
-use super::engine_params::{ENGINES, EngineOwner, EngineParam, Numbered, engine_params, is_step_size, numbered};
-use super::joint::Joint;
-use super::shape::Material;
-use super::{Data, Field, Handle, Kept, Object, Scene, SceneError, SceneResult};
+use super::engine::{ENGINES, EngineOwner, EngineParam, Numbered, engine_params, is_step_size, numbered};
+use crate::scene::joint::Joint;
+use crate::scene::shape::Material;
+use crate::scene::{Data, Field, Handle, Kept, Object, Scene, SceneError, SceneResult};
 
 /// The version of Bullet that has the newer friction; version 0 is Bullet 2.78.
 const BULLET_283: i64 = 283;
@@ -101,7 +101,7 @@ impl Scene {
 }
 
 /// A value nobody set is the default.
-pub(super) fn value_in(values: &Kept, param: &EngineParam) -> Data {
+pub(in crate::scene) fn value_in(values: &Kept, param: &EngineParam) -> Data {
     values.get(param.name).unwrap_or(&param.default).clone()
 }
 
@@ -117,7 +117,7 @@ fn set_in(object: &mut Object, param: &EngineParam, value: Data) -> SceneResult<
     Ok(())
 }
 
-pub(super) fn element(value: &Data, at: usize) -> Option<f64> {
+pub(in crate::scene) fn element(value: &Data, at: usize) -> Option<f64> {
     match value {
         Data::Bool(on) => Some(f64::from(u8::from(*on))),
         Data::Array(items) => items.get(at)?.as_f64(),
@@ -125,7 +125,7 @@ pub(super) fn element(value: &Data, at: usize) -> Option<f64> {
     }
 }
 
-pub(super) fn with_element(whole: Data, at: usize, value: f64) -> Data {
+pub(in crate::scene) fn with_element(whole: Data, at: usize, value: f64) -> Data {
     match whole {
         Data::Bool(_) => Data::Bool(value != 0.0),
         Data::Int(_) => Data::Int(value as i64),
@@ -169,7 +169,7 @@ impl Material {
         engine_params(EngineOwner::Material).find(|param| param.name == name).map(|param| self.engine_value(param))
     }
 
-    pub(super) fn engine_value(&self, param: &EngineParam) -> Data {
+    pub(in crate::scene) fn engine_value(&self, param: &EngineParam) -> Data {
         match param.name {
             "bullet.restitution" => self.restitution.into(),
             "bullet.frictionOld" => self.friction.into(),
@@ -179,7 +179,7 @@ impl Material {
         }
     }
 
-    pub(super) fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
+    pub(in crate::scene) fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
         match (self.field(param.name), value.as_f64()) {
             (Some(field), Some(number)) => *field = number,
             _ => {
@@ -190,11 +190,11 @@ impl Material {
 }
 
 impl Joint {
-    pub(super) fn engine_value(&self, param: &EngineParam) -> Data {
+    pub(in crate::scene) fn engine_value(&self, param: &EngineParam) -> Data {
         engine_of_gains(param).map_or_else(|| value_in(&self.engine_values, param), |engine| self.gains[engine].into())
     }
 
-    pub(super) fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
+    pub(in crate::scene) fn set_engine_value(&mut self, param: &EngineParam, value: Data) {
         match engine_of_gains(param) {
             Some(engine) => self.gains[engine] = [0, 1, 2].map(|at| element(&value, at).unwrap_or_default()),
             None => {

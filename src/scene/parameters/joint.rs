@@ -4,8 +4,8 @@
 
 use nalgebra::{Quaternion, UnitQuaternion};
 
-use super::joint::{Control, Joint};
-use super::pose::pose_to_array;
+use crate::scene::joint::{Control, Joint};
+use crate::scene::pose::pose_to_array;
 
 /// Control of old releases: a motor that is on is in position control when its controller is on, in velocity control otherwise.
 fn motor_control(motor: bool, controller: bool) -> Control {

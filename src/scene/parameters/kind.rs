@@ -1,7 +1,7 @@
 //! Numbered parameters that depend on the type of an object: where a number goes, and what follows from a change.
 
-use super::dummy::LinkType;
-use super::{Field, Handle, Kind, Scene, SceneResult};
+use crate::scene::tree::dummy::LinkType;
+use crate::scene::{Field, Handle, Kind, Scene, SceneResult};
 
 /// Parameters of shapes whose change needs a new rigid body.
 const BODY_PARAMS: [i64; 4] = [3003, 3004, 3005, 3030];
@@ -64,7 +64,7 @@ impl Scene {
         &mut self,
         handle: Handle,
         id: i64,
-        set: impl FnOnce(&mut super::shape::Shape) -> bool,
+        set: impl FnOnce(&mut crate::scene::shape::Shape) -> bool,
     ) -> SceneResult<bool> {
         self.try_modify(handle, Field::Dynamics, |object| {
             let known = set(object.shape_mut()?);

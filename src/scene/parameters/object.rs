@@ -4,9 +4,9 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::mesh_box::BoundingBox;
-use super::object::DETECTABLE;
-use super::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
+use crate::scene::mesh::bounding_box::BoundingBox;
+use crate::scene::tree::object::DETECTABLE;
+use crate::scene::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
 
 /// `sim.modelproperty_not_visible`.
 const NOT_VISIBLE: i64 = 0x100;

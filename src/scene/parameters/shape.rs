@@ -1,8 +1,8 @@
 //! The numbered parameters of shapes (`sim.shapeintparam_*`, `sim.shapefloatparam_*`).
 
-use super::euler::{rotation_from_euler, rotation_to_euler};
-use super::shape::{Appearance, Shape};
-use super::texture_mapping::TextureMapping;
+use crate::scene::appearance::texture_mapping::TextureMapping;
+use crate::scene::pose::euler::{rotation_from_euler, rotation_to_euler};
+use crate::scene::shape::{Appearance, Shape};
 
 impl Shape {
     fn first_appearance(&self) -> Option<&Appearance> {
@@ -123,8 +123,8 @@ impl TextureMapping {
 
 #[cfg(test)]
 mod tests {
-    use crate::scene::primitive::PrimitiveKind;
     use crate::scene::shape::Shape;
+    use crate::scene::shape::primitive::PrimitiveKind;
 
     #[test]
     fn the_mask_is_kept_as_written() {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
-use super::pose::{orthonormal_block, quaternion_from_array, rotation_matrix, to_matrix};
+use super::{orthonormal_block, quaternion_from_array, rotation_matrix, to_matrix};
 
 /// Rotation from Euler angles: `Rx(alpha) Ry(beta) Rz(gamma)`.
 pub fn rotation_from_euler(e: &[f64; 3]) -> UnitQuaternion<f64> {
@@ -44,8 +44,8 @@ fn euler_of(r: &Matrix3<f64>) -> [f64; 3] {
 mod tests {
     use std::f64::consts::FRAC_PI_2;
 
-    use super::super::pose::tests::close;
     use super::*;
+    use crate::scene::pose::tests::close;
 
     #[test]
     fn euler_angles_p1_to_p3() {

@@ -1,7 +1,7 @@
 //! Velocities of whatever moves, measured between two poses (SPEC-poses section 4).
 
 use super::euler::rotation_to_euler;
-use super::pose::{Pose, shortest};
+use super::{Pose, shortest};
 
 /// Mean linear velocity (m/s) between two poses `dt` seconds apart; zero unless `dt` is positive.
 pub fn linear_velocity(previous: &Pose, now: &Pose, dt: f64) -> [f64; 3] {
@@ -27,10 +27,10 @@ fn per_second(v: [f64; 3], dt: f64) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::euler::build_matrix;
-    use super::super::pose::pose_from_matrix;
-    use super::super::pose::tests::close;
     use super::*;
+    use crate::scene::pose::euler::build_matrix;
+    use crate::scene::pose::pose_from_matrix;
+    use crate::scene::pose::tests::close;
 
     #[test]
     fn measured_velocities_of_both_kinds() {

@@ -5,10 +5,14 @@
 //! orientation the triple alpha, beta, gamma with `R = Rx(alpha) Ry(beta) Rz(gamma)`.
 //! Formulas: SPEC-poses sections 1, 3 and 4. Quaternions have no canonical sign.
 
+pub mod euler;
+pub(in crate::scene) mod measured_velocity;
+pub mod placement;
+
 use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3};
 use thiserror::Error;
 
-use super::euler::rotation_from_euler;
+use euler::rotation_from_euler;
 
 /// A rigid transform; the translation is in metres.
 pub type Pose = Isometry3<f64>;
@@ -235,7 +239,7 @@ fn axes_rotation(v: &[f64; 3], second: Option<&[f64; 3]>, i: usize, after: bool)
 
 #[cfg(test)]
 pub(super) mod tests {
-    use super::super::euler::build_matrix;
+    use super::euler::build_matrix;
     use super::*;
     use std::f64::consts::{FRAC_1_SQRT_2 as S, FRAC_PI_2, PI};
 

@@ -2,8 +2,9 @@
 
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
-use super::joint::JointType;
-use super::{Change, Field, Handle, Kind, Measured, Pose, Scene, SceneError, SceneResult, measured_velocity, special};
+use super::measured_velocity;
+use crate::scene::joint::JointType;
+use crate::scene::{Change, Field, Handle, Kind, Measured, Pose, Scene, SceneError, SceneResult, special};
 
 /// The frame a pose is expressed in, as scripts name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! Making sensors from the numbers scripts give.
 
-use super::colour::Colour;
-use super::sensor_volume::{CONE, CYLINDER, DISC, PYRAMID, RAY, Volume};
-use super::sensors::{ProximitySensor, View, VisionSensor};
+use super::volume::{CONE, CYLINDER, DISC, PYRAMID, RAY, Volume};
+use super::{ProximitySensor, View, VisionSensor};
+use crate::scene::appearance::colour::Colour;
 
 const DISPLAY_SIZE: f64 = 0.01;
 /// What a ray looks like, as files of the original hold it.

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::Pose;
+use crate::scene::Pose;
 
 /// How samples are combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

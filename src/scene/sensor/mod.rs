@@ -1,11 +1,16 @@
 //! Objects that exist as data until their behaviour is built: sensors, cameras, lights, graphs.
 
+pub(in crate::scene) mod build;
+pub mod force_sensor;
+pub mod volume;
+pub mod volume_faces;
+
 use std::f64::consts::FRAC_PI_2;
 
 use super::Handle;
-use super::colour::Colour;
-use super::sensor_volume::Volume;
-use super::volume_faces::KnownFaces;
+use super::appearance::colour::Colour;
+use volume::Volume;
+use volume_faces::KnownFaces;
 
 /// What a proximity sensor sees with.
 #[derive(Debug, Clone, PartialEq)]

@@ -110,7 +110,7 @@ impl Volume {
 }
 
 /// The polygons at both ends of a pyramid or a cylinder.
-pub(super) fn ends(volume: &Volume, volume_type: i64) -> [Vec<Point>; 2] {
+pub(in crate::scene) fn ends(volume: &Volume, volume_type: i64) -> [Vec<Point>; 2] {
     let depths = [volume.offset, volume.offset + volume.range];
     [0, 1].map(|end| match volume_type {
         CYLINDER => circle(volume.radius[end], depths[end], volume.faces[0]),
@@ -143,7 +143,7 @@ fn prism(near: &[Point], far: &[Point]) -> Vec<[Point; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::sensors::ProximitySensor;
+    use crate::scene::sensor::ProximitySensor;
 
     fn volume(volume_type: i64) -> Volume {
         ProximitySensor::new(volume_type, 0, ProximitySensor::INTEGERS, None).unwrap().volume

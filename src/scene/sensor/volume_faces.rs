@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::sensor_volume::{CYLINDER, PYRAMID, Volume, ends};
-use super::sensors::ProximitySensor;
+use super::ProximitySensor;
+use super::volume::{CYLINDER, PYRAMID, Volume, ends};
 
 type Plane = [f64; 4];
 
@@ -78,7 +78,7 @@ impl Volume {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::sensor_volume::CONE;
+    use crate::scene::sensor::volume::CONE;
 
     fn sensor(volume_type: i64) -> ProximitySensor {
         ProximitySensor::new(volume_type, 0, ProximitySensor::INTEGERS, None).unwrap()

@@ -2,13 +2,13 @@
 
 use std::rc::Rc;
 
-use super::Pose;
 use super::mass::MassProperties;
-use super::mesh::Mesh;
-use super::mesh_box::BoundingBox;
 use super::primitive::{PrimitiveKind, bounding_size, clamp_size, has_pure_size, heightfield, tessellate};
-use super::shape::{Appearance, HeightField, Material, Part, Primitive, Shape, ShapeDynamics, Velocity};
-use super::{SceneError, SceneResult};
+use super::{Appearance, HeightField, Material, Part, Primitive, Shape, ShapeDynamics, Velocity};
+use crate::scene::Pose;
+use crate::scene::mesh::Mesh;
+use crate::scene::mesh::bounding_box::BoundingBox;
+use crate::scene::{SceneError, SceneResult};
 
 /// Density of new primitives, kg/m3.
 const DENSITY: f64 = 500.0;

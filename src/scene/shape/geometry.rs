@@ -5,11 +5,11 @@ use std::rc::Rc;
 use nalgebra::UnitQuaternion;
 
 use super::mass::compute_mass_and_inertia;
-use super::mesh::Mesh;
-use super::mesh_box::BoundingBox;
 use super::primitive::PrimitiveKind;
-use super::shape::{Part, Shape};
-use super::{Field, Handle, Pose, Scene, SceneError, SceneResult};
+use super::{Part, Shape};
+use crate::scene::mesh::Mesh;
+use crate::scene::mesh::bounding_box::BoundingBox;
+use crate::scene::{Field, Handle, Pose, Scene, SceneError, SceneResult};
 
 impl Part {
     /// Turns the mesh inside out; what physics takes for a solid is the same.
@@ -204,7 +204,7 @@ mod tests {
     fn a_primitive_keeps_its_frame() {
         let mut scene = Scene::new();
         let shape = Shape::primitive(PrimitiveKind::Cuboid, [0.2; 3], Default::default()).unwrap();
-        let handle = scene.add("s", super::super::Kind::Shape(Box::new(shape))).unwrap();
+        let handle = scene.add("s", crate::scene::Kind::Shape(Box::new(shape))).unwrap();
         assert_eq!(scene.relocate_shape_frame(handle, None), Ok(false));
     }
 }

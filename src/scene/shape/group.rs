@@ -4,13 +4,13 @@
 
 use std::rc::Rc;
 
-use super::decomposition::Fineness;
+use super::geometry::box_of;
 use super::mass::MassProperties;
-use super::mesh::Mesh;
 use super::primitive::PrimitiveKind;
-use super::shape::{Part, Shape};
-use super::shape_geometry::box_of;
-use super::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
+use super::{Part, Shape};
+use crate::scene::mesh::Mesh;
+use crate::scene::mesh::decomposition::Fineness;
+use crate::scene::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
 
 impl Shape {
     /// The parts with the mass each would have as a shape of its own, in the part's frame. Those of a group share the mass the group
@@ -91,7 +91,7 @@ impl Scene {
         self.set_parent(new, source.parent(), false)?;
         self.set_local_pose(new, source.pose())?;
         self.set_hierarchy_order(new, position as i64)?;
-        self.modify(new, super::Field::ObjectProperty, |object| {
+        self.modify(new, crate::scene::Field::ObjectProperty, |object| {
             object.object_property = source.object_property;
             object.special_property = source.special_property;
             object.model_property = source.model_property;

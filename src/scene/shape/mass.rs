@@ -8,9 +8,9 @@ use std::f64::consts::PI;
 
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
 
-use super::mesh::Mesh;
-use super::pose::{Pose, pose_from_matrix, pose_to_matrix};
 use super::primitive::{PrimitiveKind, creation_mass, has_pure_size};
+use crate::scene::mesh::Mesh;
+use crate::scene::pose::{Pose, pose_from_matrix, pose_to_matrix};
 
 /// Smallest mass of a shape (kg).
 pub const MIN_MASS: f64 = 1e-7;
@@ -266,7 +266,7 @@ mod tests {
 
     #[test]
     fn grouping_of_rotated_members() {
-        let at = |p: [f64; 3], e: [f64; 3]| pose_from_matrix(&crate::scene::euler::build_matrix(&p, &e));
+        let at = |p: [f64; 3], e: [f64; 3]| pose_from_matrix(&crate::scene::pose::euler::build_matrix(&p, &e));
         let (a, b) = (at([0.1, 0.2, 0.3], [0.4, 0.5, 0.6]), at([-0.5, 0.1, 0.2], [1., 0.2, 0.1]));
         let box_ = primitive(PrimitiveKind::Cuboid, [0.1, 0.2, 0.3]);
         let rod = primitive(PrimitiveKind::Cylinder, [0.2, 0.2, 0.5]);

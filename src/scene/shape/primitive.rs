@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::mesh::Mesh;
+use crate::scene::mesh::Mesh;
 
 /// Sides of rotational solids.
 const SIDES: u32 = 32;

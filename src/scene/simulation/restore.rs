@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::joint::Joint;
-use super::shape::Velocity;
-use super::{Field, Handle, Kind, Object, Pose, Scene, SceneResult, Uid};
+use crate::scene::joint::Joint;
+use crate::scene::shape::Velocity;
+use crate::scene::{Field, Handle, Kind, Object, Pose, Scene, SceneResult, Uid};
 
 /// `sim.modelproperty_not_reset`: what is below keeps the state of the run.
 const NOT_RESET: i64 = 0x80;
@@ -53,7 +53,7 @@ impl Scene {
     }
 
     /// An object that comes during a run remembers the state it comes with, in case it survives the end.
-    pub(super) fn store_state_of_new(&mut self, handle: Handle) -> SceneResult<()> {
+    pub(in crate::scene) fn store_state_of_new(&mut self, handle: Handle) -> SceneResult<()> {
         if !self.in_run {
             return Ok(());
         }
@@ -93,7 +93,7 @@ impl Scene {
         let mut restored = Vec::with_capacity(objects.len());
         for handle in objects {
             let Ok(object) = self.object_mut(handle) else { continue };
-            object.measured = super::Measured::default();
+            object.measured = crate::scene::Measured::default();
             (object.dynamic_flag, object.dynamics_reset) = (0, false);
             end_suspension(object);
             match object.initial.take().filter(|_| !kept.contains(&handle)) {
@@ -218,7 +218,7 @@ fn restore_joint(joint: &mut Joint, initial: &Joint) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::dummy::Dummy;
+    use crate::scene::tree::dummy::Dummy;
 
     #[test]
     fn a_tree_turned_upside_down_comes_back() {

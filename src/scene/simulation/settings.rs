@@ -1,7 +1,7 @@
 //! Settings of a scene: what the simulation dialog of CoppeliaSim holds.
 
-use super::Kept;
-use super::surroundings::Surroundings;
+use crate::scene::Kept;
+use crate::scene::appearance::environment::Surroundings;
 
 /// Scene-wide settings. Times in seconds.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! How objects join when models are put together by hand. Kept for files: nobody puts models together here.
 
-use super::Pose;
+use crate::scene::Pose;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assembly {

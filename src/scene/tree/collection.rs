@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Handle, Scene, SceneError, SceneResult, special};
+use crate::scene::{Handle, Scene, SceneError, SceneResult, special};
 
 /// The first handle of a collection.
 const FIRST_HANDLE: i64 = 2_000_000;
@@ -65,12 +65,12 @@ impl Scene {
                 }
             }
         }
-        let in_order = self.objects().map(super::Object::handle);
+        let in_order = self.objects().map(crate::scene::Object::handle);
         Ok(in_order.filter(|handle| members.contains(handle)).collect())
     }
 
     fn item_objects(&self, item: &CollectionItem) -> Vec<Handle> {
-        let Some(base) = item.base else { return self.objects().map(super::Object::handle).collect() };
+        let Some(base) = item.base else { return self.objects().map(crate::scene::Object::handle).collect() };
         let mut objects = match item.what {
             special::TREE => self.subtree(base),
             special::CHAIN => std::iter::once(base).chain(self.ancestors(base)).collect(),

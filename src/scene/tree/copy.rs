@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::poses::normalized;
 use super::script_object::ScriptObject;
-use super::shape::Velocity;
-use super::texture_mapping::TextureSource;
-use super::{CustomData, Handle, Kind, Measured, NOT_MODEL, Object, Scene, SceneResult};
+use crate::scene::appearance::texture_mapping::TextureSource;
+use crate::scene::pose::placement::normalized;
+use crate::scene::shape::Velocity;
+use crate::scene::{CustomData, Handle, Kind, Measured, NOT_MODEL, Object, Scene, SceneResult};
 
 /// The option bits of `sim.copyPasteObjects`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,7 +80,7 @@ impl Scene {
             copies.insert(original, copy);
         }
         for &copy in copies.values() {
-            self.modify(copy, super::Field::Other, |object| redirect(object, &copies))?;
+            self.modify(copy, crate::scene::Field::Other, |object| redirect(object, &copies))?;
         }
         Ok(copies)
     }
@@ -142,8 +142,9 @@ fn redirect(object: &mut Object, copies: &BTreeMap<Handle, Handle>) {
     let copy_of = |handle: Handle| copies.get(&handle).copied();
     match &mut object.kind {
         Kind::Joint(joint) => {
-            joint.dependency =
-                joint.dependency.and_then(|law| Some(super::joint::Dependency { master: copy_of(law.master)?, ..law }));
+            joint.dependency = joint
+                .dependency
+                .and_then(|law| Some(crate::scene::joint::Dependency { master: copy_of(law.master)?, ..law }));
         }
         Kind::Shape(shape) => {
             for texture in shape.parts.iter_mut().filter_map(|part| part.texture.as_mut()) {

@@ -3,11 +3,11 @@
 use nalgebra::UnitQuaternion;
 
 use super::dummy::Dummy;
-use super::primitive::PrimitiveKind;
-use super::sensors::Light;
-use super::shape::{Material, Shape};
-use super::shape_build::PrimitiveOptions;
-use super::{Field, Handle, Kind, Pose, Scene, SceneResult};
+use crate::scene::sensor::Light;
+use crate::scene::shape::build::PrimitiveOptions;
+use crate::scene::shape::primitive::PrimitiveKind;
+use crate::scene::shape::{Material, Shape};
+use crate::scene::{Field, Handle, Kind, Pose, Scene, SceneResult};
 
 /// Full extents of the floor, m. Its top is the plane z = 0.
 const FLOOR: [f64; 3] = [5.0, 5.0, 0.2];

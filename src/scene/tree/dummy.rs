@@ -1,6 +1,6 @@
 //! Dummies: frames, and the ends of loop closures.
 
-use super::{Field, Handle, Kept, Scene, SceneResult};
+use crate::scene::{Field, Handle, Kept, Scene, SceneResult};
 
 /// What the link of two dummies means (`sim.dummytype_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,37 +1,37 @@
 //! A scene object: what all objects have, and what its type adds.
 
 use super::assembly::Assembly;
-use super::colour::Colour;
 use super::dummy::Dummy;
-use super::force_sensor::ForceSensor;
-use super::graph::Graph;
-use super::joint::Joint;
-use super::octree::OcTree;
-use super::point_cloud::PointCloud;
-use super::restore::InitialState;
 use super::script_object::ScriptObject;
-use super::sensors::{Camera, Light, ProximitySensor, VisionSensor};
-use super::shape::Shape;
-use super::{CustomData, Handle, Kept, Movement, Pose, SceneError, SceneResult, Uid};
+use crate::scene::appearance::colour::Colour;
+use crate::scene::graph::Graph;
+use crate::scene::joint::Joint;
+use crate::scene::sensor::force_sensor::ForceSensor;
+use crate::scene::sensor::{Camera, Light, ProximitySensor, VisionSensor};
+use crate::scene::shape::Shape;
+use crate::scene::simulation::restore::InitialState;
+use crate::scene::voxels::octree::OcTree;
+use crate::scene::voxels::point_cloud::PointCloud;
+use crate::scene::{CustomData, Handle, Kept, Movement, Pose, SceneError, SceneResult, Uid};
 
 /// The value of [`Object::model_property`] of an object that is no model base.
 pub const NOT_MODEL: i64 = 0xf000;
 
 /// `sim.objectspecialproperty_detectable`: five bits for kinds of sensors, used as one.
-pub(super) const DETECTABLE: i64 = 0x1f0;
+pub(in crate::scene) const DETECTABLE: i64 = 0x1f0;
 
 /// A scene object.
 #[derive(Debug, Clone)]
 pub struct Object {
-    pub(super) handle: Handle,
-    pub(super) uid: Uid,
-    pub(super) alias: String,
+    pub(in crate::scene) handle: Handle,
+    pub(in crate::scene) uid: Uid,
+    pub(in crate::scene) alias: String,
     /// The name only functions from before aliases see, where it was set apart from the alias.
-    pub(super) old_name: Option<String>,
-    pub(super) parent: Option<Handle>,
-    pub(super) children: Vec<Handle>,
+    pub(in crate::scene) old_name: Option<String>,
+    pub(in crate::scene) parent: Option<Handle>,
+    pub(in crate::scene) children: Vec<Handle>,
     /// In the parent's full frame (its moving side, for joints and force sensors).
-    pub(super) pose: Pose,
+    pub(in crate::scene) pose: Pose,
     /// `sim.objectproperty_*` bits.
     pub object_property: i64,
     /// `sim.objectspecialproperty_*` bits.
@@ -67,8 +67,8 @@ pub struct Object {
     /// Parameters of the old parameter dialog: name and value as text.
     pub user_params: Vec<(String, String)>,
     /// Tagged lists of handles: `(tag, handles)`; -1 stands for an object that is gone.
-    pub references: super::ReferenceLists,
-    pub original_references: super::ReferenceLists,
+    pub references: crate::scene::ReferenceLists,
+    pub original_references: crate::scene::ReferenceLists,
     /// What the physics uses of this object: shapes 1 respondable | 2 dynamic, joints 4, force sensors 32, dummies 64.
     pub dynamic_flag: i64,
     /// Asks the physics to build this object anew.
@@ -93,7 +93,7 @@ pub struct Measured {
 
 impl Measured {
     /// Whether both tell the same velocity, wherever the object is.
-    pub(super) fn same_velocity(&self, other: &Self) -> bool {
+    pub(in crate::scene) fn same_velocity(&self, other: &Self) -> bool {
         self.linear == other.linear && self.angular == other.angular
     }
 }
@@ -157,7 +157,7 @@ impl Kind {
 }
 
 impl Object {
-    pub(super) fn new(handle: Handle, uid: Uid, alias: &str, kind: Kind) -> Self {
+    pub(in crate::scene) fn new(handle: Handle, uid: Uid, alias: &str, kind: Kind) -> Self {
         Self {
             handle,
             uid,
@@ -227,7 +227,7 @@ impl Object {
 
     /// Whether this is a `sim.sceneobject_*`; every object is a `sim.handle_all`.
     pub fn is_of_type(&self, object_type: i64) -> bool {
-        object_type == super::special::ALL || object_type == self.kind.type_number()
+        object_type == crate::scene::special::ALL || object_type == self.kind.type_number()
     }
 
     pub fn is_model(&self) -> bool {

@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 
-use super::{Field, Handle, Object, Scene, SceneError, SceneResult};
+use crate::scene::{Field, Handle, Object, Scene, SceneError, SceneResult};
 
 /// Paths with more parts than this are written in full.
 const SHORT_PATH_PARTS: usize = 8;
@@ -339,7 +339,7 @@ fn wildcard_match(pattern: &[u8], text: &[u8]) -> bool {
 mod tests {
     use super::*;
     use crate::scene::Kind;
-    use crate::scene::dummy::Dummy;
+    use crate::scene::tree::dummy::Dummy;
 
     fn dummy(scene: &mut Scene, alias: &str, parent: Option<Handle>) -> Handle {
         let handle = scene.add(alias, Kind::Dummy(Dummy::new(0.01))).unwrap();

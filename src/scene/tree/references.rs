@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Change, Field, Handle, Kind, Object, Scene, SceneResult};
+use crate::scene::{Change, Field, Handle, Kind, Object, Scene, SceneResult};
 
 /// Lists of handles by tag.
 pub type ReferenceLists = Vec<(String, Vec<i64>)>;
@@ -18,7 +18,7 @@ pub enum References {
 
 impl Object {
     /// Whether other objects' handles are kept here, apart from parent and children.
-    pub(super) fn refers(&self) -> bool {
+    pub(in crate::scene) fn refers(&self) -> bool {
         let by_kind = match &self.kind {
             Kind::Joint(joint) => joint.dependency.is_some(),
             Kind::Dummy(dummy) => dummy.link.is_some(),
@@ -83,7 +83,7 @@ impl Scene {
     }
 
     /// Drops what other objects know of the doomed: links, dependencies, selection, collections, referenced handles.
-    pub(super) fn forget_references(&mut self, doomed: &BTreeSet<Handle>) {
+    pub(in crate::scene) fn forget_references(&mut self, doomed: &BTreeSet<Handle>) {
         let selected = self.selection.len();
         self.selection.retain(|h| !doomed.contains(h));
         if self.selection.len() < selected {

@@ -4,14 +4,14 @@ use std::rc::Rc;
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::joint::{Control, Joint, JointType};
-use super::mesh::Mesh;
-use super::poses::is_place;
-use super::primitive::PrimitiveKind;
-use super::sensor_volume::Volume;
-use super::sensors::View;
-use super::shape::{Part, Shape};
-use super::{Field, Handle, Kind, Object, Pose, Scene, SceneError, SceneResult};
+use crate::scene::joint::{Control, Joint, JointType};
+use crate::scene::mesh::Mesh;
+use crate::scene::pose::placement::is_place;
+use crate::scene::sensor::View;
+use crate::scene::sensor::volume::Volume;
+use crate::scene::shape::primitive::PrimitiveKind;
+use crate::scene::shape::{Part, Shape};
+use crate::scene::{Field, Handle, Kind, Object, Pose, Scene, SceneError, SceneResult};
 
 /// Smaller factors are refused.
 const SMALLEST_FACTOR: f64 = 0.0001;

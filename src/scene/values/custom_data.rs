@@ -3,7 +3,7 @@
 //! A value is stored under a tag: the mark of its type followed by its name. Buffers have no mark, so that raw custom data of a name
 //! and its buffer property are the same.
 
-use super::{Data, Handle, Scene, SceneResult, ValueType};
+use crate::scene::{Data, Handle, Scene, SceneResult, ValueType};
 
 /// What is done to named values. Names are without, tags with the mark of a type.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Change, Data, Field, Handle, Scene, SceneResult};
+use crate::scene::{Change, Data, Field, Handle, Scene, SceneResult};
 
 /// Values by the name of their property. What nobody set is not in it; its default is the business of whoever asks.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -58,7 +58,7 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::{Change, Data, Field, Scene};
-    use crate::scene::dummy::Dummy;
+    use crate::scene::tree::dummy::Dummy;
     use crate::scene::{CopyOptions, Kind};
 
     #[test]

@@ -1,6 +1,6 @@
 //! Types of properties: their numbers, words and marks, defaults in words, and what a value must be like.
 
-use super::Data;
+use crate::scene::Data;
 
 macro_rules! value_types {
     ($($variant:ident = $code:literal $word:literal $mark:literal;)*) => {

@@ -9,10 +9,10 @@ use parry3d_f64::query::PointQuery;
 use parry3d_f64::query::details::intersection_test_aabb_triangle;
 use parry3d_f64::shape::{TriMesh, Triangle};
 
-use super::mesh::Mesh;
 use super::octree::OcTree;
 use super::point_cloud::PointCloud;
-use super::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
+use crate::scene::mesh::Mesh;
+use crate::scene::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
 
 type Point = [f64; 3];
 type Cell = [i32; 3];
@@ -207,9 +207,9 @@ impl OcTree {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::octree::Voxel;
-    use crate::scene::primitive::PrimitiveKind;
     use crate::scene::shape::Shape;
+    use crate::scene::shape::primitive::PrimitiveKind;
+    use crate::scene::voxels::octree::Voxel;
 
     fn cube(scene: &mut Scene, edge: f64) -> Handle {
         let shape = Shape::primitive(PrimitiveKind::Cuboid, [edge; 3], Default::default()).unwrap();

@@ -7,10 +7,10 @@ use std::ffi::c_int;
 
 use super::cx::Cx;
 use super::data::{read_data, read_function};
-use super::error::{ApiError, ApiResult};
-use super::lua::{FunctionRef, Object, Stack, Type};
 use super::returns::IntoScript;
 use crate::scene::{Data, Frame, Handle};
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::lua::{FunctionRef, Object, Stack, Type};
 
 /// Reads the arguments of one call in order.
 pub struct Args<'a> {

@@ -4,12 +4,12 @@ use std::any::TypeId;
 use std::cell::{Ref, RefMut};
 use std::rc::Rc;
 
-use super::env::Env;
-use super::error::{ApiError, ApiResult};
-use super::instance::Script;
-use super::lua::Stack;
-use super::sim::Sim;
 use crate::scene::Scene;
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::lifecycle::env::Env;
+use crate::script::lifecycle::instance::Script;
+use crate::script::lua::Stack;
+use crate::script::sim::Sim;
 
 /// What an API function gets: `&Cx` to read, `&mut Cx` to write the scene or call scripts. A function cannot hold a borrow of the
 /// scene while it calls a script, because both need the context.
@@ -63,7 +63,7 @@ impl<'a> Cx<'a> {
 
     /// Ends the time slice of the calling thread, as work does that takes longer in the original.
     pub(crate) fn use_up_slice(&self) {
-        super::use_up_slice(self.stack);
+        crate::script::use_up_slice(self.stack);
     }
 
     pub(crate) fn scene(&self) -> Ref<'_, Scene> {

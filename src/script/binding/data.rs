@@ -3,8 +3,8 @@
 use std::ffi::{CStr, c_int, c_void};
 
 use super::args::KeptFunction;
-use super::lua::{Stack, Type};
 use crate::scene::{Data, Key};
+use crate::script::lua::{Stack, Type};
 
 /// Where a state keeps the metatable all its buffers share.
 pub(crate) const BUFFER_METATABLE: &CStr = c"swanilda.buffer";

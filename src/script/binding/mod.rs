@@ -1,13 +1,19 @@
 //! What a scriptable function is, and how Lua finds it.
 
+pub(in crate::script) mod args;
+pub(in crate::script) mod by_handle;
+pub(in crate::script) mod cx;
+pub(in crate::script) mod data;
+pub(in crate::script) mod returns;
+
 use std::collections::HashMap;
 use std::ffi::{c_int, c_void};
 
-use super::args::Args;
-use super::embedded::Embedded;
-use super::env::Env;
 use super::error::ApiResult;
+use super::lifecycle::embedded::Embedded;
+use super::lifecycle::env::Env;
 use super::lua::{Stack, push_callback};
+use args::Args;
 
 /// One parameter of a scriptable function.
 #[derive(Debug)]

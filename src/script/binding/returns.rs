@@ -2,9 +2,9 @@
 
 use super::args::{Bytes, Table};
 use super::data::{push_buffer, push_data};
-use super::error::{ApiError, ApiResult};
-use super::lua::{LONGEST_LIST, Stack};
 use crate::scene::{Data, Handle};
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::lua::{LONGEST_LIST, Stack};
 
 /// A type that scripts get back.
 pub trait IntoScript {

@@ -3,11 +3,11 @@
 use std::rc::Rc;
 
 use super::callback::SysCall;
-use super::instance::Script;
-use super::sim::Sim;
 use crate::scene::change::ChangedNames;
-use crate::scene::script_object::ScriptType;
+use crate::scene::tree::script_object::ScriptType;
 use crate::scene::{Data, Handle, Key, Namespace};
+use crate::script::lifecycle::instance::Script;
+use crate::script::sim::Sim;
 
 impl Sim {
     /// Tells scripts about the custom data and signals that were written or removed since the last pass: one call per object and kind.

@@ -3,11 +3,11 @@
 use std::rc::Rc;
 
 use super::callback::SysCall;
-use super::instance::{Script, state};
-use super::lifecycle::Reply;
-use super::order::Group;
-use super::sim::Sim;
 use crate::scene::Data;
+use crate::script::lifecycle::Reply;
+use crate::script::lifecycle::instance::{Script, state};
+use crate::script::lifecycle::order::Group;
+use crate::script::sim::Sim;
 
 impl Sim {
     /// Delivers a callback to the scripts of a group; returns how many ran it.
@@ -90,7 +90,7 @@ impl Sim {
         }
         let mut vetoed = false;
         for script in self.everyone().iter() {
-            let is_main = script.script_type == crate::scene::script_object::ScriptType::Main;
+            let is_main = script.script_type == crate::scene::tree::script_object::ScriptType::Main;
             if !is_main && script.base_state() == state::INITIALIZED {
                 let Reply { value, .. } = self.deliver(script, SysCall::BeforeMainScript, &[]);
                 vetoed |= value.as_ref().and_then(|v| v.field("doNotRunMainScript")).is_some_and(Data::truthy);

@@ -2,17 +2,17 @@
 
 use std::rc::{Rc, Weak};
 
-use super::args::{KeptFunction, ScriptFunction};
 use super::callback::SysCall;
-use super::calls::{collect, push_callee};
-use super::cx::Cx;
-use super::env::Runtime;
-use super::error::{ApiError, ApiResult};
-use super::instance::Script;
-use super::lifecycle::{Level, MAX_DEPTH, push_args};
-use super::sim::Sim;
-use super::verbosity;
+use super::{collect, push_callee};
 use crate::scene::Data;
+use crate::script::binding::args::{KeptFunction, ScriptFunction};
+use crate::script::binding::cx::Cx;
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::lifecycle::env::Runtime;
+use crate::script::lifecycle::instance::Script;
+use crate::script::lifecycle::{Level, MAX_DEPTH, push_args};
+use crate::script::log::verbosity;
+use crate::script::sim::Sim;
 
 /// A function by name, looked up at each call in a script of the caller's choice, or by value.
 pub(crate) enum Handler {

@@ -1,17 +1,24 @@
 //! Calls between scripts: functions by name, code strings, initialisation (SPEC-4).
 
+pub(in crate::script) mod callback;
+pub(in crate::script) mod data_changes;
+pub(in crate::script) mod dispatch;
+pub(in crate::script) mod handler;
+pub(in crate::script) mod threads;
+
 use std::rc::Rc;
 
-use super::callback::SysCall;
-use super::env::Runtime;
+use super::binding::data;
 use super::error::{ApiError, ApiResult};
-use super::instance::{Script, state};
+use super::lifecycle::env::Runtime;
+use super::lifecycle::instance::{Script, state};
+use super::lifecycle::startup;
 use super::lifecycle::{Level, MAX_DEPTH, push_args, push_dotted};
 use super::lua::{LuaError, MULTIPLE, Stack, Type};
 use super::sim::Sim;
-use super::{data, startup};
 use crate::scene::Data;
-use crate::scene::script_object::ScriptType;
+use crate::scene::tree::script_object::ScriptType;
+use callback::SysCall;
 
 impl Sim {
     /// Calls the global function `name` (dots walk through tables) of a script.

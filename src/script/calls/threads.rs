@@ -6,8 +6,8 @@
 
 use std::ffi::CStr;
 
-use super::env::Env;
-use super::lua::{HOOK_INTERVAL, Stack, Type, Verdict, hasten_count_hook, set_count_hook};
+use crate::script::lifecycle::env::Env;
+use crate::script::lua::{HOOK_INTERVAL, Stack, Type, Verdict, hasten_count_hook, set_count_hook};
 
 /// Weak table from coroutine to its own pre-emption level.
 const LEVELS: &CStr = c"swanilda.levels";

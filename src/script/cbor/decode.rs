@@ -2,13 +2,13 @@
 
 use std::ffi::c_int;
 
-use super::super::args::Args;
-use super::super::data::push_buffer;
 use super::super::error::{ApiError, ApiResult};
 use super::super::lua::{Stack, Type};
 use super::low_level::packet;
 use super::{MAX_DEPTH, TOO_DEEP};
 use crate::scene::Data;
+use crate::script::binding::args::Args;
+use crate::script::binding::data::push_buffer;
 use crate::wire::cbor_head::{Head, INDEFINITE, major};
 
 /// Room made for elements before they are read: a head may promise more than follows.

@@ -2,11 +2,11 @@
 
 use std::ffi::c_int;
 
-use super::super::args::Args;
-use super::super::data::read_buffer;
 use super::super::error::ApiResult;
 use super::super::lua::{Stack, Type};
 use super::{MAX_DEPTH, TOO_DEEP};
+use crate::script::binding::args::Args;
+use crate::script::binding::data::read_buffer;
 use crate::wire::cbor_head::{FALSE, NULL, TRUE, is_text, major, push_float, push_head, push_int};
 
 /// Nulls written for holes of one array. Lua's `#` may be astronomic for a table with a few elements.

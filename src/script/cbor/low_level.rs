@@ -2,9 +2,9 @@
 
 use std::ffi::c_int;
 
-use super::super::args::Args;
 use super::super::error::{ApiError, ApiResult};
 use super::super::lua::{Stack, Type};
+use crate::script::binding::args::Args;
 use crate::wire::cbor_head::{Head, INDEFINITE, major, push_float, push_head};
 
 pub(super) fn encode(args: &mut Args<'_>) -> ApiResult<c_int> {

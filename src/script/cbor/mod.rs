@@ -1,7 +1,7 @@
 //! The native part of the Lua modules `org.conman.cbor` and `org.conman.cbor_c`: CBOR between a Lua stack and bytes.
 //!
 //! Whole trees of plain values go through here at once. What needs Lua code - `__tocbor`, conversions, shared references - is left
-//! to `lua/org/conman/cbor.lua`: these functions say so and have no effect then.
+//! to `lua/public/org/conman/cbor.lua`: these functions say so and have no effect then.
 
 mod decode;
 mod encode;
@@ -9,7 +9,7 @@ mod low_level;
 
 use std::ffi::c_int;
 
-use super::args::Args;
+use super::binding::args::Args;
 use super::binding::{ApiFn, Param};
 use super::error::ApiResult;
 

@@ -7,8 +7,8 @@ use std::fs::File;
 
 use fs4::{FileExt, TryLockError};
 
-use super::error::{ApiError, ApiResult};
-use super::sim::Sim;
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::sim::Sim;
 
 /// File names are not longer, in bytes of the key.
 const LONGEST_KEY: usize = 100;
@@ -65,7 +65,7 @@ mod tests {
     use std::sync::atomic::Ordering;
     use std::time::Duration;
 
-    use super::super::{ApiError, Options, Registry, Silent, Sim};
+    use crate::script::{ApiError, Options, Registry, Silent, Sim};
 
     /// Runs with a simulator of its own.
     fn with_sim<R>(options: Options, test: impl FnOnce(&Sim) -> R) -> R {

@@ -2,13 +2,14 @@
 
 use std::io;
 
-use super::sim::Sim;
 use super::web_sockets::Endpoint;
-use super::{verbosity, wall_clock};
 use crate::io::WsEvent;
+use crate::script::log::verbosity;
+use crate::script::sim::Sim;
+use crate::script::step::wall_clock;
 
 impl Sim {
-    pub(super) fn log_web_socket(&self, endpoint: &Endpoint, event: &WsEvent) {
+    pub(in crate::script) fn log_web_socket(&self, endpoint: &Endpoint, event: &WsEvent) {
         match event {
             WsEvent::Refused(_, origin) => self.log_refused_page(endpoint, origin),
             WsEvent::Unreachable(_, error) => self.log_unreachable(error),

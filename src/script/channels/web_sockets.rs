@@ -4,12 +4,12 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::{Rc, Weak};
 
-use super::cx::Cx;
-use super::handler::Handler;
-use super::instance::Script;
-use super::sim::Sim;
 use crate::io::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent};
 use crate::scene::Data;
+use crate::script::binding::cx::Cx;
+use crate::script::calls::handler::Handler;
+use crate::script::lifecycle::instance::Script;
+use crate::script::sim::Sim;
 
 /// The endpoints of a simulator, in the order of their creation.
 #[derive(Default)]

@@ -19,11 +19,11 @@ pub use executable::{Function, executable};
 pub(crate) use state::Coverage;
 pub use text::read_text;
 
-use super::env::Runtime;
-use super::instance::Script;
+use super::lifecycle::env::Runtime;
+use super::lifecycle::instance::Script;
 use super::sim::Sim;
 use crate::scene::Kind;
-use crate::scene::script_object::ScriptType;
+use crate::scene::tree::script_object::ScriptType;
 
 /// A text whose lines are counted.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -122,7 +122,7 @@ impl Sim {
         match (script.object, script.owner()) {
             (Some(object), _) => scene.short_path(object).ok(),
             (None, Some(owner)) => {
-                Some(scene.short_path(owner).ok()? + super::attached::log_suffix(script.script_type))
+                Some(scene.short_path(owner).ok()? + super::lifecycle::attached::log_suffix(script.script_type))
             }
             (None, None) => Some(format!("/{}", script.detached.borrow().name)),
         }

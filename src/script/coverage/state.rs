@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::probes::with_probes;
 use super::text::read_text;
 use super::{CountedText, Counts, LineCounts, executable};
-use crate::script::instance::Script;
+use crate::script::lifecycle::instance::Script;
 use crate::script::lua::{Stack, Type};
 use crate::script::sim::Sim;
 

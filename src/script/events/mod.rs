@@ -16,10 +16,11 @@ mod watch;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use super::callback::SysCall;
-use super::instance::{Script, state};
+use super::calls::callback::SysCall;
+use super::lifecycle::instance::{Script, state};
+use super::log::verbosity;
 use super::sim::Sim;
-use super::{verbosity, wall_clock};
+use super::step::wall_clock;
 use crate::scene::{Data, Handle, Key, special};
 use crate::wire::cbor;
 use queue::{Class, Content, Entry, Event, Queue, Source};

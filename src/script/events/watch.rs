@@ -8,9 +8,9 @@ use super::filter::Filters;
 use super::keys::{Keys, keys};
 use super::protocol::Protocol;
 use super::queue::{Class, Entry, Event, Source};
-use crate::scene::script_object::ScriptType;
+use crate::scene::tree::script_object::ScriptType;
 use crate::scene::{Data, Field, Handle, Namespace, Object, ValueType};
-use crate::script::instance::Script;
+use crate::script::lifecycle::instance::Script;
 use crate::script::property::{
     Class as PropertyClass, Target, app_class, mesh_class, object_class, scene_class, script_class,
 };

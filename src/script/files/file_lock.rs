@@ -4,10 +4,10 @@
 
 use std::ffi::c_int;
 
-use super::args::Args;
-use super::binding::{ApiFn, Param};
-use super::error::{ApiError, ApiResult};
-use super::lua::FileLock;
+use crate::script::binding::args::Args;
+use crate::script::binding::{ApiFn, Param};
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::lua::FileLock;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = &[ApiFn {
     name: "lfs.lock",

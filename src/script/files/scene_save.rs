@@ -3,14 +3,14 @@
 use std::path::Path;
 use std::rc::Rc;
 
-use super::callback::SysCall;
-use super::error::ApiResult;
-use super::sim::Sim;
 use crate::format::scene_file::{LoadedScript, save, write_whole};
 use crate::format::ttt::File;
 use crate::format::xml::{self, Variant};
-use crate::scene::script_object::ScriptType;
+use crate::scene::tree::script_object::ScriptType;
 use crate::scene::{Data, Handle, SceneError};
+use crate::script::calls::callback::SysCall;
+use crate::script::error::ApiResult;
+use crate::script::sim::Sim;
 
 /// Priorities of scripts count from 0 here, in files around 0.
 const NORMAL_PRIORITY: i64 = 1;
@@ -84,5 +84,5 @@ pub(crate) fn write_named(file: &File, name: &str) -> ApiResult<()> {
     let (variant, path) = Variant::of_name(name);
     let bytes = variant.map_or_else(|| file.write(), |variant| xml::write(file, variant).into_bytes());
     write_whole(Path::new(path), &bytes)
-        .map_err(|error| super::ApiError::Other(format!("'{path}' could not be written: {error}.")))
+        .map_err(|error| crate::script::ApiError::Other(format!("'{path}' could not be written: {error}.")))
 }

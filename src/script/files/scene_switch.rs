@@ -2,14 +2,14 @@
 
 use std::rc::Rc;
 
-use super::callback::SysCall;
-use super::error::{ApiError, ApiResult};
-use super::instance::Script;
-use super::sim::Sim;
-use super::verbosity;
 use crate::format::scene_file::{Loaded, LoadedScript, SceneFile};
-use crate::scene::script_object::{ScriptObject, ScriptType};
+use crate::scene::tree::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Edit, Handle, Kept, Kind, Namespace, Settings};
+use crate::script::calls::callback::SysCall;
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::lifecycle::instance::Script;
+use crate::script::log::verbosity;
+use crate::script::sim::Sim;
 
 /// What a scene is made of.
 pub(crate) enum SceneSource {

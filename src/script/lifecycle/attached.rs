@@ -3,9 +3,9 @@
 use std::rc::Rc;
 
 use super::instance::{Detached, Script};
-use super::sim::Sim;
-use crate::scene::script_object::{ScriptObject, ScriptType};
+use crate::scene::tree::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Handle, Scene};
+use crate::script::sim::Sim;
 
 /// Where old files say that a script comes before, with or after the others; later ones count from 0.
 const NORMAL_PRIORITY: i64 = 1;
@@ -53,7 +53,7 @@ impl Sim {
     }
 
     /// Text of a script and the name Lua shows for it in positions.
-    pub(super) fn code_of(&self, script: &Script) -> (Vec<u8>, String) {
+    pub(in crate::script) fn code_of(&self, script: &Script) -> (Vec<u8>, String) {
         let Some(handle) = script.object else {
             let detached = script.detached.borrow();
             let name = match &detached.source {
@@ -78,7 +78,7 @@ impl Sim {
     }
 
     /// `lua` or `python`.
-    pub(super) fn language_of(&self, script: &Script) -> String {
+    pub(in crate::script) fn language_of(&self, script: &Script) -> String {
         match script.object {
             Some(handle) => {
                 let scene = self.scene.borrow();

@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use super::compile;
+use crate::script::compile;
 
 /// `(module, text)` of every file below `lua/`.
 pub(crate) const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/lua_files.rs"));

@@ -5,14 +5,14 @@ use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::{Rc, Weak};
 
-use super::callback::SysCall;
-use super::coverage::Coverage;
-use super::events::Filters;
 use super::instance::Script;
-use super::lua::{FunctionRef, Stack, State};
 use super::random::Random;
-use super::sim::Sim;
-use super::verbosity;
+use crate::script::calls::callback::SysCall;
+use crate::script::coverage::Coverage;
+use crate::script::events::Filters;
+use crate::script::log::verbosity;
+use crate::script::lua::{FunctionRef, Stack, State};
+use crate::script::sim::Sim;
 
 /// The host's side of one Lua state.
 pub(crate) struct Env {

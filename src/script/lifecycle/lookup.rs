@@ -2,11 +2,11 @@
 
 use std::rc::Rc;
 
-use super::error::{ApiError, ApiResult};
 use super::instance::Script;
-use super::sim::Sim;
 use crate::scene::Handle;
-use crate::scene::script_object::ScriptType;
+use crate::scene::tree::script_object::ScriptType;
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::sim::Sim;
 
 impl Sim {
     /// The script of that type attached to an object: the first of its children by priority, else the object itself.

@@ -1,16 +1,29 @@
 //! A script's life: loading, initialising, being called, dying (SPEC-1 1.3 to 1.5).
 
+pub(in crate::script) mod attached;
+pub(in crate::script) mod embedded;
+pub(in crate::script) mod env;
+pub(in crate::script) mod instance;
+pub(in crate::script) mod lookup;
+pub(in crate::script) mod old_calls;
+pub(in crate::script) mod order;
+pub(in crate::script) mod random;
+pub(in crate::script) mod removal;
+pub(in crate::script) mod shared_process;
+pub(in crate::script) mod startup;
+
 use std::rc::Rc;
 
-use super::callback::SysCall;
-use super::env::{Env, Hook, Runtime};
+use super::binding::data;
+use super::calls::callback::SysCall;
 use super::error::ApiError;
-use super::instance::{Script, state};
+use super::log::verbosity;
 use super::lua::{LuaError, MULTIPLE, Stack, Type};
 use super::sim::Sim;
-use super::{data, old_calls, startup, verbosity};
 use crate::scene::Data;
-use crate::scene::script_object::ScriptType;
+use crate::scene::tree::script_object::ScriptType;
+use env::{Env, Hook, Runtime};
+use instance::{Script, state};
 
 /// What came back from a callback.
 #[derive(Debug, Default)]

@@ -1,11 +1,11 @@
-//! Scripts from before there were callbacks. `lua/old_calls.lua` runs them.
+//! Scripts from before there were callbacks. `lua/library/old_calls.lua` runs them.
 
 use std::rc::Rc;
 
-use super::callback::SysCall;
-use super::lua::{LuaError, Stack};
-use super::sim::Sim;
 use super::startup;
+use crate::script::calls::callback::SysCall;
+use crate::script::lua::{LuaError, Stack};
+use crate::script::sim::Sim;
 
 /// What such a text asks for. It is looked for in the text as in the original, so that a comment is enough.
 const SIGN: &[u8] = b"sim.syscb_init";
@@ -28,7 +28,7 @@ const CALLS: &[SysCall] = &[
 ];
 
 /// Whether a text is of that kind.
-pub(super) fn are_expected_by(code: &[u8]) -> bool {
+pub(in crate::script) fn are_expected_by(code: &[u8]) -> bool {
     contains(code, SIGN) && !contains(code, SysCall::Init.name().as_bytes())
 }
 
@@ -37,7 +37,7 @@ fn contains(code: &[u8], part: &[u8]) -> bool {
 }
 
 /// Runs the loaded text on top of the stack, which it takes, as its initialization, and defines its callbacks.
-pub(super) fn begin(stack: Stack<'_>, sim: &Rc<Sim>) -> Result<(), LuaError> {
+pub(in crate::script) fn begin(stack: Stack<'_>, sim: &Rc<Sim>) -> Result<(), LuaError> {
     startup::load_module(stack, sim, "old_calls")?;
     stack.insert(-2);
     stack.push_int(SysCall::Init as i64);

@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use super::clock::SimulationState;
 use super::instance::Script;
-use super::sim::Sim;
-use crate::scene::script_object::ScriptType;
+use crate::scene::tree::script_object::ScriptType;
 use crate::scene::{Handle, Object, Scene};
+use crate::script::sim::Sim;
+use crate::script::step::clock::SimulationState;
 
 /// A model flag: no script below runs.
 const SCRIPTS_INACTIVE: i64 = 0x200;

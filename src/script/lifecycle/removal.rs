@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::callback::SysCall;
-use super::error::ApiResult;
-use super::sim::Sim;
-use super::{instance::state, verbosity};
+use super::instance::state;
 use crate::scene::{CopyOptions, Data, Handle, Holder, Key, Kind, SceneError};
+use crate::script::calls::callback::SysCall;
+use crate::script::error::ApiResult;
+use crate::script::log::verbosity;
+use crate::script::sim::Sim;
 
 impl Sim {
     /// Adds an object and tells everyone.

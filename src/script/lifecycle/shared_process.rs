@@ -1,15 +1,15 @@
-//! What is different in a state whose simulator shares its process with others: one with [`Limits`](super::Limits).
+//! What is different in a state whose simulator shares its process with others: one with [`Limits`](crate::script::Limits).
 
 use std::ffi::{c_int, c_void};
 
-use super::console::Stream;
 use super::env::Env;
-use super::lua::{LuaError, Stack, push_callback};
-use super::sim::Sim;
 use super::startup::load_module;
+use crate::script::log::console::Stream;
+use crate::script::lua::{LuaError, Stack, push_callback};
+use crate::script::sim::Sim;
 
 /// Keeps a state from ending the process, and from writing between the lines of the others.
-pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
+pub(in crate::script) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
     load_module(stack, sim, "shared_process")?;
     push_callback(stack, write, std::ptr::null());
     stack.protected_call(1, 0)

@@ -3,13 +3,13 @@
 use std::ffi::{CStr, c_int, c_void};
 use std::rc::Rc;
 
-use super::binding::{Bound, Member, push_bound};
-use super::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE};
 use super::env::{Env, Runtime};
-use super::lua::{self, LuaError, Stack, Type, push_callback};
 use super::shared_process;
-use super::sim::Sim;
-use super::threads;
+use crate::script::binding::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE};
+use crate::script::binding::{Bound, Member, push_bound};
+use crate::script::calls::threads;
+use crate::script::lua::{self, LuaError, Stack, Type, push_callback};
+use crate::script::sim::Sim;
 
 /// The `sim` table of a state.
 const SIM: &CStr = c"swanilda.sim";
@@ -173,7 +173,7 @@ fn return_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
 }
 
 /// Pushes the chunk of an embedded module.
-pub(super) fn load_module(stack: Stack<'_>, sim: &Sim, name: &str) -> Result<(), LuaError> {
+pub(in crate::script) fn load_module(stack: Stack<'_>, sim: &Sim, name: &str) -> Result<(), LuaError> {
     match sim.registry.modules.get(name) {
         Some(module) => stack.load(module.bytecode(name), name, true),
         None => Err(LuaError { text: format!("no module '{name}' in Swanilda's library") }),
@@ -293,7 +293,7 @@ fn push_missing(stack: Stack<'_>, name: &'static &'static str) {
 fn raise_missing(stack: Stack<'_>, data: *const c_void) -> Result<c_int, String> {
     // SAFETY: `push_missing` stored a `&'static &'static str`.
     let name = unsafe { *data.cast::<&'static str>() };
-    Err(super::error::ApiError::NotImplemented(format!("sim.{name}")).text(stack, name))
+    Err(crate::script::error::ApiError::NotImplemented(format!("sim.{name}")).text(stack, name))
 }
 
 /// Pushes a function of an embedded Lua file, loading the file if this state has not yet.

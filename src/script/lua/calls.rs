@@ -4,8 +4,8 @@ use std::ffi::{c_int, c_void};
 
 use mlua_sys as ffi;
 
-use super::super::env::Env;
 use super::stack::Stack;
+use crate::script::lifecycle::env::Env;
 
 /// "All results", for [`Stack::protected_call`].
 pub(crate) const MULTIPLE: c_int = ffi::LUA_MULTRET;

@@ -7,9 +7,9 @@ use std::rc::Rc;
 
 use mlua_sys as ffi;
 
-use super::super::env::Env;
 use super::pool::{LARGEST, Pool, same_block};
 use super::{Budget, Stack};
+use crate::script::lifecycle::env::Env;
 
 /// A Lua state with the standard libraries. Closed when dropped.
 pub(crate) struct State {

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::Target;
 use crate::scene::{Data, Handle, SceneError, SceneResult};
 use crate::script::error::{ApiError, ApiResult};
-use crate::script::instance::Script;
+use crate::script::lifecycle::instance::Script;
 use crate::script::sim::Sim;
 
 /// Whose property it is.

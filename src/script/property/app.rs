@@ -7,13 +7,13 @@ use super::access::{Accessor, Subject, subject_properties};
 use super::{PropertyValue, Quaternion};
 use crate::scene::pose::quaternion_to_array;
 use crate::scene::{CustomData, Data, Kept};
-use crate::script::app_storage::AppStorage;
-use crate::script::auxiliary_consoles::AuxiliaryConsoles;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::events::Protocol;
-use crate::script::random::Random;
+use crate::script::files::app_storage::AppStorage;
+use crate::script::lifecycle::random::Random;
+use crate::script::log::auxiliary_consoles::AuxiliaryConsoles;
+use crate::script::log::verbosity;
 use crate::script::sim::{Options, Sim};
-use crate::script::verbosity;
 
 /// What scripts keep with the application.
 #[derive(Default)]

@@ -3,7 +3,7 @@
 use super::access::{Accessor, Subject, subject_properties};
 use super::{Color, Target};
 use crate::scene::Handle;
-use crate::scene::colour::{ColourSlot, Component};
+use crate::scene::appearance::colour::{ColourSlot, Component};
 use crate::script::error::{ApiError, ApiResult};
 
 impl Subject<'_> {

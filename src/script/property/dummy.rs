@@ -2,7 +2,7 @@
 
 use super::Text;
 use super::access::{Accessor, length, object_properties, placed_properties};
-use crate::scene::dummy::LinkType;
+use crate::scene::tree::dummy::LinkType;
 use crate::scene::{Handle, SceneError};
 
 pub(super) const DUMMY: &[Accessor] = object_properties! {

@@ -6,7 +6,7 @@
 use serde_json::{Map, Value};
 
 use super::access::{Accessor, Subject, subject_properties};
-use crate::scene::engine_params::{ENGINES, EngineOwner, EngineParam, engine_params};
+use crate::scene::parameters::engine::{ENGINES, EngineOwner, EngineParam, engine_params};
 use crate::scene::{Data, ValueType};
 use crate::script::error::{ApiError, ApiResult};
 

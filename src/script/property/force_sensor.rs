@@ -2,8 +2,8 @@
 
 use super::access::{Accessor, finite, length, object_properties, refused};
 use super::{PoseArray, Vector3};
-use crate::scene::force_sensor::{Filter, ForceSensor};
 use crate::scene::pose::pose_to_array;
+use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
 use crate::scene::{Object, Pose, SceneResult};
 
 pub(super) const FORCE_SENSOR: &[Accessor] = object_properties! {

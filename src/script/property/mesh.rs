@@ -2,12 +2,12 @@
 
 use super::access::{Accessor, Subject, finite, subject_properties};
 use super::{IntPair, Target, Text};
+use crate::scene::appearance::texture::Texture;
+use crate::scene::appearance::texture_mapping::TextureMapping;
 use crate::scene::mesh::Mesh;
 use crate::scene::shape::Part;
-use crate::scene::texture::Texture;
-use crate::scene::texture_mapping::TextureMapping;
 use crate::scene::{Field, Object, Uid};
-use crate::script::args::Bytes;
+use crate::script::binding::args::Bytes;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::sim::Sim;
 

@@ -27,9 +27,9 @@ mod view;
 use std::rc::Rc;
 
 use super::error::{ApiError, ApiResult};
-use super::instance::Script;
+use super::lifecycle::instance::Script;
 use super::sim::Sim;
-use crate::scene::script_object::ScriptType;
+use crate::scene::tree::script_object::ScriptType;
 use crate::scene::{Data, FIRST_MESH_UID, Handle, Namespace, Uid, ValueType, special};
 use access::{Accessor, Subject};
 use table::Source;

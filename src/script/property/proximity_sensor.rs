@@ -3,8 +3,8 @@
 use super::Vector3;
 use super::access::{Accessor, finite, length, object_properties, pair, refused};
 use crate::scene::SceneResult;
-use crate::scene::sensor_volume::Volume;
-use crate::scene::sensors::{Detection, ProximitySensor};
+use crate::scene::sensor::volume::Volume;
+use crate::scene::sensor::{Detection, ProximitySensor};
 
 pub(super) const PROXIMITY_SENSOR: &[Accessor] = object_properties! {
     "sensorPointSize": f64, |o| o.proximity_sensor()?.size,

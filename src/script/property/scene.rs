@@ -2,12 +2,12 @@
 
 use super::access::{Accessor, subject_properties};
 use super::{Color, Vector3};
-use crate::scene::engine_params::ENGINES;
+use crate::scene::parameters::engine::ENGINES;
 use crate::scene::{Counters, Handle, SceneError};
-use crate::script::clock::SimulationState;
 use crate::script::error::{ApiError, ApiResult};
-use crate::script::random::Random;
+use crate::script::lifecycle::random::Random;
 use crate::script::sim::Sim;
+use crate::script::step::clock::SimulationState;
 
 /// Letters and digits of the text that tells scenes apart.
 const SCENE_UID_LETTERS: usize = 16;

@@ -1,10 +1,10 @@
 //! Properties of scripts, be they objects or not.
 
 use super::access::{Accessor, Subject, object_properties, subject_properties};
-use crate::scene::script_object::ScriptObject;
+use crate::scene::tree::script_object::ScriptObject;
 use crate::scene::{Field, SceneResult};
 use crate::script::error::ApiResult;
-use crate::script::instance::Detached;
+use crate::script::lifecycle::instance::Detached;
 
 /// What `sim.getStringProperty(.., 'scriptName')` leaves out of the log name of an add-on.
 const ADD_ON_SUFFIX: &str = "@addOnScript";

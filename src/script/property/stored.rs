@@ -6,7 +6,7 @@ use super::table::flags;
 use super::{Info, Sim, Target};
 use crate::scene::{CustomData, Data, Edit, Handle, Holder, Namespace, ValueType};
 use crate::script::error::{ApiError, ApiResult};
-use crate::script::instance::Script;
+use crate::script::lifecycle::instance::Script;
 
 /// The script that wrote each signal last. A signal goes with the Lua state of that script.
 #[derive(Default)]

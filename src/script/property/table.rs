@@ -10,7 +10,7 @@ use super::{
     app, colour, display, dummy, engine, force_sensor, joint, mesh, model_hash, object, proximity_sensor, scene,
     script, shape, view,
 };
-use crate::scene::engine_params::{EngineOwner, EngineParam, engine_params};
+use crate::scene::parameters::engine::{EngineOwner, EngineParam, engine_params};
 use crate::scene::{Data, Kind, ValueType};
 
 /// `part<TAB>name<TAB>type<TAB>flags<TAB>state<TAB>default`, in the order of enumeration within a part.

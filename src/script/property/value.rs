@@ -1,10 +1,10 @@
 //! The types property values have in Rust, on the Lua stack and in storage.
 
 use crate::scene::{Data, Key, ValueType};
-use crate::script::args::{Args, Bytes, FromScript, Table};
+use crate::script::binding::args::{Args, Bytes, FromScript, Table};
+use crate::script::binding::returns::IntoScript;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lua::{Stack, Type};
-use crate::script::returns::IntoScript;
 
 /// A Rust type that properties have.
 pub trait PropertyValue: Sized {

@@ -2,7 +2,7 @@
 
 use super::access::{Accessor, finite, length, object_properties, pair, placed_properties, refused};
 use super::{Color, IntPair, Vector3};
-use crate::scene::sensors::View;
+use crate::scene::sensor::View;
 use crate::scene::{Handle, Kind, Object, SceneError, SceneResult};
 use crate::script::Bytes;
 

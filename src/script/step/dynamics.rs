@@ -3,13 +3,13 @@
 
 use std::rc::Rc;
 
-use super::callback::SysCall;
-use super::error::{ApiError, ApiResult};
-use super::sim::Sim;
-use super::verbosity;
 use crate::dynamics::{Attention, Call, Dynamics, JointRequest, Trigger, Verdict};
 use crate::scene::joint::Joint;
 use crate::scene::{Data, Handle, Scene};
+use crate::script::calls::callback::SysCall;
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::log::verbosity;
+use crate::script::sim::Sim;
 
 /// What scripts are asked by about contacts: the old name first.
 const CONTACT: [SysCall; 2] = [SysCall::ContactCallback, SysCall::Contact];

@@ -2,11 +2,11 @@
 
 use std::rc::Rc;
 
-use super::callback::SysCall;
-use super::sim::Sim;
+use crate::scene::joint::motion::JointStep;
 use crate::scene::joint::{Joint, Motion};
-use crate::scene::joint_motion::JointStep;
 use crate::scene::{Data, Handle, Key};
+use crate::script::calls::callback::SysCall;
+use crate::script::sim::Sim;
 
 impl Sim {
     /// One step of every joint that is on its way to a target.

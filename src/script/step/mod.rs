@@ -1,15 +1,21 @@
 //! The loop: idle passes, main-script passes, start, pause and stop (SPEC-2 2.2, SPEC-7).
 
+pub(in crate::script) mod clock;
+pub(in crate::script) mod dynamics;
+pub(in crate::script) mod joint_motion;
+pub(in crate::script) mod waiting;
+pub(crate) mod wall_clock;
+
 use std::rc::Rc;
 
-use super::callback::SysCall;
-use super::clock::SimulationState;
-use super::instance::state;
-use super::order::Group;
+use super::calls::callback::SysCall;
+use super::lifecycle::instance::state;
+use super::lifecycle::order::Group;
+use super::log::verbosity;
 use super::sim::Sim;
-use super::verbosity;
 use crate::scene::Data;
-use crate::scene::script_object::ScriptType;
+use crate::scene::tree::script_object::ScriptType;
+use clock::SimulationState;
 
 impl Sim {
     /// One pass of the application's loop: idle, paused or advancing.

@@ -3,9 +3,9 @@
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use super::error::{ApiError, ApiResult};
-use super::sim::Sim;
 use super::wall_clock;
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::sim::Sim;
 
 /// The first pause between two looks; each is twice as long as the one before.
 const FIRST_PAUSE: Duration = Duration::from_micros(50);

@@ -120,10 +120,10 @@ mod tests {
         assert_eq!(below(Path::new("./src/../src/lib.rs")), Some("src/lib.rs".into()));
         assert_eq!(below(Path::new("/")), None);
         assert_eq!(below(Path::new("nowhere.lua")), None);
-        let mut places = Places::new(Path::new("lcov.info"), &["lua/utils.lua".into()]);
+        let mut places = Places::new(Path::new("lcov.info"), &["lua/utilities/utils.lua".into()]);
         let mut place = |file: &str| places.of(&CountedText::File(file.into())).map(|place| place.path);
-        assert_eq!(place("./lua/./utils.lua"), None, "a test");
-        assert_eq!(place("./lua/uuid.lua"), Some("lua/uuid.lua".into()));
+        assert_eq!(place("./lua/./utilities/utils.lua"), None, "a test");
+        assert_eq!(place("./lua/utilities/uuid.lua"), Some("lua/utilities/uuid.lua".into()));
     }
 
     #[test]

@@ -2,8 +2,8 @@
 
 use crate::format::ttt::Counted;
 use crate::format::ttt::chunks as file;
-use crate::scene::octree::{OcTree, Voxel};
-use crate::scene::point_cloud::{CloudPoint, PointCloud};
+use crate::scene::voxels::octree::{OcTree, Voxel};
+use crate::scene::voxels::point_cloud::{CloudPoint, PointCloud};
 
 /// Cells within cells; a metre of cells of a thousandth needs ten.
 const DEEPEST_CELL: usize = 60;

@@ -4,7 +4,7 @@ use super::{Context, custom_data, path};
 use crate::format::ttt::chunks::{Common, UserParams};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{Counted, Text};
-use crate::scene::assembly::Assembly;
+use crate::scene::tree::assembly::Assembly;
 use crate::scene::{Data, Field, Handle, Movement, NOT_MODEL, Object, Pose, Scene, SceneResult, clean_alias};
 
 /// Written since 2.5 into every property; where it is missing, the object was hidden.

@@ -5,10 +5,10 @@ use std::f64::consts::{PI, TAU};
 use super::{Context, material};
 use crate::format::ttt::chunks::{Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk};
 use crate::format::ttt::{Text, unit_quaternion};
-use crate::scene::dummy::{Dummy, LinkType};
-use crate::scene::engine_blocks::EngineValues;
-use crate::scene::force_sensor::{Filter, ForceSensor};
 use crate::scene::joint::{Control, Joint, JointMode, JointType};
+use crate::scene::parameters::engine_blocks::EngineValues;
+use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
+use crate::scene::tree::dummy::{Dummy, LinkType};
 
 /// The step of the physics that gains were multiplied by before 3.1.1.
 const OLD_STEP: f64 = 0.005;

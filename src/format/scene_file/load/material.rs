@@ -3,7 +3,7 @@
 use super::Context;
 use crate::format::ttt::EngineBlock;
 use crate::format::ttt::chunks::{Material as Chunk, MeshNode, Shape as ShapeChunk};
-use crate::scene::engine_blocks::EngineValues;
+use crate::scene::parameters::engine_blocks::EngineValues;
 use crate::scene::shape::Material;
 
 const BULLET: usize = 0;

@@ -3,10 +3,10 @@
 use super::Context;
 use crate::format::ttt::Counted;
 use crate::format::ttt::chunks as file;
-use crate::scene::colour::Colour;
-use crate::scene::sensor_volume::{PYRAMID, RAY, Volume};
-use crate::scene::sensors::{Camera, Light, ProximitySensor, View, VisionSensor};
-use crate::scene::volume_faces::VolumeFaces;
+use crate::scene::appearance::colour::Colour;
+use crate::scene::sensor::volume::{PYRAMID, RAY, Volume};
+use crate::scene::sensor::volume_faces::VolumeFaces;
+use crate::scene::sensor::{Camera, Light, ProximitySensor, View, VisionSensor};
 
 const EVERYTHING: i32 = -1;
 /// Where this bit of a colour is clear, it is translucent.

@@ -4,7 +4,7 @@ use super::custom_data;
 use super::material::load_all;
 use crate::format::ttt::chunks::{Dynamics, Environment, Simulation};
 use crate::format::ttt::{File, Text};
-use crate::scene::surroundings::{Fog, Surroundings};
+use crate::scene::appearance::environment::{Fog, Surroundings};
 use crate::scene::{Data, DynamicsSettings, Scene, SceneResult, Settings};
 
 /// Simulation steps of the presets of old files, seconds; the next number means a step of one's own.

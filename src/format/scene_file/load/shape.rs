@@ -11,12 +11,12 @@ use crate::format::ttt::PositionFirst;
 use crate::format::ttt::chunks::{MeshData, MeshNode, Shape as Chunk, ShapeGeometry};
 use crate::format::ttt::tree::{Mesh as FileMesh, MeshTree};
 use crate::scene::Pose;
-use crate::scene::mass::MassProperties;
+use crate::scene::appearance::texture_mapping::TextureMapping;
 use crate::scene::mesh::Mesh;
-use crate::scene::mesh_box::BoundingBox;
-use crate::scene::primitive::PrimitiveKind;
+use crate::scene::mesh::bounding_box::BoundingBox;
+use crate::scene::shape::mass::MassProperties;
+use crate::scene::shape::primitive::PrimitiveKind;
 use crate::scene::shape::{Appearance, HeightField, Part, Primitive, Shape, ShapeDynamics, Velocity};
-use crate::scene::texture_mapping::TextureMapping;
 
 /// Smallest moment of inertia per kilogram (m2) that counts.
 const SMALLEST_MOMENT: f64 = 1e-8;

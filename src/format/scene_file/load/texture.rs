@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use super::HandleMap;
 use crate::format::ttt::chunks::{Texture as Chunk, TextureMapping as MappingChunk};
 use crate::format::ttt::{Rest, Text};
-use crate::scene::texture::Texture;
-use crate::scene::texture_mapping::{TextureMapping, TextureSource};
+use crate::scene::appearance::texture::Texture;
+use crate::scene::appearance::texture_mapping::{TextureMapping, TextureSource};
 use crate::scene::{Field, Handle, Scene, SceneResult};
 
 /// Larger numbers are textures, smaller ones handles of vision sensors.

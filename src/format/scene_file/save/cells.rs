@@ -3,8 +3,8 @@
 use super::sensors::bits;
 use crate::format::ttt::chunks as file;
 use crate::format::ttt::{Counted, Rest};
-use crate::scene::octree::{OcTree, Voxel};
-use crate::scene::point_cloud::{CloudPoint, PointCloud};
+use crate::scene::voxels::octree::{OcTree, Voxel};
+use crate::scene::voxels::point_cloud::{CloudPoint, PointCloud};
 
 const VERSION: u8 = 2;
 

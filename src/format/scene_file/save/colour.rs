@@ -1,7 +1,7 @@
 //! Colours, in the present model and in that of before 3.1.4, which current programs write as well.
 
 use crate::format::ttt::chunks::Colour as Chunk;
-use crate::scene::colour::Colour;
+use crate::scene::appearance::colour::Colour;
 
 const OPAQUE: u8 = 0x4;
 /// The diffuse light every colour had before ambient and diffuse became one.

@@ -120,7 +120,7 @@ fn old_stream(context: &Context<'_>, stream: &Stream, source: OldSource, slots: 
 }
 
 fn old_curve(curve: &Curve) -> file::OldCurve {
-    let mut colour = crate::scene::colour::Colour::new(curve.style.colour);
+    let mut colour = crate::scene::appearance::colour::Colour::new(curve.style.colour);
     colour.specular = [0.0; 3];
     file::OldCurve {
         name: Some(curve.style.name.as_str().into()),

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use super::{Context, shape};
 use crate::format::ttt::EngineBlock;
 use crate::format::ttt::chunks::{Colour, Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk};
-use crate::scene::dummy::Dummy;
-use crate::scene::engine_blocks::EngineValues;
-use crate::scene::force_sensor::ForceSensor;
 use crate::scene::joint::{Control, Joint};
+use crate::scene::parameters::engine_blocks::EngineValues;
+use crate::scene::sensor::force_sensor::ForceSensor;
+use crate::scene::tree::dummy::Dummy;
 
 const CYCLIC: u8 = 0x1;
 const MOTOR: u8 = 0x10;

@@ -4,9 +4,9 @@ use super::{Context, colour};
 use crate::format::ttt::Counted;
 use crate::format::ttt::chunks as file;
 use crate::scene::Handle;
-use crate::scene::sensor_volume::Volume;
-use crate::scene::sensors::{Camera, Light, ProximitySensor, VisionSensor};
-use crate::scene::volume_faces::VolumeFaces;
+use crate::scene::sensor::volume::Volume;
+use crate::scene::sensor::volume_faces::VolumeFaces;
+use crate::scene::sensor::{Camera, Light, ProximitySensor, VisionSensor};
 
 /// The first type of proximity sensors; their volumes count from 0.
 const FIRST_SENSOR_TYPE: i32 = 30;

@@ -5,11 +5,11 @@ use crate::format::ttt::chunks::{Material as MaterialChunk, MeshData, MeshNode, 
 use crate::format::ttt::tree::{Mesh as FileMesh, MeshTree};
 use crate::format::ttt::{EngineBlock, Heights};
 use crate::scene::Pose;
-use crate::scene::engine_blocks::EngineValues;
-use crate::scene::mass::MassProperties;
-use crate::scene::primitive::PrimitiveKind;
+use crate::scene::parameters::engine_blocks::EngineValues;
+use crate::scene::shape::geometry::box_of;
+use crate::scene::shape::mass::MassProperties;
+use crate::scene::shape::primitive::PrimitiveKind;
 use crate::scene::shape::{Appearance, Material, Part, Primitive, Shape, ShapeDynamics};
-use crate::scene::shape_geometry::box_of;
 
 const CONVEX: u8 = 0x4;
 const CONVEXITY_KNOWN: u8 = 0x20;

@@ -4,8 +4,8 @@ use super::Context;
 use crate::format::ttt::Rest;
 use crate::format::ttt::chunks::{Texture as Chunk, TextureMapping as MappingChunk};
 use crate::scene::Scene;
-use crate::scene::texture::Texture;
-use crate::scene::texture_mapping::{TextureMapping, TextureSource};
+use crate::scene::appearance::texture::Texture;
+use crate::scene::appearance::texture_mapping::{TextureMapping, TextureSource};
 
 /// The mode that older programs know as a flag.
 const DECAL: i64 = 1;

@@ -9,9 +9,9 @@ use std::time::Duration;
 
 use fs4::{FileExt, TryLockError};
 
-use super::super::wall_clock;
 use super::{Blocks, Contents};
 use crate::scene::{CustomData, Data, Edit, Key};
+use crate::script::step::wall_clock;
 use crate::wire::cbor;
 
 const NAME: &str = "app-storage.cbor";
@@ -22,7 +22,7 @@ const LONGEST_TURN: Duration = Duration::from_secs(5);
 
 /// Why the file is not what it should be.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum Failure {
+pub(in crate::script::files::app_storage) enum Failure {
     #[error("the app storage {} is corrupt: it was set aside as {} and a new one begun.", path.display(), aside.display())]
     Corrupt { path: PathBuf, aside: PathBuf },
     #[error("the app storage {} was written by a newer version of Swanilda: it is left alone.", .0.display())]
@@ -34,7 +34,7 @@ pub(super) enum Failure {
 }
 
 /// Where the system keeps data of the user's programs.
-pub(super) fn user_folder() -> Option<PathBuf> {
+pub(in crate::script::files::app_storage) fn user_folder() -> Option<PathBuf> {
     Some(directories::ProjectDirs::from("", "", "swanilda")?.data_dir().to_owned())
 }
 
@@ -42,7 +42,7 @@ pub(super) fn user_folder() -> Option<PathBuf> {
 ///
 /// # Errors
 /// When it cannot be read. A corrupt file has another name then.
-pub(super) fn read(folder: &Path) -> Result<Contents, Failure> {
+pub(in crate::script::files::app_storage) fn read(folder: &Path) -> Result<Contents, Failure> {
     let path = folder.join(NAME);
     let bytes = match fs::read(&path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Contents::default()),
@@ -61,7 +61,7 @@ pub(super) fn read(folder: &Path) -> Result<Contents, Failure> {
 ///
 /// # Errors
 /// When it cannot be read or written; it is as it was then.
-pub(super) fn update(
+pub(in crate::script::files::app_storage) fn update(
     folder: &Path,
     change: impl FnOnce(&mut Contents),
 ) -> Result<(Contents, Option<Failure>), Failure> {

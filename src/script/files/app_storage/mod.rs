@@ -8,9 +8,9 @@ mod file;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use super::sim::Sim;
-use super::verbosity;
 use crate::scene::{CustomData, Edit, Edited};
+use crate::script::log::verbosity;
+use crate::script::sim::Sim;
 use file::Failure;
 
 /// Bytes by tag.

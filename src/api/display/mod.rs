@@ -1,0 +1,6 @@
+//! `sim.*`: what a display would show: drawing objects, graphs, consoles, images.
+
+pub(in crate::api) mod auxiliary_console;
+pub(in crate::api) mod drawing;
+pub(in crate::api) mod graph;
+pub(in crate::api) mod images;

@@ -1,0 +1,9 @@
+//! `sim.*`: what is old: functions with a newer way that differs in more than its name.
+
+pub(in crate::api) mod engine_param;
+pub(in crate::api) mod joint_shape;
+pub(in crate::api) mod object_param;
+pub(in crate::api) mod script;
+pub(in crate::api) mod signal;
+pub(in crate::api) mod tube;
+pub(in crate::api) mod user_param;

@@ -1,0 +1,7 @@
+//! `sim.*`: sensors, octrees and point clouds.
+
+pub(in crate::api) mod create;
+pub(in crate::api) mod force_sensor;
+pub(in crate::api) mod state;
+pub(in crate::api) mod voxel_objects;
+pub(in crate::api) mod voxels;

@@ -1,0 +1,5 @@
+//! Octrees and point clouds.
+
+pub mod octree;
+pub mod point_cloud;
+pub(in crate::scene) mod voxelize;
