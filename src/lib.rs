@@ -6,6 +6,7 @@ pub mod docs;
 mod dynamics;
 mod format;
 mod io;
+mod modules;
 pub mod scene;
 pub mod script;
 mod simulator;

@@ -9,9 +9,9 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use crate::api;
 use crate::format::scene_file::SceneFile;
 use crate::io::ZmqServer;
+use crate::modules;
 use crate::scene::tree::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, Scene};
 use crate::script::coverage::LineCounts;
@@ -80,8 +80,8 @@ impl Simulator {
 
     /// A simulator with an empty scene whose prints and log lines go to `console`.
     pub fn with_console(options: Options, console: Box<dyn Console>) -> Self {
-        let sim = Sim::new(options, api::registry(), console);
-        let main_text = api::registry().modules["main"].source;
+        let sim = Sim::new(options, modules::registry(), console);
+        let main_text = modules::registry().modules["main"].source;
         sim.add_detached(ScriptType::Main, detached("mainScript", main_text.as_bytes()));
         let sandbox = sim.add_detached(ScriptType::Sandbox, detached("sandboxScript", b"sim = require 'sim'"));
         sim.deliver(&sandbox, SysCall::Init, &[]);

@@ -1,4 +1,4 @@
-//! What scripts can call: one file per category of the manual.
+//! What scripts can call as `sim`: one file per category of the manual.
 //!
 //! A function is said once, with `#[api]`; its row joins the table of its file, and the tables join here. Names that need no code of
 //! their own stand in tables: constants, aliases, deprecations, old names, and the reference that tells what is missing.
@@ -6,40 +6,20 @@
 mod data;
 mod display;
 mod files;
-mod lfs;
-mod mime;
 mod motion;
 mod objects;
 mod old;
 mod parameters;
-mod remote;
 mod scripts;
 mod sensors;
 mod shapes;
-mod sim_convex;
-mod sim_ws;
-mod socket;
-mod subprocess;
-mod testing;
-mod testing_run;
-mod zmq;
 
 use std::collections::HashMap;
-use std::sync::LazyLock;
 
-use crate::script::files::file_lock;
-use crate::script::{Bound, Embedded, FILES, Registry, cbor};
+use crate::script::{Bound, FILES, Member, Registry};
 
-pub(crate) use crate::script::Member;
-
-pub(crate) use crate::script::{ApiError, ApiResult as Result};
+pub(crate) use crate::script::{ApiError, ApiResult as Result, functions};
 pub use crate::script::{ApiFn, Args, Cx, FromScript, IntoScript, Param};
-
-/// The table of contents of an API file.
-macro_rules! functions {
-    ($($name:ident),* $(,)?) => { &[$($name::API),*] };
-}
-use functions;
 
 /// All native functions, file by file.
 pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
@@ -83,7 +63,7 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Packing", data::packing::FUNCTIONS),
     ("Tubes", old::tube::FUNCTIONS),
     ("Serial ports", files::serial::FUNCTIONS),
-    ("Programs", subprocess::SIM_FUNCTIONS),
+    ("Programs", files::program::FUNCTIONS),
     ("Consoles, messages of the interface, semaphores", display::auxiliary_console::FUNCTIONS),
     ("User parameters", old::user_param::FUNCTIONS),
     ("Octrees and point clouds", sensors::voxels::FUNCTIONS),
@@ -91,37 +71,6 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Scene files", files::scene_file::FUNCTIONS),
     ("Graphs", display::graph::FUNCTIONS),
     ("Display", display::drawing::FUNCTIONS),
-];
-
-/// Native functions of Lua modules: `module.function` each. A Lua file of the module's name gets them as its second argument.
-pub(crate) const LIBRARIES: &[(&str, &[ApiFn])] = &[
-    ("org.conman.cbor", cbor::TREES),
-    ("org.conman.cbor_c", cbor::HEADS),
-    ("simCBOR", cbor::TREES),
-    ("lfs", lfs::FUNCTIONS),
-    ("lfs", file_lock::FUNCTIONS),
-    ("lfsx", lfs::FUNCTIONS),
-    ("remote.ws", sim_ws::REMOTE),
-    ("remote.ws", remote::NAMES),
-    ("simConvex", sim_convex::FUNCTIONS),
-    ("simSubprocess", subprocess::FUNCTIONS),
-    ("remote.zmq", remote::FUNCTIONS),
-    ("socket.core", socket::FUNCTIONS),
-    ("socket.core", socket::OBJECTS),
-    ("socket.core", socket::METHODS),
-    ("socket.core", socket::STREAM),
-    ("socket.core", socket::DATAGRAM),
-    ("socket.core", socket::OPTION),
-    ("socket.core", socket::DNS),
-    ("socket.unix", socket::FUNCTIONS),
-    ("ssl", socket::TLS),
-    ("ssl", socket::OBJECTS),
-    ("ssl", socket::METHODS),
-    ("ssl", socket::STREAM),
-    ("mime.core", mime::FUNCTIONS),
-    ("simWS", sim_ws::FUNCTIONS),
-    ("swanilda.test", testing::FUNCTIONS),
-    ("swanilda.test", testing_run::FUNCTIONS),
 ];
 
 /// `name<TAB>value` of every constant of `sim`.
@@ -137,18 +86,12 @@ pub(crate) const REFERENCE: &str = include_str!("tables/reference.tsv");
 /// `name<TAB>tier` of the reference's functions: T1 is what published code uses most.
 pub(crate) const TIERS: &str = include_str!("tables/tiers.tsv");
 
-/// Everything scripts can reach, by name. One per process.
-pub(crate) fn registry() -> &'static Registry {
-    static REGISTRY: LazyLock<Registry> = LazyLock::new(build);
-    &REGISTRY
-}
-
-fn build() -> Registry {
-    let mut registry = Registry { modules: embedded_modules(), libraries: libraries(), ..Registry::default() };
+/// Puts the members of `sim` and the global functions into `registry`.
+pub(crate) fn add_to(registry: &mut Registry) {
     let notices = notices();
-    add_missing(&mut registry);
-    add_constants(&mut registry);
-    add_lua_functions(&mut registry, &notices);
+    add_missing(registry);
+    add_constants(registry);
+    add_lua_functions(registry, &notices);
     for function in CATEGORIES.iter().flat_map(|(_, functions)| *functions) {
         match function.name.strip_prefix("sim.") {
             Some(name) => {
@@ -157,9 +100,8 @@ fn build() -> Registry {
             None => registry.globals.push(Bound { name: function.name, function, deprecation: None }),
         }
     }
-    add_aliases(&mut registry, &notices);
+    add_aliases(registry, &notices);
     registry.old_names = pairs(OLD_NAMES).collect();
-    registry
 }
 
 type Notices = HashMap<&'static str, &'static str>;
@@ -183,20 +125,6 @@ fn notice(name: &str, replacement: &str) -> &'static str {
 fn native(name: &'static str, function: &'static ApiFn, notices: &Notices) -> Member {
     let deprecation = name.strip_prefix("sim.").and_then(|member| notices.get(member)).copied();
     Member::Native(Bound { name, function, deprecation })
-}
-
-fn embedded_modules() -> HashMap<&'static str, Embedded> {
-    FILES.iter().map(|&(name, source)| (name, Embedded::new(source))).collect()
-}
-
-fn libraries() -> HashMap<&'static str, Vec<Bound>> {
-    let bound = |function: &'static ApiFn| Bound { name: function.name, function, deprecation: None };
-    let mut libraries = HashMap::<_, Vec<_>>::new();
-    let zmq = zmq::TABLES.iter().map(|&functions| ("simZMQ", functions));
-    for (module, functions) in LIBRARIES.iter().copied().chain(zmq) {
-        libraries.entry(module).or_default().extend(functions.iter().map(bound));
-    }
-    libraries
 }
 
 fn add_missing(registry: &mut Registry) {

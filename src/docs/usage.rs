@@ -9,8 +9,8 @@ use std::sync::LazyLock;
 use super::approximated::difference;
 use super::lua_tokens::{Kind, Token, tokens};
 use super::{module_stubs, modules};
-use crate::api;
 use crate::format::scene_file::old_names;
+use crate::script::Member;
 
 /// What becomes of a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -143,7 +143,7 @@ fn current_name(written: &str) -> Option<String> {
     if written.contains('.') || !written.starts_with("sim") {
         return None;
     }
-    let registry = api::registry();
+    let registry = crate::modules::registry();
     let by_rule = || {
         let rest = &written[3..];
         let member = match rest.strip_prefix('_') {
@@ -159,9 +159,9 @@ fn current_name(written: &str) -> Option<String> {
 
 /// None for constants, which are no functions.
 fn of_sim(member: &str) -> Option<Support> {
-    match api::registry().members.get(member) {
-        Some(api::Member::Constant(_)) => None,
-        Some(api::Member::Missing { .. }) | None => Some(Support::Missing),
+    match crate::modules::registry().members.get(member) {
+        Some(Member::Constant(_)) => None,
+        Some(Member::Missing { .. }) | None => Some(Support::Missing),
         Some(_) => Some(of_function(&format!("sim.{member}"))),
     }
 }

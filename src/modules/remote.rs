@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use api_macro::api;
 
-use super::{ApiFn, CATEGORIES, Cx, Result, functions, lua_files, registry};
+use super::{ApiFn, Cx, Result, functions, registry};
+use crate::api::{CATEGORIES, lua_files};
 use crate::io::Incoming;
 use crate::script::{Bytes, Text};
 

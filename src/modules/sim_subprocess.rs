@@ -1,4 +1,4 @@
-//! `simSubprocess`: programs that scripts start, and `sim.launchExecutable`.
+//! `simSubprocess`: programs that scripts start.
 //!
 //! A program started by `execAsync` belongs to the script that started it: it is killed when the script ends.
 
@@ -14,7 +14,6 @@ use crate::io::{Process, ProcessError, Program};
 use crate::scene::Data;
 use crate::script::{Bytes, Nil, Results, Table};
 
-pub(crate) const SIM_FUNCTIONS: &[ApiFn] = functions![launch_executable];
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![exec, exec_async, is_running, wait, kill, getpid];
 
 /// How long the outputs of a program that has ended may stay open: another program may hold them.
@@ -117,23 +116,6 @@ fn getpid(cx: &Cx, handle: String) -> Result<i64> {
     Ok(processes(cx).borrow_mut().get(&handle)?.id().into())
 }
 
-/// Starts a program that goes on by itself.
-///
-/// @param filename path of the program, or a name to be looked up where the system looks for programs
-/// @param parameters its arguments, with spaces between; double quotes hold one together
-/// @param showStatus has no effect
-#[api("sim.launchExecutable")]
-fn launch_executable(
-    cx: &mut Cx,
-    filename: String,
-    #[default(String::new())] parameters: String,
-    #[default(1)] _show_status: i64,
-) -> Result<()> {
-    cx.require_unsafe()?;
-    let program = Program { path: filename, args: words(&parameters), search_path: true, ..Program::default() };
-    program.launch().map_err(|error| ApiError::Other(format!("cannot launch {}: {error}.", program.path)))
-}
-
 fn program(cx: &Cx, path: String, args: &Table, opts: &Table) -> Result<Program> {
     cx.require_unsafe()?;
     let option = |name, default| opts.0.field(name).map_or(default, Data::truthy);
@@ -162,25 +144,6 @@ fn text(data: &Data) -> Result<String> {
     }
 }
 
-/// The words of a command line.
-fn words(line: &str) -> Vec<String> {
-    let mut words = Vec::new();
-    let mut word: Option<String> = None;
-    let mut quoted = false;
-    for letter in line.chars() {
-        match letter {
-            '"' => {
-                quoted = !quoted;
-                word.get_or_insert_default();
-            }
-            _ if letter.is_whitespace() && !quoted => words.extend(word.take()),
-            _ => word.get_or_insert_default().push(letter),
-        }
-    }
-    words.extend(word);
-    words
-}
-
 fn unknown() -> ApiError {
     ApiError::Other("invalid object handle".into())
 }
@@ -191,14 +154,7 @@ fn failure(error: ProcessError) -> ApiError {
 
 #[cfg(test)]
 mod tests {
-    use super::{limit, words};
-
-    #[test]
-    fn quotes_hold_words_together() {
-        assert_eq!(words(r#" -a "two words" c"d e"f "" "#), ["-a", "two words", "cd ef", ""]);
-        assert_eq!(words(r#"left "open"#), ["left", "open"]);
-        assert!(words(" ").is_empty());
-    }
+    use super::limit;
 
     #[test]
     fn limits_are_what_can_be_waited_for() {

@@ -4,7 +4,6 @@
 
 mod binding;
 mod calls;
-pub(crate) mod cbor;
 pub(crate) mod channels;
 pub mod coverage;
 mod error;
@@ -36,7 +35,8 @@ pub use step::clock::SimulationState;
 pub use test_bench::TestBench;
 
 pub(crate) use binding::by_handle::ByHandle;
-pub(crate) use binding::{Bound, Member, Registry};
+pub(crate) use binding::data::{push_buffer, read_buffer};
+pub(crate) use binding::{Bound, Member, Registry, functions};
 pub(crate) use calls::handler::Handler;
 pub(crate) use calls::threads::{auto_level, changed_level, set_auto_level, use_up_slice};
 pub(crate) use events::Filters;
@@ -48,7 +48,7 @@ pub(crate) use lifecycle::env::Hook;
 pub(crate) use lifecycle::instance::Detached;
 pub(crate) use lifecycle::order::Group;
 pub(crate) use log::auxiliary_consoles::AuxiliaryConsole;
-pub(crate) use lua::{Object, Stack};
+pub(crate) use lua::{FileLock, Object, Stack, Type as LuaType};
 pub(crate) use property::{Target, table as property_table};
 pub(crate) use sim::Sim;
 

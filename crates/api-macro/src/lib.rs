@@ -38,7 +38,7 @@ fn expand(name: &LitStr, function: &mut ItemFn) -> syn::Result<Tokens> {
         #[allow(non_snake_case, unused_imports, clippy::wildcard_imports)]
         pub(crate) mod #ident {
             use super::*;
-            use crate::api::{ApiFn, Args, FromScript, IntoScript, Param};
+            use crate::script::{ApiFn, Args, FromScript, IntoScript, Param};
 
             pub(crate) const API: ApiFn = ApiFn {
                 name: #name,

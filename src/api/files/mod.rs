@@ -1,4 +1,5 @@
-//! `sim.*`: files, serial ports.
+//! `sim.*`: files, serial ports, programs.
 
+pub(in crate::api) mod program;
 pub(in crate::api) mod scene_file;
 pub(in crate::api) mod serial;

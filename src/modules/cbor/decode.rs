@@ -2,13 +2,10 @@
 
 use std::ffi::c_int;
 
-use super::super::error::{ApiError, ApiResult};
-use super::super::lua::{Stack, Type};
 use super::low_level::packet;
 use super::{MAX_DEPTH, TOO_DEEP};
 use crate::scene::Data;
-use crate::script::binding::args::Args;
-use crate::script::binding::data::push_buffer;
+use crate::script::{ApiError, ApiResult, Args, LuaType, Stack, push_buffer};
 use crate::wire::cbor_head::{Head, INDEFINITE, major};
 
 /// Room made for elements before they are read: a head may promise more than follows.
@@ -39,7 +36,7 @@ type Read<T> = Result<T, Stop>;
 pub(super) fn decode(args: &mut Args<'_>) -> ApiResult<c_int> {
     let stack = args.stack();
     let (bytes, at) = packet(stack)?;
-    if stack.kind(3) != Type::Table {
+    if stack.kind(3) != LuaType::Table {
         return Err(ApiError::NotA { position: 3, expected: "table" });
     }
     let mut reader = Reader { stack, bytes, at, rich: stack.truthy(4), items: 0 };
@@ -202,8 +199,8 @@ impl<'a> Reader<'a> {
         while let Some(head) = self.next(promised, read)? {
             self.item(head, depth + 1, true)?;
             match self.stack.kind(-1) {
-                Type::Nil => return self.bad("table index is nil"),
-                Type::Number if self.stack.number(-1).is_some_and(f64::is_nan) => {
+                LuaType::Nil => return self.bad("table index is nil"),
+                LuaType::Number if self.stack.number(-1).is_some_and(f64::is_nan) => {
                     return self.bad("table index is NaN");
                 }
                 _ => {}
@@ -216,7 +213,7 @@ impl<'a> Reader<'a> {
     }
 
     fn tagged(&mut self, number: u64, depth: usize, is_key: bool) -> Read<Kind> {
-        let known = self.stack.raw_get_index(3, number as i64) != Type::Nil;
+        let known = self.stack.raw_get_index(3, number as i64) != LuaType::Nil;
         self.stack.pop(1);
         if known {
             return Err(Stop::NeedsLua);

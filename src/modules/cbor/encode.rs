@@ -2,11 +2,8 @@
 
 use std::ffi::c_int;
 
-use super::super::error::ApiResult;
-use super::super::lua::{Stack, Type};
 use super::{MAX_DEPTH, TOO_DEEP};
-use crate::script::binding::args::Args;
-use crate::script::binding::data::read_buffer;
+use crate::script::{ApiResult, Args, LuaType, Stack, read_buffer};
 use crate::wire::cbor_head::{FALSE, NULL, TRUE, is_text, major, push_float, push_head, push_int};
 
 /// Nulls written for holes of one array. Lua's `#` may be astronomic for a table with a few elements.
@@ -46,14 +43,14 @@ pub(super) fn encode(args: &mut Args<'_>) -> ApiResult<c_int> {
 
 fn write(stack: Stack<'_>, index: c_int, out: &mut Vec<u8>, depth: usize) -> Written {
     match stack.kind(index) {
-        Type::Nil => out.push(NULL),
-        Type::Boolean => out.push(if stack.truthy(index) { TRUE } else { FALSE }),
-        Type::Number => match stack.integer(index) {
+        LuaType::Nil => out.push(NULL),
+        LuaType::Boolean => out.push(if stack.truthy(index) { TRUE } else { FALSE }),
+        LuaType::Number => match stack.integer(index) {
             Some(integer) => push_int(out, integer),
             None => push_float(out, stack.number(index).unwrap_or_default()),
         },
-        Type::String => write_string(out, stack.bytes(index).unwrap_or_default())?,
-        Type::Table => write_table(stack, stack.absolute(index), out, depth)?,
+        LuaType::String => write_string(out, stack.bytes(index).unwrap_or_default())?,
+        LuaType::Table => write_table(stack, stack.absolute(index), out, depth)?,
         _ => return Err(Stop::NeedsLua),
     }
     check_size(out.len())
@@ -93,7 +90,7 @@ fn write_array(stack: Stack<'_>, table: c_int, len: i64, out: &mut Vec<u8>, dept
     push_head(out, major::ARRAY, len as u64);
     let mut holes = 0;
     for i in 1..=len {
-        if stack.raw_get_index(table, i) == Type::Nil {
+        if stack.raw_get_index(table, i) == LuaType::Nil {
             holes += 1;
             if holes > MAX_HOLES {
                 return Err(Stop::Bad("Cannot encode table: too many holes"));

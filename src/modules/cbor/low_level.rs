@@ -2,9 +2,7 @@
 
 use std::ffi::c_int;
 
-use super::super::error::{ApiError, ApiResult};
-use super::super::lua::{Stack, Type};
-use crate::script::binding::args::Args;
+use crate::script::{ApiError, ApiResult, Args, LuaType, Stack};
 use crate::wire::cbor_head::{Head, INDEFINITE, major, push_float, push_head};
 
 pub(super) fn encode(args: &mut Args<'_>) -> ApiResult<c_int> {
@@ -16,7 +14,7 @@ pub(super) fn encode(args: &mut Args<'_>) -> ApiResult<c_int> {
     let mut out = Vec::new();
     match stack.number(3) {
         Some(float) if kind == major::SIMPLE => write_float(&mut out, stack, float)?,
-        _ if matches!(stack.kind(2), Type::Nil | Type::None) => out.push(kind | INDEFINITE),
+        _ if matches!(stack.kind(2), LuaType::Nil | LuaType::None) => out.push(kind | INDEFINITE),
         _ => push_head(&mut out, kind, count(stack)?),
     }
     stack.push_bytes(&out);
@@ -35,7 +33,7 @@ fn count(stack: Stack<'_>) -> ApiResult<u64> {
 
 fn write_float(out: &mut Vec<u8>, stack: Stack<'_>, float: f64) -> ApiResult<()> {
     match stack.integer(2) {
-        None if matches!(stack.kind(2), Type::Nil | Type::None) => push_float(out, float),
+        None if matches!(stack.kind(2), LuaType::Nil | LuaType::None) => push_float(out, float),
         Some(25) => {
             push_float(out, float);
             if out.len() != 3 {

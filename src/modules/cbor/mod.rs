@@ -9,9 +9,7 @@ mod low_level;
 
 use std::ffi::c_int;
 
-use super::binding::args::Args;
-use super::binding::{ApiFn, Param};
-use super::error::ApiResult;
+use crate::script::{ApiFn, ApiResult, Args, Param};
 
 /// How deep arrays, maps and tags may be nested.
 const MAX_DEPTH: usize = 500;

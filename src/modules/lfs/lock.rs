@@ -4,10 +4,7 @@
 
 use std::ffi::c_int;
 
-use crate::script::binding::args::Args;
-use crate::script::binding::{ApiFn, Param};
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::lua::FileLock;
+use crate::script::{ApiError, ApiFn, ApiResult, Args, FileLock, Param};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = &[ApiFn {
     name: "lfs.lock",
@@ -43,7 +40,7 @@ fn lock(args: &mut Args<'_>) -> ApiResult<c_int> {
 }
 
 /// What the system says of an error, without the number Rust adds.
-pub(crate) fn system_words(error: &std::io::Error) -> String {
+pub(super) fn system_words(error: &std::io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or_default().to_owned()
 }

@@ -3,6 +3,8 @@
 //!
 //! These functions tell failures by results, as that library does: nil, the reason, and the system's number of it.
 
+mod lock;
+
 use std::fs::{self, FileTimes, Metadata};
 use std::io;
 use std::path::Path;
@@ -13,7 +15,9 @@ use api_macro::api;
 use super::{ApiFn, Cx, Result, functions};
 use crate::scene::{Data, Key};
 use crate::script::Results;
-use crate::script::files::file_lock::system_words;
+use lock::system_words;
+
+pub(crate) use lock::FUNCTIONS as LOCK;
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![current_dir, change_dir, make_dir, remove_dir, link, touch, attributes, list, real_path, temp_dir];

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use api_macro::api;
 
-use super::super::{ApiFn, Cx, Result, functions};
 use super::objects::{forbid_singleton, no_socket, objects, singleton_handle};
 use crate::io::zmq::{Context, Socket};
+use crate::modules::{ApiFn, Cx, Result, functions};
 use crate::script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] =

@@ -2,10 +2,10 @@
 
 use api_macro::api;
 
-use super::super::{ApiFn, Cx, Result, functions};
 use super::int;
 use super::objects::objects;
 use crate::io::zmq::{Message, ZmqResult};
+use crate::modules::{ApiFn, Cx, Result, functions};
 use crate::scene::Data;
 use crate::script::{Number, Text};
 

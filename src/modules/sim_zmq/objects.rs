@@ -7,8 +7,8 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::super::{ApiError, Cx, Result};
 use crate::io::zmq::{Context, Errno, Message, Socket, Termination, ZmqResult};
+use crate::modules::{ApiError, Cx, Result};
 
 /// The number of the context all scripts of a simulator share.
 const SINGLETON: u64 = 1;

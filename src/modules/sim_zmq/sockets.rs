@@ -4,10 +4,10 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use super::super::{ApiError, ApiFn, Cx, Result, functions};
 use super::int;
 use super::objects::objects;
 use crate::io::zmq::{self, Errno, Message, Socket};
+use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::Data;
 use crate::script::{Bytes, Number, Table};
 

@@ -1,5 +1,7 @@
 //! The native part of `swanilda.test`: what a test may do to the simulator it runs in.
 
+mod run;
+
 use std::rc::Rc;
 
 use api_macro::api;
@@ -8,9 +10,11 @@ use super::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::{Data, Key};
 use crate::script::test_bench::{ConsoleLine, Golden, TestBench, Tolerances, Trace};
 
+pub(crate) use run::FUNCTIONS as RUN;
+
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![is_test, pass, errors, lines, kill, file, time_limit, golden];
 
-pub(super) fn bench(cx: &Cx) -> Result<Rc<TestBench>> {
+fn bench(cx: &Cx) -> Result<Rc<TestBench>> {
     let bench = cx.sim().test_bench.get().cloned();
     bench.ok_or_else(|| ApiError::Other("this works in tests only: run the file with 'swanilda test'.".into()))
 }
@@ -58,7 +62,7 @@ fn lines(cx: &Cx, #[default(0)] first: i64, #[default(false)] unfinished: bool) 
     Ok(Data::Array(lines.into_iter().map(line_data).collect()))
 }
 
-pub(super) fn line_data(line: ConsoleLine) -> Data {
+fn line_data(line: ConsoleLine) -> Data {
     Data::map([
         ("text", Data::text(&line.text)),
         ("level", Data::text(line.level)),

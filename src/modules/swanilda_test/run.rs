@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use api_macro::api;
 
-use super::testing::{bench, line_data};
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use super::{bench, line_data};
+use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::tree::script_object::ScriptType;
 use crate::scene::{Data, Key};
 use crate::script::Options;

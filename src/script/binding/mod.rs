@@ -35,6 +35,12 @@ pub struct ApiFn {
     pub(crate) call: fn(&mut Args<'_>) -> ApiResult<c_int>,
 }
 
+/// The table of contents of a file of scriptable functions.
+macro_rules! functions {
+    ($($name:ident),* $(,)?) => { &[$($name::API),*] };
+}
+pub(crate) use functions;
+
 /// A name scripts can call, with the function behind it.
 pub(crate) struct Bound {
     pub name: &'static str,
@@ -59,7 +65,7 @@ pub(crate) enum Member {
     },
 }
 
-/// Everything scripts can reach, by name. Built once per process by `api::registry`.
+/// Everything scripts can reach, by name. Built once per process by `modules::registry`.
 #[derive(Default)]
 pub(crate) struct Registry {
     /// Members of `sim`, without the prefix.
