@@ -257,22 +257,22 @@ impl Simulator {
     }
 
     pub fn state(&self) -> SimulationState {
-        self.sim.clock.state.get()
+        self.sim.clock.state()
     }
 
     /// Simulated time, seconds.
     pub fn time(&self) -> f64 {
-        self.sim.clock.time.get()
+        self.sim.clock.time()
     }
 
     /// Steps since the start.
     pub fn steps(&self) -> u64 {
-        self.sim.clock.steps.get()
+        self.sim.clock.steps()
     }
 
     /// How many errors scripts have raised that nobody caught.
     pub fn errors(&self) -> u64 {
-        self.sim.errors.get()
+        self.sim.log.errors()
     }
 
     /// How often lines of scripts ran since the last time, where `Options::count_lines` asks for that.
@@ -282,7 +282,7 @@ impl Simulator {
 
     /// Whether a script asked to end the program.
     pub fn quit_requested(&self) -> bool {
-        self.sim.quit.get()
+        self.sim.clock.quit_is_requested()
     }
 
     /// The named parameters, as text.

@@ -35,7 +35,7 @@ impl Output {
 
     /// A word of the command line itself, in the name the simulator has in the log.
     pub(super) fn note(&self, text: &str, time: f64) {
-        self.write_log(&LogLine { origin: "CoppeliaSim", level: verbosity::SCRIPT_INFOS, text, time, chatter: true });
+        self.write_log(&LogLine { origin: "CoppeliaSim", level: verbosity::SCRIPT_INFOS, text, time, status: true });
     }
 
     /// Tells where a server listens.
@@ -73,7 +73,7 @@ impl Output {
     }
 
     fn write_log(&self, line: &LogLine<'_>) {
-        if self.quiet && line.chatter {
+        if self.quiet && line.status {
             return;
         }
         match self.format {

@@ -49,7 +49,7 @@ pub(super) struct Setup {
     /// One JSON object per line printed or logged, then a summary, all on standard output
     #[arg(long)]
     pub json: bool,
-    /// No chatter of the simulator and no summary
+    /// No status lines of the simulator and no summary
     #[arg(long, short)]
     pub quiet: bool,
 }

@@ -19,6 +19,7 @@ use super::lifecycle::attached::log_suffix;
 use super::lifecycle::instance::{Detached, Script};
 use super::lifecycle::order::OrderCache;
 use super::lifecycle::random::Random;
+use super::log::Log;
 use super::log::console::{Console, LogLine};
 use super::log::verbosity;
 use super::lua::Budget;
@@ -106,13 +107,9 @@ pub(crate) struct Sim {
     pub order: RefCell<OrderCache>,
     /// Taken out while it steps.
     pub dynamics: RefCell<Option<Dynamics>>,
-    pub console: RefCell<Box<dyn Console>>,
-    pub verbosity: Cell<i64>,
+    pub log: Log,
     /// Script calls in progress, over all states.
     pub depth: Cell<usize>,
-    /// Errors scripts raised that nobody caught.
-    pub errors: Cell<u64>,
-    pub quit: Cell<bool>,
     /// Callbacks some script has or had, as bits.
     pub callbacks_in_use: Cell<u64>,
     /// Objects to remove at the end of the loop pass.
@@ -142,14 +139,12 @@ pub(crate) struct Sim {
     /// What states have counted that are gone.
     pub line_counts: RefCell<LineCounts>,
     next_detached: Cell<i64>,
-    once: RefCell<HashSet<(String, i64, String)>>,
-    started: std::time::Instant,
 }
 
 impl Sim {
     pub(crate) fn new(options: Options, registry: &'static Registry, console: Box<dyn Console>) -> Rc<Self> {
         Rc::new(Self {
-            verbosity: Cell::new(options.verbosity),
+            log: Log::new(console, options.verbosity),
             app: RefCell::new(AppData::new(&options)),
             lua_budget: Rc::new(Budget::new(options.limits.map_or(usize::MAX, |limits| limits.memory))),
             options,
@@ -160,10 +155,7 @@ impl Sim {
             has_attached: Cell::new(false),
             order: RefCell::default(),
             dynamics: RefCell::new(Some(Dynamics::default())),
-            console: RefCell::new(console),
             depth: Cell::new(0),
-            errors: Cell::new(0),
-            quit: Cell::new(false),
             callbacks_in_use: Cell::new(0),
             delayed_removals: RefCell::default(),
             known_at_start: RefCell::default(),
@@ -182,8 +174,6 @@ impl Sim {
             test_bench: OnceCell::new(),
             line_counts: RefCell::default(),
             next_detached: Cell::new(FIRST_DETACHED),
-            once: RefCell::default(),
-            started: super::step::wall_clock::now(),
         })
     }
 
@@ -271,27 +261,19 @@ impl Sim {
         self.log_line("CoppeliaSim", level, text, false);
     }
 
-    /// What the simulator tells about itself in the sandbox's name, as the original does.
-    pub(crate) fn chatter(&self, text: &str) {
+    /// Logs what the simulation does, in the sandbox's name as the original does.
+    pub(crate) fn log_status(&self, text: &str) {
         self.log_line("sandboxScript", verbosity::SCRIPT_INFOS, text, true);
     }
 
-    fn log_line(&self, origin: &str, level: i64, text: &str, chatter: bool) {
-        if level & verbosity::ONCE != 0 && !self.once.borrow_mut().insert((origin.to_owned(), level, text.to_owned())) {
+    fn log_line(&self, origin: &str, level: i64, text: &str, status: bool) {
+        if level & verbosity::ONCE != 0 && !self.log.is_first(origin, level, text) {
             return;
         }
-        if verbosity::plain(level) <= self.verbosity.get().max(verbosity::SCRIPT_INFOS) {
+        // Listeners to events get the lines of scripts even where the console shows fewer.
+        if verbosity::plain(level) <= self.log.verbosity().max(verbosity::SCRIPT_INFOS) {
             self.push_log_event(origin, level, text);
         }
-        if verbosity::plain(level) > self.verbosity.get() {
-            return;
-        }
-        let line = LogLine { origin, level, text, time: self.clock.time.get(), chatter };
-        self.console.borrow_mut().log(&line);
-    }
-
-    /// Seconds since this simulator was made, by the wall clock.
-    pub(crate) fn wall_seconds(&self) -> f64 {
-        self.started.elapsed().as_secs_f64()
+        self.log.show(&LogLine { origin, level, text, time: self.clock.time(), status });
     }
 }

@@ -229,7 +229,7 @@ impl Console for Recorder {
     }
 
     fn log(&mut self, line: &LogLine<'_>) {
-        if !line.chatter {
+        if !line.status {
             self.0.write(ConsoleLine {
                 time: line.time,
                 origin: Some(line.origin.to_owned()),

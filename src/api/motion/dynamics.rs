@@ -150,7 +150,7 @@ fn read_force_sensor(cx: &Cx, object_handle: ObjectRef) -> Result<(i64, [f64; 3]
     let object = scene.object(object_handle.handle)?;
     let sensor = object.force_sensor()?;
     let reading = if object_handle.has(flag::RAW_VALUE) { sensor.raw } else { sensor.filtered };
-    let running = cx.sim().clock.state.get() != crate::script::SimulationState::Stopped;
+    let running = !cx.sim().clock.is_stopped();
     let broken = running && object.children().is_empty();
     let (force, torque) = reading.unwrap_or_default();
     Ok((i64::from(reading.is_some()) | i64::from(broken) << 1, force, torque))

@@ -127,7 +127,7 @@ fn get_bool_param(cx: &Cx, parameter: Number) -> Result<bool> {
         return Ok(value);
     }
     Ok(match parameter.0 {
-        switch::EXIT_REQUEST => cx.sim().quit.get(),
+        switch::EXIT_REQUEST => cx.sim().clock.quit_is_requested(),
         switch::HEADLESS | switch::USING_SCRIPT_OBJECTS => true,
         other => {
             let number = known(other, switch::LAST)?;
@@ -147,7 +147,7 @@ fn set_bool_param(cx: &mut Cx, parameter: Number, bool_state: bool) -> Result<()
         return Ok(());
     }
     match parameter.0 {
-        switch::EXIT_REQUEST => cx.sim().quit.set(bool_state),
+        switch::EXIT_REQUEST => cx.sim().request_quit(bool_state),
         other => {
             let number = known(other, switch::LAST)?;
             cx.sim().app.borrow_mut().idle_params.bools.insert(number, bool_state);

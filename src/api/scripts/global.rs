@@ -170,7 +170,7 @@ fn aux_func(cx: &Cx, cmd: String, _arguments: Rest) -> Result<Results> {
 /// Ends the program after the current pass.
 #[api("quitSimulator")]
 fn quit_simulator(cx: &mut Cx) -> Result<()> {
-    cx.sim().quit.set(true);
+    cx.sim().request_quit(true);
     Ok(())
 }
 
@@ -179,8 +179,8 @@ fn quit_simulator(cx: &mut Cx) -> Result<()> {
 /// @param text the line
 #[api("_print")]
 fn print_line(cx: &Cx, text: crate::script::Bytes) -> Result<()> {
-    let time = cx.sim().clock.time.get();
-    cx.sim().console.borrow_mut().print(&text.0, time);
+    let time = cx.sim().clock.time();
+    cx.sim().log.print(&text.0, time);
     Ok(())
 }
 

@@ -51,7 +51,7 @@ fn request_stop(cx: &mut Cx) -> Result<()> {
 /// @return state one of sim.simulation_*
 #[api("sim.getSimulationState")]
 fn get_simulation_state(cx: &Cx) -> Result<i64> {
-    Ok(cx.sim().clock.state.get() as i64)
+    Ok(cx.sim().clock.state() as i64)
 }
 
 /// Simulated time since the start.
@@ -59,7 +59,7 @@ fn get_simulation_state(cx: &Cx) -> Result<i64> {
 /// @return time seconds
 #[api("sim.getSimulationTime")]
 fn get_simulation_time(cx: &Cx) -> Result<f64> {
-    Ok(cx.sim().clock.time.get())
+    Ok(cx.sim().clock.time())
 }
 
 /// Length of a simulation step.
@@ -87,7 +87,7 @@ fn handle_simulation_start(cx: &mut Cx) -> Result<()> {
 fn handle_sensing_start(cx: &mut Cx) -> Result<()> {
     main_script_only(cx)?;
     // No time has passed before the sensing part of the first step.
-    let dt = (cx.sim().clock.steps.get() > 0).then(|| cx.scene().settings().time_step);
+    let dt = (cx.sim().clock.steps() > 0).then(|| cx.scene().settings().time_step);
     cx.scene_mut().measure_velocities(dt);
     Ok(())
 }

@@ -44,7 +44,7 @@ fn pass(cx: &mut Cx) -> Result<()> {
 /// @return count
 #[api("swanilda.test.errors")]
 fn errors(cx: &Cx) -> Result<i64> {
-    Ok(cx.sim().errors.get() as i64)
+    Ok(cx.sim().log.errors() as i64)
 }
 
 /// What has been printed and logged.
@@ -57,7 +57,7 @@ fn lines(cx: &Cx, #[default(0)] first: i64, #[default(false)] unfinished: bool) 
     let bench = bench(cx)?;
     let mut lines = bench.lines_from(usize::try_from(first).unwrap_or_default());
     if unfinished {
-        lines.extend(bench.unfinished(cx.sim().clock.time.get()));
+        lines.extend(bench.unfinished(cx.sim().clock.time()));
     }
     Ok(Data::Array(lines.into_iter().map(line_data).collect()))
 }

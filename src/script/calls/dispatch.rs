@@ -96,6 +96,6 @@ impl Sim {
                 vetoed |= value.as_ref().and_then(|v| v.field("doNotRunMainScript")).is_some_and(Data::truthy);
             }
         }
-        vetoed && !self.clock.stop_requested.get()
+        vetoed && !self.clock.stop_is_requested()
     }
 }

@@ -68,7 +68,7 @@ impl Sim {
             Ok(results) => Some(results),
             Err(error) => {
                 let name = handler.name().unwrap_or("function");
-                self.errors.set(self.errors.get() + 1);
+                self.log.count_error();
                 self.log(
                     verbosity::ERRORS,
                     &format!("External call to simCallScriptFunction failed ('{name}'): {error}"),

@@ -79,7 +79,7 @@ impl Sim {
     }
 
     pub(super) fn clock_values(&self) -> (f64, u64, i64) {
-        (self.clock.time.get(), self.clock.steps.get(), self.clock.state.get() as i64)
+        (self.clock.time(), self.clock.steps(), self.clock.state() as i64)
     }
 
     fn collect_settings(self: &Rc<Self>, watch: &mut Watch) {

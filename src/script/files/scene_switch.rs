@@ -32,7 +32,7 @@ impl Sim {
         source: SceneSource,
         path: Option<String>,
     ) -> ApiResult<()> {
-        if !self.is_stopped() {
+        if !self.clock.is_stopped() {
             return Err(ApiError::Other("simulation is not stopped.".into()));
         }
         if caller.object.is_some() || caller.owner().is_some() || caller.script_type == ScriptType::Main {

@@ -164,7 +164,7 @@ impl Sim {
     }
 
     fn report_error(self: &Rc<Self>, script: &Rc<Script>, text: &str) {
-        self.errors.set(self.errors.get() + 1);
+        self.log.count_error();
         self.log_from(script, verbosity::SCRIPT_ERRORS, text);
         if !matches!(script.script_type, ScriptType::AddOn | ScriptType::Sandbox) {
             self.request_pause_after_error();

@@ -7,7 +7,6 @@ use super::instance::Script;
 use crate::scene::tree::script_object::ScriptType;
 use crate::scene::{Handle, Object, Scene};
 use crate::script::sim::Sim;
-use crate::script::step::clock::SimulationState;
 
 /// A model flag: no script below runs.
 const SCRIPTS_INACTIVE: i64 = 0x200;
@@ -63,7 +62,7 @@ impl Sim {
     pub(crate) fn everyone(&self) -> ScriptList {
         self.refresh_order();
         let cache = self.order.borrow();
-        let stopped = self.clock.state.get() == SimulationState::Stopped;
+        let stopped = self.clock.is_stopped();
         if stopped { &cache.everyone_stopped } else { &cache.everyone }.clone()
     }
 

@@ -19,7 +19,7 @@ pub(in crate::script) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaE
 fn write(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
     let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
     let stream = if stack.bytes(1) == Some(b"stderr") { Stream::Error } else { Stream::Output };
-    let time = sim.clock.time.get();
-    sim.console.borrow_mut().write(stack.bytes(2).unwrap_or_default(), stream, time);
+    let time = sim.clock.time();
+    sim.log.write(stack.bytes(2).unwrap_or_default(), stream, time);
     Ok(0)
 }

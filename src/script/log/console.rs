@@ -12,8 +12,8 @@ pub struct LogLine<'a> {
     pub text: &'a str,
     /// Simulated time, seconds.
     pub time: f64,
-    /// Said by the simulator about itself, not by or about a script.
-    pub chatter: bool,
+    /// The simulator reports its own status, e.g. that the simulation started.
+    pub status: bool,
 }
 
 impl LogLine<'_> {

@@ -1,5 +1,71 @@
-//! What scripts and the simulator print: levels, consoles.
+//! What scripts and the simulator print: levels, consoles, and the count of errors.
 
 pub(in crate::script) mod auxiliary_consoles;
 pub(in crate::script) mod console;
 pub mod verbosity;
+
+use std::cell::{Cell, RefCell};
+use std::collections::HashSet;
+
+use console::{Console, LogLine, Stream};
+
+/// The way to the console of one simulator.
+pub(crate) struct Log {
+    console: RefCell<Box<dyn Console>>,
+    verbosity: Cell<i64>,
+    /// Origin, level and text of the lines that are to be logged only once.
+    logged_once: RefCell<HashSet<(String, i64, String)>>,
+    /// Errors of scripts that nobody caught.
+    errors: Cell<u64>,
+}
+
+impl Log {
+    pub(super) fn new(console: Box<dyn Console>, verbosity: i64) -> Self {
+        Self {
+            console: RefCell::new(console),
+            verbosity: Cell::new(verbosity),
+            logged_once: RefCell::default(),
+            errors: Cell::new(0),
+        }
+    }
+
+    /// Lines above this level are not shown.
+    pub(crate) fn verbosity(&self) -> i64 {
+        self.verbosity.get()
+    }
+
+    pub(super) fn set_verbosity(&self, level: i64) {
+        self.verbosity.set(level);
+    }
+
+    /// How many errors scripts have raised that nobody caught.
+    pub(crate) fn errors(&self) -> u64 {
+        self.errors.get()
+    }
+
+    pub(super) fn count_error(&self) {
+        self.errors.set(self.errors.get() + 1);
+    }
+
+    /// Whether this is the first such line; it is remembered.
+    pub(super) fn is_first(&self, origin: &str, level: i64, text: &str) -> bool {
+        self.logged_once.borrow_mut().insert((origin.to_owned(), level, text.to_owned()))
+    }
+
+    /// Shows a line, unless the verbosity is below its level.
+    pub(super) fn show(&self, line: &LogLine<'_>) {
+        if verbosity::plain(line.level) <= self.verbosity() {
+            self.console.borrow_mut().log(line);
+        }
+    }
+
+    /// One call of a script's `print` at that simulated time, seconds.
+    pub(crate) fn print(&self, line: &[u8], time: f64) {
+        self.console.borrow_mut().print(line, time);
+    }
+
+    /// What a script wrote to a stream of the process.
+    pub(super) fn write(&self, text: &[u8], stream: Stream, time: f64) {
+        self.console.borrow_mut().write(text, stream, time);
+    }
+}

@@ -71,7 +71,7 @@ pub(super) const APP: &[Accessor] = subject_properties! {
     "processId": i64, |_s| i64::from(std::process::id());
     "execUnsafe": bool, |s| s.sim.options.exec_unsafe;
     "execUnsafeExt": bool, |s| s.sim.options.exec_unsafe && s.sim.options.exec_unsafe_ext;
-    "consoleVerbosity": i64, |s| s.sim.verbosity.get(), |s, level| s.sim.verbosity.set(level);
+    "consoleVerbosity": i64, |s| s.sim.log.verbosity(), |s, level| s.sim.log.set_verbosity(level);
 };
 
 /// Levels by their name, to be written only.
@@ -118,7 +118,7 @@ fn level_of(word: Data) -> ApiResult<i64> {
 }
 
 fn set_console_level(subject: &Subject<'_>, word: Data) -> ApiResult<()> {
-    subject.sim.verbosity.set(level_of(word)?);
+    subject.sim.log.set_verbosity(level_of(word)?);
     Ok(())
 }
 

@@ -7,19 +7,14 @@ use crate::scene::{Counters, Handle, SceneError};
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::random::Random;
 use crate::script::sim::Sim;
-use crate::script::step::clock::SimulationState;
 
 /// Letters and digits of the text that tells scenes apart.
 const SCENE_UID_LETTERS: usize = 16;
 
 impl Sim {
-    pub(crate) fn is_stopped(&self) -> bool {
-        self.clock.state.get() == SimulationState::Stopped
-    }
-
     /// Sets the simulation step, seconds. Without effect while the simulation is not stopped, as in CoppeliaSim.
     pub(crate) fn set_time_step(&self, step: f64) {
-        if self.is_stopped() && !step.is_nan() {
+        if self.clock.is_stopped() && !step.is_nan() {
             self.scene.borrow_mut().modify_settings(|settings| settings.time_step = step.clamp(0.0001, 10.0));
         }
     }
@@ -27,7 +22,7 @@ impl Sim {
     /// Sets the wished sub-step of the physics, seconds; at most the simulation step. Without effect while the simulation is not
     /// stopped.
     pub(crate) fn set_physics_step(&self, step: f64) {
-        if self.is_stopped() && !step.is_nan() {
+        if self.clock.is_stopped() && !step.is_nan() {
             self.scene.borrow_mut().modify_settings(|settings| {
                 settings.dynamics.step = step.clamp(0.00001, settings.time_step.max(0.00001));
             });
@@ -42,7 +37,7 @@ impl Sim {
         if !(0..ENGINES.len() as i64).contains(&engine[0]) {
             return Err(SceneError::InvalidArgument.into());
         }
-        if self.is_stopped() {
+        if self.clock.is_stopped() {
             self.scene.borrow_mut().modify_settings(|settings| settings.dynamics.engine = engine);
         }
         Ok(())
@@ -50,7 +45,7 @@ impl Sim {
 
     /// Sets how many simulation steps there are to an image. Without effect while the simulation is not stopped.
     fn set_steps_per_rendering(&self, steps: i64) {
-        if self.is_stopped() {
+        if self.clock.is_stopped() {
             self.scene.borrow_mut().modify_settings(|settings| settings.steps_per_rendering = steps.max(1));
         }
     }
@@ -71,7 +66,7 @@ impl Sim {
 
     /// Turns real-time mode on or off. Without effect while the simulation is not stopped.
     pub(crate) fn set_real_time(&self, on: bool) {
-        if self.is_stopped() {
+        if self.clock.is_stopped() {
             self.scene.borrow_mut().modify_settings(|settings| settings.real_time = on);
         }
     }
@@ -92,10 +87,10 @@ pub(super) const SIMULATION: &[Accessor] = subject_properties! {
     "realtimeSimulation": bool, |s| s.sim.scene.borrow().settings().real_time, |s, on| s.sim.set_real_time(on);
     "stepsPerRendering": i64, |s| s.sim.scene.borrow().settings().steps_per_rendering,
         |s, steps| s.sim.set_steps_per_rendering(steps);
-    "simulationTime": f64, |s| s.sim.clock.time.get();
+    "simulationTime": f64, |s| s.sim.clock.time();
     "timeStep": f64, |s| s.sim.scene.borrow().settings().time_step, |s, step| s.sim.set_time_step(step);
-    "stepCount": i64, |s| s.sim.clock.steps.get() as i64;
-    "simulationState": i64, |s| s.sim.clock.state.get() as i64;
+    "stepCount": i64, |s| s.sim.clock.steps() as i64;
+    "simulationState": i64, |s| s.sim.clock.state() as i64;
 };
 
 pub(super) const SIMULATION_SETTINGS: &[Accessor] = settings! {

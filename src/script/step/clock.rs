@@ -1,6 +1,9 @@
 //! Simulation time and the seven states of a run (SPEC-7).
 
 use std::cell::Cell;
+use std::time::Instant;
+
+use super::wall_clock;
 
 /// The state of the simulation; numbers are `sim.simulation_*` of 4.10.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,7 +19,7 @@ pub enum SimulationState {
 }
 
 impl SimulationState {
-    /// Whether passes of the main script run.
+    /// Whether simulation steps run.
     pub fn is_advancing(self) -> bool {
         self as i64 & 0x10 != 0
     }
@@ -27,20 +30,23 @@ impl SimulationState {
     }
 }
 
-/// Time and requests.
+/// Time, state and what was requested. Anybody may read it; only the host moves it.
 pub(crate) struct Clock {
-    pub state: Cell<SimulationState>,
+    state: Cell<SimulationState>,
     /// Seconds since the start, by repeated addition of the step.
-    pub time: Cell<f64>,
-    pub steps: Cell<u64>,
-    pub stop_requested: Cell<bool>,
-    pub pause_requested: Cell<bool>,
+    time: Cell<f64>,
+    steps: Cell<u64>,
+    stop_requested: Cell<bool>,
+    pause_requested: Cell<bool>,
     /// The pause at a set time happens once per run.
-    pub paused_at_time: Cell<bool>,
-    /// True while scripts are told that the simulation is about to start.
-    pub starting: Cell<bool>,
+    paused_at_time: Cell<bool>,
+    /// True while scripts are notified that the simulation is about to start.
+    starting: Cell<bool>,
+    /// A script asked to end the program.
+    quit_requested: Cell<bool>,
     /// Wall-clock seconds at which a run in real time had simulation time zero.
-    pub real_time_origin: Cell<f64>,
+    real_time_origin: Cell<f64>,
+    created: Instant,
 }
 
 impl Clock {
@@ -53,12 +59,82 @@ impl Clock {
             pause_requested: Cell::new(false),
             paused_at_time: Cell::new(false),
             starting: Cell::new(false),
+            quit_requested: Cell::new(false),
             real_time_origin: Cell::new(0.0),
+            created: wall_clock::now(),
         }
     }
 
+    pub(crate) fn state(&self) -> SimulationState {
+        self.state.get()
+    }
+
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.state.get() == SimulationState::Stopped
+    }
+
+    /// Simulated seconds since the start.
+    pub(crate) fn time(&self) -> f64 {
+        self.time.get()
+    }
+
+    /// Simulation steps since the start.
+    pub(crate) fn steps(&self) -> u64 {
+        self.steps.get()
+    }
+
+    /// Seconds since this simulator was made, by the wall clock.
+    pub(crate) fn wall_seconds(&self) -> f64 {
+        self.created.elapsed().as_secs_f64()
+    }
+
+    pub(crate) fn stop_is_requested(&self) -> bool {
+        self.stop_requested.get()
+    }
+
+    pub(crate) fn quit_is_requested(&self) -> bool {
+        self.quit_requested.get()
+    }
+
+    pub(in crate::script) fn set_state(&self, state: SimulationState) {
+        self.state.set(state);
+    }
+
+    pub(in crate::script) fn set_quit_requested(&self, on: bool) {
+        self.quit_requested.set(on);
+    }
+
+    /// A stop beats a pause that was requested before.
+    pub(in crate::script) fn request_stop(&self) {
+        self.stop_requested.set(true);
+        self.pause_requested.set(false);
+    }
+
+    /// Refused when not running or when a stop is requested.
+    pub(in crate::script) fn request_pause(&self) {
+        if self.state().is_advancing() && !self.stop_requested.get() {
+            self.pause_requested.set(true);
+        }
+    }
+
+    /// Requests the pause at a set time, once per run.
+    pub(in crate::script) fn request_pause_at_time(&self) {
+        if !self.paused_at_time.replace(true) {
+            self.request_pause();
+        }
+    }
+
+    /// Marks the beginning of the start procedure; false when it is in progress already.
+    pub(in crate::script) fn begin_start(&self) -> bool {
+        !self.starting.replace(true)
+    }
+
+    pub(in crate::script) fn end_start(&self) {
+        self.starting.set(false);
+    }
+
     /// Back to time zero, for a start.
-    pub(crate) fn reset(&self) {
+    pub(in crate::script) fn reset(&self) {
         self.time.set(0.0);
         self.steps.set(0);
         self.stop_requested.set(false);
@@ -67,16 +143,27 @@ impl Clock {
         self.state.set(SimulationState::FirstAfterStop);
     }
 
+    /// One simulation step of `dt` seconds is over.
+    pub(in crate::script) fn advance(&self, dt: f64) {
+        self.time.set(self.time.get() + dt);
+        self.steps.set(self.steps.get() + 1);
+    }
+
+    /// Real time goes on from `wall` scaled seconds, whatever time has passed while stopped or paused.
+    pub(in crate::script) fn restart_real_time(&self, wall: f64) {
+        self.real_time_origin.set(wall - self.time.get());
+    }
+
     /// Whether the next step of `dt` seconds is due in real time, `wall` scaled seconds after the simulator was made. Being late is
     /// forgiven except for one step.
-    pub(crate) fn is_due(&self, wall: f64, dt: f64) -> bool {
+    pub(in crate::script) fn is_due(&self, wall: f64, dt: f64) -> bool {
         let latest_origin = wall - self.time.get() - 2.0 * dt;
         self.real_time_origin.set(self.real_time_origin.get().max(latest_origin));
         self.time.get() + dt < wall - self.real_time_origin.get()
     }
 
-    /// The state after a pass (SPEC-7 7.2). `LastBeforeStop` stays: the caller runs the end procedure. A stop beats a pause.
-    pub(crate) fn state_after_pass(&self) -> SimulationState {
+    /// The state after a step (SPEC-7 7.2). `LastBeforeStop` stays: the caller runs the end procedure. A stop beats a pause.
+    pub(in crate::script) fn state_after_step(&self) -> SimulationState {
         use SimulationState as S;
         match self.state.get() {
             S::FirstAfterStop | S::FirstAfterPause => S::Running,

@@ -21,17 +21,17 @@ impl Sim {
     /// One pass of the application's loop: idle, paused or advancing.
     pub(crate) fn loop_pass(self: &Rc<Self>) {
         self.deliver_web_sockets();
-        if !self.clock.state.get().is_advancing() {
+        if !self.clock.state().is_advancing() {
             self.dispatch_events();
         }
-        match self.clock.state.get() {
+        match self.clock.state() {
             SimulationState::Stopped => self.broadcast(SysCall::NonSimulation, &[]),
             SimulationState::Paused => self.notify(SysCall::Suspended),
             _ => {}
         }
         self.notify_changed_data();
         self.notify_selection();
-        if self.clock.state.get().is_advancing() {
+        if self.clock.state().is_advancing() {
             if !self.step_is_due() {
                 self.broadcast(SysCall::RealTimeIdle, &[]);
             } else if !self.main_script_vetoed() {
@@ -47,7 +47,7 @@ impl Sim {
     pub(crate) fn step_is_due(&self) -> bool {
         let scene = self.scene.borrow();
         let settings = scene.settings();
-        !settings.real_time || self.clock.is_due(self.wall_seconds() * settings.real_time_factor, settings.time_step)
+        !settings.real_time || self.clock.is_due(self.clock.wall_seconds() * settings.real_time_factor, settings.time_step)
     }
 
     fn notify_selection(self: &Rc<Self>) {
@@ -68,7 +68,7 @@ impl Sim {
     /// One simulation step as the main script defines it.
     fn main_script_pass(self: &Rc<Self>) {
         let Some(main) = self.detached(ScriptType::Main) else { return };
-        if self.clock.state.get() == SimulationState::FirstAfterStop {
+        if self.clock.state() == SimulationState::FirstAfterStop {
             self.deliver(&main, SysCall::Init, &[]);
         }
         if main.base_state() != state::INITIALIZED {
@@ -77,7 +77,7 @@ impl Sim {
         self.deliver(&main, SysCall::Actuation, &[]);
         self.dispatch_events();
         self.deliver(&main, SysCall::Sensing, &[]);
-        if self.clock.state.get() == SimulationState::LastBeforeStop {
+        if self.clock.state() == SimulationState::LastBeforeStop {
             self.deliver(&main, SysCall::Cleanup, &[]);
         }
     }
@@ -86,26 +86,24 @@ impl Sim {
     fn advance(self: &Rc<Self>) {
         self.request_pause_at_time();
         let clock = &self.clock;
-        clock.time.set(clock.time.get() + self.scene.borrow().settings().time_step);
-        clock.steps.set(clock.steps.get() + 1);
-        if clock.state.get() == SimulationState::LastBeforeStop {
+        clock.advance(self.scene.borrow().settings().time_step);
+        if clock.state() == SimulationState::LastBeforeStop {
             return self.finish();
         }
-        let next = clock.state_after_pass();
-        let pauses = next == SimulationState::Paused && clock.state.get() != next;
-        clock.state.set(next);
+        let next = clock.state_after_step();
+        let pauses = next == SimulationState::Paused && clock.state() != next;
+        clock.set_state(next);
         if pauses {
             self.notify(SysCall::Suspend);
-            self.chatter("Simulation paused.");
+            self.log_status("Simulation paused.");
         }
     }
 
     fn request_pause_at_time(&self) {
         let scene = self.scene.borrow();
         let settings = scene.settings();
-        let due = settings.pause_at_time && self.clock.time.get() >= settings.time_to_pause;
-        if due && !self.clock.paused_at_time.replace(true) {
-            self.pause();
+        if settings.pause_at_time && self.clock.time() >= settings.time_to_pause {
+            self.clock.request_pause_at_time();
         }
     }
 
@@ -121,10 +119,10 @@ impl Sim {
 
     /// Starts a stopped simulation or resumes a paused one; otherwise nothing.
     pub(crate) fn start(self: &Rc<Self>) {
-        match self.clock.state.get() {
-            SimulationState::Stopped if !self.clock.starting.replace(true) => {
+        match self.clock.state() {
+            SimulationState::Stopped if self.clock.begin_start() => {
                 self.begin();
-                self.clock.starting.set(false);
+                self.clock.end_start();
             }
             SimulationState::Paused => self.resume(),
             _ => {}
@@ -152,13 +150,13 @@ impl Sim {
         self.warn_of_unusual_settings();
         self.clock.reset();
         self.restart_real_time();
-        self.chatter("Simulation started.");
+        self.log_status("Simulation started.");
     }
 
     /// Real time goes on from now, whatever time has passed while stopped or paused.
     fn restart_real_time(&self) {
-        let wall = self.wall_seconds() * self.scene.borrow().settings().real_time_factor;
-        self.clock.real_time_origin.set(wall - self.clock.time.get());
+        let wall = self.clock.wall_seconds() * self.scene.borrow().settings().real_time_factor;
+        self.clock.restart_real_time(wall);
     }
 
     fn warn_of_unusual_settings(&self) {
@@ -170,16 +168,19 @@ impl Sim {
 
     fn resume(self: &Rc<Self>) {
         self.notify(SysCall::Resume);
-        self.clock.state.set(SimulationState::FirstAfterPause);
+        self.clock.set_state(SimulationState::FirstAfterPause);
         self.restart_real_time();
-        self.chatter("Simulation resumed.");
+        self.log_status("Simulation resumed.");
     }
 
     /// Asks for a pause; refused when not running or when a stop is pending.
     pub(crate) fn pause(&self) {
-        if self.clock.state.get().is_advancing() && !self.clock.stop_requested.get() {
-            self.clock.pause_requested.set(true);
-        }
+        self.clock.request_pause();
+    }
+
+    /// Asks for the end of the program, or withdraws that.
+    pub(crate) fn request_quit(&self, on: bool) {
+        self.clock.set_quit_requested(on);
     }
 
     pub(crate) fn request_pause_after_error(&self) {
@@ -190,16 +191,13 @@ impl Sim {
 
     /// Asks for the end of the run; a paused one resumes for its last passes.
     pub(crate) fn stop(self: &Rc<Self>) {
-        match self.clock.state.get() {
+        match self.clock.state() {
             SimulationState::Stopped => {}
             SimulationState::Paused => {
-                self.clock.stop_requested.set(true);
+                self.clock.request_stop();
                 self.resume();
             }
-            _ => {
-                self.clock.stop_requested.set(true);
-                self.clock.pause_requested.set(false);
-            }
+            _ => self.clock.request_stop(),
         }
     }
 
@@ -211,7 +209,7 @@ impl Sim {
         for script in self.scripts_in(Group::Simulation).iter() {
             self.reset(script);
         }
-        self.clock.state.set(SimulationState::Stopped);
+        self.clock.set_state(SimulationState::Stopped);
         self.remove_new_objects();
         if let Some(dynamics) = self.dynamics.borrow_mut().as_mut() {
             dynamics.reset();
@@ -224,7 +222,7 @@ impl Sim {
         self.restart_failed_customization_scripts();
         self.app.borrow_mut().consoles.end_simulation();
         self.serial_ports.borrow_mut().clear();
-        self.chatter("Simulation stopped.");
+        self.log_status("Simulation stopped.");
     }
 
     fn remove_new_objects(self: &Rc<Self>) {
