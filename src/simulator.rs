@@ -82,8 +82,8 @@ impl Simulator {
     pub fn with_console(options: Options, console: Box<dyn Console>) -> Self {
         let sim = Sim::new(options, modules::registry(), console);
         let main_text = modules::registry().modules["main"].source;
-        sim.add_detached(ScriptType::Main, detached("mainScript", main_text.as_bytes()));
-        let sandbox = sim.add_detached(ScriptType::Sandbox, detached("sandboxScript", b"sim = require 'sim'"));
+        sim.scripts.add_detached(ScriptType::Main, detached("mainScript", main_text.as_bytes()));
+        let sandbox = sim.scripts.add_detached(ScriptType::Sandbox, detached("sandboxScript", b"sim = require 'sim'"));
         sim.deliver(&sandbox, SysCall::Init, &[]);
         Self { sim }
     }
@@ -109,7 +109,7 @@ impl Simulator {
         let port = address.port().to_string().into_bytes();
         self.sim.app.borrow_mut().named_params.insert("zmqRemoteApi.rpcPort".to_owned(), port);
         let add_on =
-            self.sim.add_detached(ScriptType::AddOn, detached("ZMQ remote API server@addOnScript", ZMQ_ADD_ON));
+            self.sim.scripts.add_detached(ScriptType::AddOn, detached("ZMQ remote API server@addOnScript", ZMQ_ADD_ON));
         self.sim.start_detached(&add_on);
         Ok(address)
     }
@@ -124,7 +124,7 @@ impl Simulator {
         let port = address.port().to_string().into_bytes();
         self.sim.app.borrow_mut().named_params.insert("wsRemoteApi.port".to_owned(), port);
         let add_on =
-            self.sim.add_detached(ScriptType::AddOn, detached("WebSocket remote API server@addOnScript", WS_ADD_ON));
+            self.sim.scripts.add_detached(ScriptType::AddOn, detached("WebSocket remote API server@addOnScript", WS_ADD_ON));
         self.sim.start_detached(&add_on);
         Ok(address)
     }
@@ -150,7 +150,7 @@ impl Simulator {
             ScriptKind::Customization => self.add_object_script(ScriptType::Customization, code),
             ScriptKind::Simulation => self.add_object_script(ScriptType::Simulation, code),
             ScriptKind::AddOn => {
-                let script = self.sim.add_detached(ScriptType::AddOn, detached(&format!("{name}@addOnScript"), code));
+                let script = self.sim.scripts.add_detached(ScriptType::AddOn, detached(&format!("{name}@addOnScript"), code));
                 self.sim.start_detached(&script);
                 Ok(ScriptRef(script))
             }
@@ -179,7 +179,7 @@ impl Simulator {
     }
 
     fn the(&self, script_type: ScriptType) -> ScriptRef {
-        ScriptRef(self.sim.detached(script_type).expect("main and sandbox are made with the simulator"))
+        ScriptRef(self.sim.scripts.detached(script_type).expect("main and sandbox are made with the simulator"))
     }
 
     /// The script object `handle`.

@@ -1,6 +1,6 @@
 //! The simulator's heart: one scene, many scripts, one clock.
 
-use std::cell::{Cell, OnceCell, RefCell};
+use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, HashSet};
 use std::net::{IpAddr, Ipv4Addr, TcpListener};
 use std::rc::Rc;
@@ -16,9 +16,9 @@ use super::channels::web_sockets::WebSockets;
 use super::coverage::LineCounts;
 use super::events::EventStream;
 use super::lifecycle::attached::log_suffix;
-use super::lifecycle::instance::{Detached, Script};
-use super::lifecycle::order::OrderCache;
+use super::lifecycle::instance::Script;
 use super::lifecycle::random::Random;
+use super::lifecycle::script_set::ScriptSet;
 use super::log::Log;
 use super::log::console::{Console, LogLine};
 use super::log::verbosity;
@@ -28,11 +28,7 @@ use super::step::clock::Clock;
 use super::test_bench::TestBench;
 use crate::dynamics::Dynamics;
 use crate::io::{EventLoop, SerialPort, ZmqServer, zmq};
-use crate::scene::tree::script_object::ScriptType;
 use crate::scene::{Handle, Scene};
-
-/// The first handle of scripts that are no scene objects.
-const FIRST_DETACHED: i64 = 1_010_000;
 
 /// How a simulator is set up.
 #[derive(Debug, Clone)]
@@ -101,22 +97,14 @@ pub(crate) struct Sim {
     pub lua_budget: Rc<Budget>,
     pub scene: RefCell<Scene>,
     pub clock: Clock,
-    pub scripts: RefCell<BTreeMap<i64, Rc<Script>>>,
-    /// There are, or were, scripts attached to objects; most scenes have none.
-    pub has_attached: Cell<bool>,
-    pub order: RefCell<OrderCache>,
+    pub scripts: ScriptSet,
     /// Taken out while it steps.
     pub dynamics: RefCell<Option<Dynamics>>,
     pub log: Log,
-    /// Script calls in progress, over all states.
-    pub depth: Cell<usize>,
-    /// Callbacks some script has or had, as bits.
-    pub callbacks_in_use: Cell<u64>,
     /// Objects to remove at the end of the loop pass.
     pub delayed_removals: RefCell<Vec<Handle>>,
     /// Objects there were at simulation start.
     pub known_at_start: RefCell<Option<HashSet<i64>>>,
-    pub last_selection: RefCell<Vec<Handle>>,
     pub app: RefCell<AppData>,
     pub signal_owners: RefCell<SignalOwners>,
     pub tubes: RefCell<Tubes>,
@@ -138,7 +126,6 @@ pub(crate) struct Sim {
     pub test_bench: OnceCell<Rc<TestBench>>,
     /// What states have counted that are gone.
     pub line_counts: RefCell<LineCounts>,
-    next_detached: Cell<i64>,
 }
 
 impl Sim {
@@ -151,15 +138,10 @@ impl Sim {
             registry,
             scene: RefCell::new(Scene::new()),
             clock: Clock::new(),
-            scripts: RefCell::default(),
-            has_attached: Cell::new(false),
-            order: RefCell::default(),
+            scripts: ScriptSet::new(),
             dynamics: RefCell::new(Some(Dynamics::default())),
-            depth: Cell::new(0),
-            callbacks_in_use: Cell::new(0),
             delayed_removals: RefCell::default(),
             known_at_start: RefCell::default(),
-            last_selection: RefCell::default(),
             signal_owners: RefCell::default(),
             tubes: RefCell::default(),
             semaphores: RefCell::default(),
@@ -173,34 +155,19 @@ impl Sim {
             zmq_users: Rc::default(),
             test_bench: OnceCell::new(),
             line_counts: RefCell::default(),
-            next_detached: Cell::new(FIRST_DETACHED),
         })
-    }
-
-    /// Adds a script that is no scene object.
-    pub(crate) fn add_detached(&self, script_type: ScriptType, detached: Detached) -> Rc<Script> {
-        let id = self.next_detached.replace(self.next_detached.get() + 1);
-        let script = Rc::new(Script::detached(id, script_type, detached));
-        self.scripts.borrow_mut().insert(id, script.clone());
-        self.order.borrow_mut().forget();
-        script
     }
 
     /// The script with that handle.
     pub(crate) fn script(&self, id: i64) -> Option<Rc<Script>> {
-        if let Some(script) = self.scripts.borrow().get(&id) {
-            return Some(script.clone());
+        if let Some(script) = self.scripts.get(id) {
+            return Some(script);
         }
         let handle = Handle::from_raw(id)?;
         let script_type = self.scene.borrow().object(handle).ok()?.script().ok()?.script_type;
         let script = Rc::new(Script::of_object(handle, script_type));
-        self.scripts.borrow_mut().insert(id, script.clone());
+        self.scripts.add(&script);
         Some(script)
-    }
-
-    /// The one script of that type without an object: main or sandbox.
-    pub(crate) fn detached(&self, script_type: ScriptType) -> Option<Rc<Script>> {
-        self.scripts.borrow().values().find(|s| s.object.is_none() && s.script_type == script_type).cloned()
     }
 
     /// The event loop of this simulator's sockets.
@@ -230,11 +197,6 @@ impl Sim {
 
     pub(crate) fn zmq_server(&self) -> Option<Rc<ZmqServer>> {
         self.zmq_server.borrow().clone()
-    }
-
-    /// All scripts that are no objects, in the order of their creation.
-    pub(crate) fn detached_scripts(&self) -> Vec<Rc<Script>> {
-        self.scripts.borrow().values().filter(|script| script.object.is_none()).cloned().collect()
     }
 
     /// The name a script has in the log.

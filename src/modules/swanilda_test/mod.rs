@@ -31,7 +31,7 @@ fn is_test(cx: &Cx) -> Result<bool> {
 #[api("swanilda.test.pass")]
 fn pass(cx: &mut Cx) -> Result<()> {
     bench(cx)?;
-    if cx.sim().depth.get() > 1 {
+    if cx.sim().scripts.depth() > 1 {
         return Err(ApiError::Other("a step cannot be made from within a step.".into()));
     }
     cx.sim().loop_pass();

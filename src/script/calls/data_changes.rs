@@ -13,7 +13,7 @@ impl Sim {
     /// Tells scripts about the custom data and signals that were written or removed since the last pass: one call per object and kind.
     pub(crate) fn notify_changed_data(self: &Rc<Self>) {
         let changed = self.scene.borrow_mut().changes_mut().take_changed_data();
-        if self.nobody_responds(SysCall::Data) {
+        if self.scripts.nobody_responds(SysCall::Data) {
             return;
         }
         for ((object, namespace), names) in changed {

@@ -21,22 +21,17 @@ impl Sim {
         self.deliver_to(Group::Simulation, call, args) + self.deliver_to(Group::Customization, call, args)
     }
 
-    /// Remembers that some script has these callbacks, so that the others need not be offered to anyone.
+    /// Notes that some script has these callbacks; whoever has `sysCall_event` listens to events from now on.
     pub(crate) fn note_callbacks(self: &Rc<Self>, bits: u64) {
-        self.callbacks_in_use.set(self.callbacks_in_use.get() | bits);
+        self.scripts.note_callbacks(bits);
         if bits & SysCall::Event.bit() != 0 {
             self.add_event_listener();
         }
     }
 
-    /// Whether no script can respond to `call`: nobody has ever defined it, and it starts nobody.
-    pub(crate) fn nobody_responds(&self, call: SysCall) -> bool {
-        !call.wakes() && self.callbacks_in_use.get() & call.bit() == 0
-    }
-
     /// Everyone, in regular order.
     pub(crate) fn broadcast(self: &Rc<Self>, call: SysCall, args: &[Data]) {
-        if self.nobody_responds(call) {
+        if self.scripts.nobody_responds(call) {
             return;
         }
         for script in self.everyone().iter() {
@@ -63,7 +58,7 @@ impl Sim {
 
     /// A message to all initialised scripts but the sender.
     pub(crate) fn broadcast_message(self: &Rc<Self>, sender: i64, args: &[Data]) {
-        if self.nobody_responds(SysCall::Msg) {
+        if self.scripts.nobody_responds(SysCall::Msg) {
             return;
         }
         for script in self.everyone().iter() {
@@ -75,7 +70,7 @@ impl Sim {
 
     /// Tells all others that a script has run one of the callbacks that concern them.
     pub(crate) fn announce(self: &Rc<Self>, script: &Script, call: SysCall) {
-        if self.nobody_responds(SysCall::Msg) {
+        if self.scripts.nobody_responds(SysCall::Msg) {
             return;
         }
         let data = Data::map([("callType", Data::Int(call as i64)), ("script", Data::Int(script.id))]);
@@ -85,7 +80,7 @@ impl Sim {
 
     /// Polls every script before a pass of the main script; true when one forbids it.
     pub(crate) fn main_script_vetoed(self: &Rc<Self>) -> bool {
-        if self.nobody_responds(SysCall::BeforeMainScript) {
+        if self.scripts.nobody_responds(SysCall::BeforeMainScript) {
             return false;
         }
         let mut vetoed = false;

@@ -10,7 +10,8 @@ use crate::script::binding::cx::Cx;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::env::Runtime;
 use crate::script::lifecycle::instance::Script;
-use crate::script::lifecycle::{Level, MAX_DEPTH, push_args};
+use crate::script::lifecycle::script_set::MAX_DEPTH;
+use crate::script::lifecycle::{Level, push_args};
 use crate::script::log::verbosity;
 use crate::script::sim::Sim;
 
@@ -93,7 +94,7 @@ impl Sim {
     }
 
     fn run_handler(self: &Rc<Self>, runtime: &Rc<Runtime>, handler: &Handler, args: &[Data]) -> ApiResult<Vec<Data>> {
-        let level = Level::enter(self, &runtime.env);
+        let level = Level::enter(&self.scripts, &runtime.env);
         if level.too_deep {
             return Err(ApiError::TooDeep(MAX_DEPTH));
         }

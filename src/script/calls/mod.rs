@@ -13,7 +13,8 @@ use super::error::{ApiError, ApiResult};
 use super::lifecycle::env::Runtime;
 use super::lifecycle::instance::{Script, state};
 use super::lifecycle::startup;
-use super::lifecycle::{Level, MAX_DEPTH, push_args, push_dotted};
+use super::lifecycle::script_set::MAX_DEPTH;
+use super::lifecycle::{Level, push_args, push_dotted};
 use super::lua::{LuaError, MULTIPLE, Stack, Type};
 use super::sim::Sim;
 use crate::scene::Data;
@@ -36,7 +37,7 @@ impl Sim {
             return Err(ApiError::CallFailed);
         }
         let results = {
-            let level = Level::enter_from_script(self, &runtime.env);
+            let level = Level::enter_from_script(&self.scripts, &runtime.env);
             if level.too_deep {
                 return Err(ApiError::TooDeep(MAX_DEPTH));
             }
@@ -59,7 +60,7 @@ impl Sim {
     /// Runs a string in a script: as an expression if it is one, else as a chunk. The script is not marked when it fails.
     pub(crate) fn execute_string(self: &Rc<Self>, script: &Rc<Script>, code: &[u8]) -> ApiResult<Vec<Data>> {
         let runtime = script.current_runtime().ok_or(ApiError::Scene(crate::scene::SceneError::OperationFailed))?;
-        let level = Level::enter_from_script(self, &runtime.env);
+        let level = Level::enter_from_script(&self.scripts, &runtime.env);
         if level.too_deep {
             return Err(ApiError::TooDeep(MAX_DEPTH));
         }
@@ -77,7 +78,7 @@ impl Sim {
     pub(crate) fn run_in(self: &Rc<Self>, script: &Rc<Script>, code: &[u8], chunk_name: &str) -> Result<(), String> {
         let Some(runtime) = script.current_runtime() else { return Err(ApiError::ScriptNotInitialized.to_string()) };
         let outcome = {
-            let _level = Level::enter(self, &runtime.env);
+            let _level = Level::enter(&self.scripts, &runtime.env);
             let stack = runtime.stack();
             stack.load(code, chunk_name, false).and_then(|()| stack.protected_call(0, 0))
         };
@@ -116,7 +117,7 @@ impl Sim {
             let detached = script.detached.borrow();
             (detached.code.clone(), detached.chunk_name.clone())
         };
-        let _level = Level::enter(self, &runtime.env);
+        let _level = Level::enter(&self.scripts, &runtime.env);
         let loaded = startup::fill(self, &runtime)
             .and_then(|()| stack.load(&code, &name, false))
             .and_then(|()| stack.protected_call(0, 0));
@@ -136,8 +137,7 @@ impl Sim {
 
     /// Closes every interpreter. A script and its interpreter know each other: without this neither would ever go.
     pub(crate) fn close_all(&self) {
-        let scripts: Vec<Rc<Script>> = self.scripts.borrow().values().cloned().collect();
-        scripts.iter().for_each(|script| drop(script.runtime.take()));
+        self.scripts.all().iter().for_each(|script| drop(script.runtime.take()));
     }
 
     /// Ends an add-on or the sandbox at application exit.

@@ -76,7 +76,7 @@ impl Sim {
 
     /// Hands over what all states have counted since the last time. Scripts of the scene that have not run are there without counts.
     pub(crate) fn take_line_counts(&self) -> LineCounts {
-        let running: Vec<_> = self.scripts.borrow().values().filter_map(|script| script.current_runtime()).collect();
+        let running: Vec<_> = self.scripts.all().iter().filter_map(|script| script.current_runtime()).collect();
         running.iter().for_each(|runtime| self.keep_line_counts(runtime));
         let mut counts = self.line_counts.take();
         let idle = self.countable_objects();

@@ -275,7 +275,7 @@ impl Sim {
         self.collect_differences(&mut watch.app, None);
         self.collect_named_params(watch);
         self.collect_detached_scripts(watch);
-        let scripts: Vec<Handle> = self.scripts.borrow().values().filter_map(|script| script.object).collect();
+        let scripts: Vec<Handle> = self.scripts.all().iter().filter_map(|script| script.object).collect();
         for handle in scripts {
             if let Some(watched) = watch.objects.get_mut(&handle) {
                 self.collect_one(watched, "scriptState");
@@ -301,7 +301,7 @@ impl Sim {
     }
 
     fn collect_detached_scripts(self: &Rc<Self>, watch: &mut Watch) {
-        let present: BTreeMap<i64, _> = self.detached_scripts().into_iter().map(|s| (s.id, s)).collect();
+        let present: BTreeMap<i64, _> = self.scripts.all_detached().into_iter().map(|s| (s.id, s)).collect();
         let gone: Vec<i64> = watch.scripts.keys().copied().filter(|id| !present.contains_key(id)).collect();
         for id in gone {
             if let Some(watched) = watch.scripts.remove(&id) {

@@ -15,7 +15,8 @@ impl Sim {
     pub(super) fn genesis(self: &Rc<Self>) -> Vec<Event> {
         let nobody = self.nobody();
         let (main, outside): (Vec<_>, Vec<_>) = self
-            .detached_scripts()
+            .scripts
+            .all_detached()
             .iter()
             .map(|script| Watched::script(script, &nobody))
             .partition(|watched| watched.source.class == Class::Main);

@@ -105,8 +105,8 @@ impl Sim {
 
     /// All scripts that listen.
     fn audience(&self) -> Audience {
-        let scripts = self.scripts.borrow();
-        let runtimes = scripts.values().filter_map(|script| script.current_runtime());
+        let scripts = self.scripts.all();
+        let runtimes = scripts.iter().filter_map(|script| script.current_runtime());
         let listening = runtimes.filter(|runtime| runtime.env.responds_to(SysCall::Event));
         let filters = listening.map(|runtime| runtime.env.event_filters.borrow().clone()).collect();
         Audience { filters, ..self.nobody() }

@@ -231,7 +231,7 @@ impl Watch {
     /// The world as it is, as if all of it had been told.
     pub(super) fn new(sim: &Rc<Sim>, audience: Audience) -> Self {
         let objects: Vec<Watched> = sim.scene.borrow().objects().map(|o| Watched::object(o, &audience)).collect();
-        let scripts: Vec<Watched> = sim.detached_scripts().iter().map(|s| Watched::script(s, &audience)).collect();
+        let scripts: Vec<Watched> = sim.scripts.all_detached().iter().map(|s| Watched::script(s, &audience)).collect();
         let mut watch = Self {
             app: Watched::app(&audience),
             scene: Watched::scene(&audience),

@@ -58,8 +58,7 @@ impl Sim {
     /// The scripts outside of the tree: those attached to objects, and a main script of the scene's own.
     fn scripts_to_save(&self) -> Vec<LoadedScript> {
         let usual_main = self.registry.modules["main"].source.as_bytes();
-        let scripts = self.scripts.borrow();
-        let saved = scripts.values().filter(|script| script.object.is_none()).filter_map(|script| {
+        let saved = self.scripts.all_detached().into_iter().filter_map(|script| {
             let detached = script.detached.borrow();
             let own_main = script.script_type == ScriptType::Main && detached.code != usual_main;
             (own_main || detached.owner.is_some()).then(|| LoadedScript {

@@ -91,7 +91,7 @@ impl Sim {
     fn take_script(&self, script: &LoadedScript) {
         match (script.script_type, script.owner) {
             (ScriptType::Main, _) => {
-                if let Some(main) = self.detached(ScriptType::Main) {
+                if let Some(main) = self.scripts.detached(ScriptType::Main) {
                     let mut main = main.detached.borrow_mut();
                     main.code.clone_from(&script.code);
                     main.source.clone_from(&script.source);
@@ -112,7 +112,7 @@ impl Sim {
         if !everything.is_empty() {
             self.remove_objects(&everything)?;
         }
-        if let Some(main) = self.detached(ScriptType::Main) {
+        if let Some(main) = self.scripts.detached(ScriptType::Main) {
             let mut main = main.detached.borrow_mut();
             main.code = self.registry.modules["main"].source.as_bytes().to_vec();
             main.source = None;

@@ -18,8 +18,7 @@ fn file_name(path: &str) -> String {
 impl Sim {
     /// Attaches a script to an object, as scenes before 4.7 have it.
     pub(crate) fn attach_script(&self, owner: Handle, script: &ScriptObject, exec_order: i64) -> Rc<Script> {
-        self.has_attached.set(true);
-        self.add_detached(
+        self.scripts.add_detached(
             script.script_type,
             Detached {
                 code: script.code.clone(),
@@ -36,20 +35,9 @@ impl Sim {
     /// The scripts of an object: those attached to it, simulation scripts first, then those among its children by priority.
     pub(crate) fn scripts_of_object(&self, object: Handle) -> Vec<Rc<Script>> {
         let children = script_children(&self.scene.borrow(), object);
-        let mut scripts = self.attached_to(object);
+        let mut scripts = self.scripts.attached_to(object);
         scripts.extend(children.into_iter().filter_map(|handle| self.script(handle.raw())));
         scripts
-    }
-
-    /// The old scripts attached to an object, simulation scripts first.
-    pub(crate) fn attached_to(&self, object: Handle) -> Vec<Rc<Script>> {
-        if !self.has_attached.get() {
-            return Vec::new();
-        }
-        let scripts = self.scripts.borrow();
-        let mut attached: Vec<_> = scripts.values().filter(|script| script.owner() == Some(object)).cloned().collect();
-        attached.sort_by_key(|script| script.script_type != ScriptType::Simulation);
-        attached
     }
 
     /// Text of a script and the name Lua shows for it in positions.
@@ -71,7 +59,7 @@ impl Sim {
     /// The script that Lua calls `name` in positions, under its full name, and its text. Lua cuts long names and ends them with dots.
     pub(crate) fn code_shown_as(&self, name: &str) -> Option<(String, Vec<u8>)> {
         let start = name.strip_suffix("...").filter(|start| !start.is_empty());
-        let scripts: Vec<_> = self.scripts.borrow().values().cloned().collect();
+        let scripts = self.scripts.all();
         let found = scripts.iter().map(|script| self.code_of(script));
         let mut named = found.filter(|(_, full)| full == name || start.is_some_and(|start| full.starts_with(start)));
         named.next().map(|(code, full)| (full, code))
@@ -90,9 +78,9 @@ impl Sim {
 
     /// Attaches to a copy what is attached to its original.
     pub(crate) fn copy_attached(&self, original: Handle, copy: Handle) {
-        for script in self.attached_to(original) {
+        for script in self.scripts.attached_to(original) {
             let detached = Detached { owner: Some(copy), ..script.detached.borrow().clone() };
-            self.add_detached(script.script_type, detached);
+            self.scripts.add_detached(script.script_type, detached);
         }
     }
 }

@@ -21,7 +21,7 @@ impl Sim {
     /// When there is none.
     pub(crate) fn script_by_name(&self, script_type: ScriptType, name: &str) -> ApiResult<i64> {
         let found = match script_type {
-            ScriptType::Main | ScriptType::Sandbox => self.detached(script_type).map(|script| script.id),
+            ScriptType::Main | ScriptType::Sandbox => self.scripts.detached(script_type).map(|script| script.id),
             ScriptType::AddOn => self.add_on(name).map(|script| script.id),
             ScriptType::Simulation | ScriptType::Customization | ScriptType::Passive => {
                 let object = self.object_by_name(name).ok_or(ApiError::NoSuchScript)?;
@@ -41,9 +41,8 @@ impl Sim {
     }
 
     fn add_on(&self, name: &str) -> Option<Rc<Script>> {
-        let scripts = self.scripts.borrow();
-        let mut add_ons = scripts.values().filter(|script| script.script_type == ScriptType::AddOn);
-        add_ons.find(|script| script.detached.borrow().name.trim_end_matches("@addOnScript") == name).cloned()
+        let mut add_ons = self.scripts.all_detached().into_iter().filter(|s| s.script_type == ScriptType::AddOn);
+        add_ons.find(|script| script.detached.borrow().name.trim_end_matches("@addOnScript") == name)
     }
 
     /// The object at a path or with an old-style name.

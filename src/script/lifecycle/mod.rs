@@ -9,6 +9,7 @@ pub(in crate::script) mod old_calls;
 pub(in crate::script) mod order;
 pub(in crate::script) mod random;
 pub(in crate::script) mod removal;
+pub(in crate::script) mod script_set;
 pub(in crate::script) mod shared_process;
 pub(in crate::script) mod startup;
 
@@ -24,6 +25,7 @@ use crate::scene::Data;
 use crate::scene::tree::script_object::ScriptType;
 use env::{Env, Hook, Runtime};
 use instance::{Script, state};
+use script_set::{MAX_DEPTH, ScriptSet};
 
 /// What came back from a callback.
 #[derive(Debug, Default)]
@@ -86,7 +88,7 @@ impl Sim {
             return Err(LuaError { text: "scripts in Python are not implemented in Swanilda.".into() });
         }
         let (code, name) = self.code_of(script);
-        let level = Level::enter(self, &runtime.env);
+        let level = Level::enter(&self.scripts, &runtime.env);
         if level.too_deep {
             return Err(LuaError { text: ApiError::TooDeep(MAX_DEPTH).to_string() });
         }
@@ -128,7 +130,7 @@ impl Sim {
     fn call_with_hooks(self: &Rc<Self>, runtime: &Rc<Runtime>, call: SysCall, args: &[Data]) -> Outcome {
         let env = &runtime.env;
         let stack = runtime.stack();
-        let level = Level::enter(self, env);
+        let level = Level::enter(&self.scripts, env);
         let mut outcome = Outcome::default();
         if level.too_deep {
             outcome.errors.push(ApiError::TooDeep(MAX_DEPTH).to_string());
@@ -362,20 +364,17 @@ fn is_late_cleanup(runtime: &Runtime, call: SysCall) -> bool {
     kind == Type::Function
 }
 
-/// How deep calls between scripts may nest: each level takes native stack, and Lua only bounds recursion within one state.
-pub(crate) const MAX_DEPTH: usize = 100;
-
 /// One call into a state, from its beginning to its end.
 pub(crate) struct Level<'a> {
-    sim: &'a Sim,
+    scripts: &'a ScriptSet,
     env: &'a Env,
     pub too_deep: bool,
 }
 
 impl<'a> Level<'a> {
     /// A call that another script makes: nothing in it can yield.
-    pub(crate) fn enter_from_script(sim: &'a Sim, env: &'a Env) -> Self {
-        let level = Self::enter(sim, env);
+    pub(crate) fn enter_from_script(scripts: &'a ScriptSet, env: &'a Env) -> Self {
+        let level = Self::enter(scripts, env);
         if env.depth.get() == 1 {
             env.yields.overall.set(1);
         }
@@ -383,9 +382,8 @@ impl<'a> Level<'a> {
     }
 
     /// A call the host makes. The outermost one begins a time slice and forgets locks; inner ones cannot yield.
-    pub(crate) fn enter(sim: &'a Sim, env: &'a Env) -> Self {
-        let too_deep = sim.depth.get() >= MAX_DEPTH;
-        sim.depth.set(sim.depth.get() + 1);
+    pub(crate) fn enter(scripts: &'a ScriptSet, env: &'a Env) -> Self {
+        let too_deep = !scripts.enter();
         let depth = env.depth.get();
         env.depth.set(depth + 1);
         if depth == 0 {
@@ -394,13 +392,13 @@ impl<'a> Level<'a> {
         } else {
             env.yields.overall.set(env.yields.overall.get() + 1);
         }
-        Self { sim, env, too_deep }
+        Self { scripts, env, too_deep }
     }
 }
 
 impl Drop for Level<'_> {
     fn drop(&mut self) {
-        self.sim.depth.set(self.sim.depth.get() - 1);
+        self.scripts.leave();
         let depth = self.env.depth.get() - 1;
         self.env.depth.set(depth);
         if depth > 0 {

@@ -1,6 +1,5 @@
 //! Who is called when (SPEC-1 1.6).
 
-use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use super::instance::Script;
@@ -47,7 +46,7 @@ impl Sim {
     /// The scripts of a group in regular order.
     pub(crate) fn scripts_in(&self, group: Group) -> ScriptList {
         self.refresh_order();
-        let cache = self.order.borrow();
+        let cache = self.scripts.order.borrow();
         match group {
             Group::Simulation => &cache.simulation,
             Group::Customization => &cache.customization,
@@ -61,14 +60,14 @@ impl Sim {
     /// Everyone who takes part now, in regular order: while stopped, neither simulation scripts nor the main script do.
     pub(crate) fn everyone(&self) -> ScriptList {
         self.refresh_order();
-        let cache = self.order.borrow();
+        let cache = self.scripts.order.borrow();
         let stopped = self.clock.is_stopped();
         if stopped { &cache.everyone_stopped } else { &cache.everyone }.clone()
     }
 
     fn refresh_order(&self) {
         let revision = self.scene.borrow().changes().tree_revision();
-        if self.order.borrow().revision == Some(revision) {
+        if self.scripts.order.borrow().revision == Some(revision) {
             return;
         }
         let (old, scripts) = (self.attached_by_depth(), self.objects_by_depth());
@@ -77,7 +76,7 @@ impl Sim {
         };
         let [old_simulation, simulation] = [&old, &scripts].map(|list| of_type(list, ScriptType::Simulation));
         let [old_customization, customization] = [&old, &scripts].map(|list| of_type(list, ScriptType::Customization));
-        let mut cache = self.order.borrow_mut();
+        let mut cache = self.scripts.order.borrow_mut();
         cache.revision = Some(revision);
         cache.simulation = joined(&[&old_simulation, &simulation]);
         cache.customization = joined(&[&old_customization, &customization]);
@@ -97,18 +96,17 @@ impl Sim {
 
     /// Scripts attached to objects, those of the deepest objects first.
     fn attached_by_depth(&self) -> Vec<Rc<Script>> {
-        if !self.has_attached.get() {
+        let owners = self.scripts.owners();
+        if owners.is_empty() {
             return Vec::new();
         }
-        let owners: BTreeSet<Handle> = self.scripts.borrow().values().filter_map(|script| script.owner()).collect();
         let order = by_depth(&self.scene.borrow(), |object| owners.contains(&object.handle()));
-        order.into_iter().flat_map(|owner| self.attached_to(owner)).collect()
+        order.into_iter().flat_map(|owner| self.scripts.attached_to(owner)).collect()
     }
 
     fn detached_of(&self, script_type: ScriptType) -> ScriptList {
-        let scripts = self.scripts.borrow();
-        let mut list: Vec<_> =
-            scripts.values().filter(|s| s.object.is_none() && s.script_type == script_type).cloned().collect();
+        let mut list = self.scripts.all_detached();
+        list.retain(|script| script.script_type == script_type);
         list.sort_by_key(|script| script.detached.borrow().priority);
         list.into()
     }

@@ -72,7 +72,7 @@ impl Sim {
         let doomed: Vec<Handle> = doomed.into_iter().filter(|&h| self.scene.borrow().exists(h)).collect();
         self.scene.borrow_mut().remove(&doomed)?;
         for handle in &doomed {
-            self.scripts.borrow_mut().retain(|id, script| *id != handle.raw() && script.owner() != Some(*handle));
+            self.scripts.remove_those_of(*handle);
             self.signal_owners.borrow_mut().forget(Holder::Object(*handle));
         }
         self.broadcast(SysCall::AfterDelete, &[data]);
@@ -90,8 +90,8 @@ impl Sim {
 
     /// Cleans up the script an object is, if it is one; false when that script is executing.
     fn end_scripts_of(self: &Rc<Self>, handle: Handle) -> bool {
-        let mut scripts = self.attached_to(handle);
-        scripts.extend(self.scripts.borrow().get(&handle.raw()).cloned());
+        let mut scripts = self.scripts.attached_to(handle);
+        scripts.extend(self.scripts.get(handle.raw()));
         if scripts.iter().any(|script| script.depth() > 0) {
             return false;
         }

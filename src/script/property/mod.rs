@@ -78,8 +78,8 @@ impl Sim {
             special::APP => return Ok(Target::App),
             special::SCENE => return Ok(Target::Scene),
             special::SELF => Some(Rc::clone(caller)),
-            special::MAIN_SCRIPT => self.detached(ScriptType::Main),
-            special::SANDBOX => self.detached(ScriptType::Sandbox),
+            special::MAIN_SCRIPT => self.scripts.detached(ScriptType::Main),
+            special::SANDBOX => self.scripts.detached(ScriptType::Sandbox),
             _ => match Handle::from_raw(raw).filter(|&handle| self.scene.borrow().exists(handle)) {
                 Some(handle) if raw < FIRST_MESH_UID => return Ok(Target::Object(handle)),
                 _ if self.scene.borrow().mesh(raw).is_some() => return Ok(Target::Mesh(raw)),

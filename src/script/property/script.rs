@@ -56,7 +56,7 @@ impl Subject<'_> {
             }
             None => {
                 script.detached.borrow_mut().priority = priority;
-                self.sim.order.borrow_mut().forget();
+                self.sim.scripts.forget_order();
             }
         }
         Ok(())

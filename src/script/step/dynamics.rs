@@ -42,7 +42,7 @@ impl Sim {
     }
 
     fn dynamics_callback(self: &Rc<Self>, call: Call, pass: u32, after_step: bool) {
-        if !self.anybody_responds(&DYN) {
+        if !self.scripts.anybody_responds(&DYN) {
             return;
         }
         let data = Data::map([
@@ -55,10 +55,6 @@ impl Sim {
         for callback in DYN {
             self.broadcast(callback, std::slice::from_ref(&data));
         }
-    }
-
-    fn anybody_responds(&self, callbacks: &[SysCall]) -> bool {
-        callbacks.iter().any(|&callback| !self.nobody_responds(callback))
     }
 
     /// Sets the motors; joints in callback control are driven as a script answers. Returns whether there are any.
@@ -78,7 +74,7 @@ impl Sim {
 
     /// The scripts of the joint are asked by the old name first.
     fn ask_about_joint(self: &Rc<Self>, joint: Handle, data: &[Data]) -> Option<Data> {
-        if !self.nobody_responds(SysCall::JointCallback)
+        if self.scripts.anybody_responds(&[SysCall::JointCallback])
             && let Some(answer) = self.ask(&self.scripts_of_object(joint), SysCall::JointCallback, data)
         {
             return Some(answer);
@@ -95,8 +91,8 @@ impl Sim {
     /// One sub-step. The scene is nobody's while the engine works, because it may ask scripts about contacts. `asked`: whether scripts
     /// drive joints.
     fn dynamics_pass(self: &Rc<Self>, number: u32, asked: bool) {
-        let judged = self.anybody_responds(&CONTACT);
-        let attention = Attention { judged, watched: asked || judged || self.anybody_responds(&DYN) };
+        let judged = self.scripts.anybody_responds(&CONTACT);
+        let attention = Attention { judged, watched: asked || judged || self.scripts.anybody_responds(&DYN) };
         let started = self.with_dynamics(|dynamics, scene| dynamics.start_pass(scene, number, attention));
         let Some(mut pass) = started.flatten() else { return };
         let judge = |first: Handle, second: Handle| self.judge_contact(first, second);

@@ -52,11 +52,9 @@ impl Sim {
 
     fn notify_selection(self: &Rc<Self>) {
         let selection = self.scene.borrow().selection().to_vec();
-        if *self.last_selection.borrow() == selection {
-            return;
+        if self.scripts.note_selection(&selection) {
+            self.broadcast(SysCall::SelChange, &[self.selection_data()]);
         }
-        self.last_selection.replace(selection);
-        self.broadcast(SysCall::SelChange, &[self.selection_data()]);
     }
 
     /// What `sysCall_selChange` gets.
@@ -67,7 +65,7 @@ impl Sim {
 
     /// One simulation step as the main script defines it.
     fn main_script_pass(self: &Rc<Self>) {
-        let Some(main) = self.detached(ScriptType::Main) else { return };
+        let Some(main) = self.scripts.detached(ScriptType::Main) else { return };
         if self.clock.state() == SimulationState::FirstAfterStop {
             self.deliver(&main, SysCall::Init, &[]);
         }
@@ -109,7 +107,7 @@ impl Sim {
 
     /// Suspend, suspended, resume: through the main script, or directly when it does not care.
     fn notify(self: &Rc<Self>, call: SysCall) {
-        let handled = self.detached(ScriptType::Main).is_some_and(|main| self.deliver(&main, call, &[]).ran);
+        let handled = self.scripts.detached(ScriptType::Main).is_some_and(|main| self.deliver(&main, call, &[]).ran);
         if !handled {
             self.deliver_to_embedded(call, &[]);
             self.deliver_to(Group::AddOn, call, &[]);
@@ -141,7 +139,7 @@ impl Sim {
         for script in self.scripts_in(Group::Simulation).iter() {
             self.reset(script);
         }
-        if let Some(main) = self.detached(ScriptType::Main) {
+        if let Some(main) = self.scripts.detached(ScriptType::Main) {
             self.reset(&main);
         }
         if let Some(dynamics) = self.dynamics.borrow_mut().as_mut() {
@@ -203,7 +201,7 @@ impl Sim {
 
     /// The stop procedure (SPEC-7 7.5).
     fn finish(self: &Rc<Self>) {
-        if let Some(main) = self.detached(ScriptType::Main) {
+        if let Some(main) = self.scripts.detached(ScriptType::Main) {
             self.reset(&main);
         }
         for script in self.scripts_in(Group::Simulation).iter() {

@@ -1,0 +1,150 @@
+//! The scripts of a simulator: which there are, in which order they are called, which callbacks they have, how deep their calls nest.
+
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+use super::instance::{Detached, Script};
+use super::order::OrderCache;
+use crate::scene::Handle;
+use crate::scene::tree::script_object::ScriptType;
+use crate::script::calls::callback::SysCall;
+
+/// The first handle of scripts that are no scene objects.
+const FIRST_DETACHED: i64 = 1_010_000;
+
+/// How deep calls between scripts may nest: each level takes native stack, and Lua only bounds recursion within one state.
+pub(crate) const MAX_DEPTH: usize = 100;
+
+/// All scripts that have been looked up, and those that are no scene objects.
+pub(crate) struct ScriptSet {
+    by_id: RefCell<BTreeMap<i64, Rc<Script>>>,
+    next_detached: Cell<i64>,
+    /// There are, or were, scripts attached to objects; most scenes have none.
+    has_attached: Cell<bool>,
+    pub(super) order: RefCell<OrderCache>,
+    /// Callbacks some script has or had, as bits.
+    callbacks_in_use: Cell<u64>,
+    /// Script calls in progress, over all states.
+    depth: Cell<usize>,
+    /// The selection that scripts were last notified of.
+    notified_selection: RefCell<Vec<Handle>>,
+}
+
+impl ScriptSet {
+    pub(in crate::script) fn new() -> Self {
+        Self {
+            by_id: RefCell::default(),
+            next_detached: Cell::new(FIRST_DETACHED),
+            has_attached: Cell::new(false),
+            order: RefCell::default(),
+            callbacks_in_use: Cell::new(0),
+            depth: Cell::new(0),
+            notified_selection: RefCell::default(),
+        }
+    }
+
+    /// Adds a script that is no scene object.
+    pub(crate) fn add_detached(&self, script_type: ScriptType, detached: Detached) -> Rc<Script> {
+        if detached.owner.is_some() {
+            self.has_attached.set(true);
+        }
+        let id = self.next_detached.replace(self.next_detached.get() + 1);
+        let script = Rc::new(Script::detached(id, script_type, detached));
+        self.add(&script);
+        self.forget_order();
+        script
+    }
+
+    pub(in crate::script) fn add(&self, script: &Rc<Script>) {
+        self.by_id.borrow_mut().insert(script.id, Rc::clone(script));
+    }
+
+    /// The script with that handle, if it has been looked up before.
+    pub(in crate::script) fn get(&self, id: i64) -> Option<Rc<Script>> {
+        self.by_id.borrow().get(&id).cloned()
+    }
+
+    /// All scripts by handle: objects first, then those that are none, in the order of their creation.
+    pub(in crate::script) fn all(&self) -> Vec<Rc<Script>> {
+        self.by_id.borrow().values().cloned().collect()
+    }
+
+    /// The one script of that type without an object: main or sandbox.
+    pub(crate) fn detached(&self, script_type: ScriptType) -> Option<Rc<Script>> {
+        let scripts = self.by_id.borrow();
+        scripts.values().find(|script| script.object.is_none() && script.script_type == script_type).cloned()
+    }
+
+    /// All scripts that are no objects, in the order of their creation.
+    pub(in crate::script) fn all_detached(&self) -> Vec<Rc<Script>> {
+        self.by_id.borrow().values().filter(|script| script.object.is_none()).cloned().collect()
+    }
+
+    /// The old scripts attached to an object, simulation scripts first.
+    pub(in crate::script) fn attached_to(&self, object: Handle) -> Vec<Rc<Script>> {
+        if !self.has_attached.get() {
+            return Vec::new();
+        }
+        let scripts = self.by_id.borrow();
+        let mut attached: Vec<_> = scripts.values().filter(|script| script.owner() == Some(object)).cloned().collect();
+        attached.sort_by_key(|script| script.script_type != ScriptType::Simulation);
+        attached
+    }
+
+    /// The objects that have old scripts attached to them.
+    pub(super) fn owners(&self) -> BTreeSet<Handle> {
+        if !self.has_attached.get() {
+            return BTreeSet::new();
+        }
+        self.by_id.borrow().values().filter_map(|script| script.owner()).collect()
+    }
+
+    /// Removes the script an object was, and those attached to it.
+    pub(super) fn remove_those_of(&self, object: Handle) {
+        self.by_id.borrow_mut().retain(|id, script| *id != object.raw() && script.owner() != Some(object));
+    }
+
+    /// A priority has changed, or a script without an object came.
+    pub(in crate::script) fn forget_order(&self) {
+        self.order.borrow_mut().forget();
+    }
+
+    /// Remembers that some script has these callbacks, so that the others need not be offered to anyone.
+    pub(in crate::script) fn note_callbacks(&self, bits: u64) {
+        self.callbacks_in_use.set(self.callbacks_in_use.get() | bits);
+    }
+
+    /// Whether no script can respond to `call`: nobody has ever defined it, and it starts nobody.
+    pub(in crate::script) fn nobody_responds(&self, call: SysCall) -> bool {
+        !call.wakes() && self.callbacks_in_use.get() & call.bit() == 0
+    }
+
+    pub(in crate::script) fn anybody_responds(&self, calls: &[SysCall]) -> bool {
+        calls.iter().any(|&call| !self.nobody_responds(call))
+    }
+
+    /// Script calls in progress, over all states.
+    pub(crate) fn depth(&self) -> usize {
+        self.depth.get()
+    }
+
+    /// Counts a call that begins; false when calls nest too deep.
+    pub(super) fn enter(&self) -> bool {
+        self.depth.replace(self.depth.get() + 1) < MAX_DEPTH
+    }
+
+    pub(super) fn leave(&self) {
+        self.depth.set(self.depth.get() - 1);
+    }
+
+    /// Notes the selection scripts are notified of; false when it is the one they know.
+    pub(in crate::script) fn note_selection(&self, selection: &[Handle]) -> bool {
+        let mut notified = self.notified_selection.borrow_mut();
+        let differs = *notified != selection;
+        if differs {
+            *notified = selection.to_vec();
+        }
+        differs
+    }
+}
