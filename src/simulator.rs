@@ -123,8 +123,10 @@ impl Simulator {
         self.sim.remote_listener.replace(Some(listener));
         let port = address.port().to_string().into_bytes();
         self.sim.app.borrow_mut().named_params.insert("wsRemoteApi.port".to_owned(), port);
-        let add_on =
-            self.sim.scripts.add_detached(ScriptType::AddOn, detached("WebSocket remote API server@addOnScript", WS_ADD_ON));
+        let add_on = self
+            .sim
+            .scripts
+            .add_detached(ScriptType::AddOn, detached("WebSocket remote API server@addOnScript", WS_ADD_ON));
         self.sim.start_detached(&add_on);
         Ok(address)
     }
@@ -150,7 +152,8 @@ impl Simulator {
             ScriptKind::Customization => self.add_object_script(ScriptType::Customization, code),
             ScriptKind::Simulation => self.add_object_script(ScriptType::Simulation, code),
             ScriptKind::AddOn => {
-                let script = self.sim.scripts.add_detached(ScriptType::AddOn, detached(&format!("{name}@addOnScript"), code));
+                let script =
+                    self.sim.scripts.add_detached(ScriptType::AddOn, detached(&format!("{name}@addOnScript"), code));
                 self.sim.start_detached(&script);
                 Ok(ScriptRef(script))
             }

@@ -1,7 +1,7 @@
 //! The simulator's heart: one scene, many scripts, one clock.
 
 use std::cell::{OnceCell, RefCell};
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 use std::net::{IpAddr, Ipv4Addr, TcpListener};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -18,11 +18,11 @@ use super::events::EventStream;
 use super::lifecycle::attached::log_suffix;
 use super::lifecycle::instance::Script;
 use super::lifecycle::random::Random;
+use super::lifecycle::removal::Removals;
 use super::lifecycle::script_set::ScriptSet;
 use super::log::Log;
 use super::log::console::{Console, LogLine};
 use super::log::verbosity;
-use super::lua::Budget;
 use super::property::{AppData, SignalOwners};
 use super::step::clock::Clock;
 use super::test_bench::TestBench;
@@ -93,18 +93,13 @@ pub struct Limits {
 pub(crate) struct Sim {
     pub options: Options,
     pub registry: &'static Registry,
-    /// The memory of all scripts.
-    pub lua_budget: Rc<Budget>,
     pub scene: RefCell<Scene>,
     pub clock: Clock,
     pub scripts: ScriptSet,
     /// Taken out while it steps.
     pub dynamics: RefCell<Option<Dynamics>>,
     pub log: Log,
-    /// Objects to remove at the end of the loop pass.
-    pub delayed_removals: RefCell<Vec<Handle>>,
-    /// Objects there were at simulation start.
-    pub known_at_start: RefCell<Option<HashSet<i64>>>,
+    pub removals: Removals,
     pub app: RefCell<AppData>,
     pub signal_owners: RefCell<SignalOwners>,
     pub tubes: RefCell<Tubes>,
@@ -133,15 +128,13 @@ impl Sim {
         Rc::new(Self {
             log: Log::new(console, options.verbosity),
             app: RefCell::new(AppData::new(&options)),
-            lua_budget: Rc::new(Budget::new(options.limits.map_or(usize::MAX, |limits| limits.memory))),
+            scripts: ScriptSet::new(options.limits.map_or(usize::MAX, |limits| limits.memory)),
             options,
             registry,
             scene: RefCell::new(Scene::new()),
             clock: Clock::new(),
-            scripts: ScriptSet::new(),
             dynamics: RefCell::new(Some(Dynamics::default())),
-            delayed_removals: RefCell::default(),
-            known_at_start: RefCell::default(),
+            removals: Removals::default(),
             signal_owners: RefCell::default(),
             tubes: RefCell::default(),
             semaphores: RefCell::default(),

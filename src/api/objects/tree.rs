@@ -220,7 +220,7 @@ fn remove(cx: &mut Cx, handles: &[Handle], delayed: bool) -> Result<()> {
     if handles.iter().any(|&handle| !cx.scene().exists(handle)) {
         return Err(SceneError::InvalidHandles.into());
     }
-    cx.sim().remove_later(handles);
+    cx.sim().removals.delay(handles);
     Ok(())
 }
 

@@ -152,7 +152,7 @@ impl Runtime {
     /// A state with the standard libraries only; `startup` fills it.
     pub(crate) fn new(sim: &Rc<Sim>, script: &Rc<Script>) -> Self {
         let env = Box::new(Env::new(sim, script));
-        let lua = State::new(&raw const *env, Rc::clone(&sim.lua_budget));
+        let lua = State::new(&raw const *env, Rc::clone(&sim.scripts.budget));
         Self { lua, env }
     }
 

@@ -1,14 +1,49 @@
 //! Adding and removing objects with everything scripts are told about it.
 
-use std::collections::BTreeMap;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
 
 use super::instance::state;
-use crate::scene::{CopyOptions, Data, Handle, Holder, Key, Kind, SceneError};
+use crate::scene::{CopyOptions, Data, Handle, Holder, Key, Kind, Object, Scene, SceneError, Uid};
 use crate::script::calls::callback::SysCall;
 use crate::script::error::ApiResult;
 use crate::script::log::verbosity;
 use crate::script::sim::Sim;
+
+/// Objects that are to go later.
+#[derive(Default)]
+pub(crate) struct Removals {
+    /// At the end of the loop iteration.
+    delayed: RefCell<Vec<Handle>>,
+    /// The objects there were at the start of the simulation; the others may go at its end.
+    at_start: RefCell<Option<HashSet<Uid>>>,
+}
+
+impl Removals {
+    /// Marks objects to be removed at the end of the loop iteration.
+    pub(crate) fn delay(&self, handles: &[Handle]) {
+        self.delayed.borrow_mut().extend(handles);
+    }
+
+    /// Hands over the marked objects, each once.
+    fn take_delayed(&self) -> Vec<Handle> {
+        let mut handles = self.delayed.take();
+        handles.sort_unstable();
+        handles.dedup();
+        handles
+    }
+
+    pub(in crate::script) fn note_start(&self, scene: &Scene) {
+        self.at_start.replace(Some(scene.objects().map(Object::uid).collect()));
+    }
+
+    /// The objects that came since the start of the simulation.
+    fn take_new(&self, scene: &Scene) -> Vec<Handle> {
+        let Some(known) = self.at_start.take() else { return Vec::new() };
+        scene.objects().filter(|object| !known.contains(&object.uid())).map(Object::handle).collect()
+    }
+}
 
 impl Sim {
     /// Adds an object and tells everyone.
@@ -108,21 +143,24 @@ impl Sim {
         Data::map([("objects", raw(handles).into()), ("allObjects", all.into()), ("objectHandles", marked(handles))])
     }
 
-    /// Remembers objects to be removed at the end of the loop pass.
-    pub(crate) fn remove_later(&self, handles: &[Handle]) {
-        self.delayed_removals.borrow_mut().extend(handles);
-    }
-
-    pub(crate) fn remove_delayed(self: &Rc<Self>) {
-        if self.delayed_removals.borrow().is_empty() {
+    /// Removes the objects whose removal was put off.
+    pub(in crate::script) fn remove_delayed(self: &Rc<Self>) {
+        let mut handles = self.removals.take_delayed();
+        if handles.is_empty() {
             return;
         }
-        let mut handles = self.delayed_removals.take();
-        handles.sort_unstable();
-        handles.dedup();
         handles.retain(|&h| self.scene.borrow().exists(h));
         if let Err(error) = self.remove_objects(&handles) {
             self.log(verbosity::ERRORS, &error.to_string());
+        }
+    }
+
+    /// Removes the objects that came during the simulation, where the scene wants that.
+    pub(in crate::script) fn remove_new_objects(self: &Rc<Self>) {
+        let new = self.removals.take_new(&self.scene.borrow());
+        if !new.is_empty() && self.scene.borrow().settings().remove_new_objects_at_end {
+            // The handles were just read, so none is unknown or given twice.
+            let _ = self.remove_objects(&new);
         }
     }
 }

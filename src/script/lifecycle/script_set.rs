@@ -9,6 +9,7 @@ use super::order::OrderCache;
 use crate::scene::Handle;
 use crate::scene::tree::script_object::ScriptType;
 use crate::script::calls::callback::SysCall;
+use crate::script::lua::Budget;
 
 /// The first handle of scripts that are no scene objects.
 const FIRST_DETACHED: i64 = 1_010_000;
@@ -18,6 +19,8 @@ pub(crate) const MAX_DEPTH: usize = 100;
 
 /// All scripts that have been looked up, and those that are no scene objects.
 pub(crate) struct ScriptSet {
+    /// The memory all of them share.
+    pub(super) budget: Rc<Budget>,
     by_id: RefCell<BTreeMap<i64, Rc<Script>>>,
     next_detached: Cell<i64>,
     /// There are, or were, scripts attached to objects; most scenes have none.
@@ -32,8 +35,10 @@ pub(crate) struct ScriptSet {
 }
 
 impl ScriptSet {
-    pub(in crate::script) fn new() -> Self {
+    /// No scripts yet, which may use `memory` bytes.
+    pub(in crate::script) fn new(memory: usize) -> Self {
         Self {
+            budget: Rc::new(Budget::new(memory)),
             by_id: RefCell::default(),
             next_detached: Cell::new(FIRST_DETACHED),
             has_attached: Cell::new(false),

@@ -47,7 +47,8 @@ impl Sim {
     pub(crate) fn step_is_due(&self) -> bool {
         let scene = self.scene.borrow();
         let settings = scene.settings();
-        !settings.real_time || self.clock.is_due(self.clock.wall_seconds() * settings.real_time_factor, settings.time_step)
+        !settings.real_time
+            || self.clock.is_due(self.clock.wall_seconds() * settings.real_time_factor, settings.time_step)
     }
 
     fn notify_selection(self: &Rc<Self>) {
@@ -132,8 +133,7 @@ impl Sim {
         for group in [Group::Customization, Group::AddOn, Group::Sandbox] {
             self.deliver_to(group, SysCall::BeforeSimulation, &[]);
         }
-        let known = self.scene.borrow().objects().map(crate::scene::Object::uid).collect();
-        self.known_at_start.replace(Some(known));
+        self.removals.note_start(&self.scene.borrow());
         self.scene.borrow_mut().stop_joint_motions();
         self.scene.borrow_mut().store_initial_state();
         for script in self.scripts_in(Group::Simulation).iter() {
@@ -221,19 +221,6 @@ impl Sim {
         self.app.borrow_mut().consoles.end_simulation();
         self.serial_ports.borrow_mut().clear();
         self.log_status("Simulation stopped.");
-    }
-
-    fn remove_new_objects(self: &Rc<Self>) {
-        let Some(known) = self.known_at_start.take() else { return };
-        if !self.scene.borrow().settings().remove_new_objects_at_end {
-            return;
-        }
-        let new: Vec<_> =
-            self.scene.borrow().objects().filter(|o| !known.contains(&o.uid())).map(|o| o.handle()).collect();
-        if !new.is_empty() {
-            // The handles were just read, so none is unknown or given twice.
-            let _ = self.remove_objects(&new);
-        }
     }
 
     fn restart_failed_customization_scripts(self: &Rc<Self>) {
