@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::rc::Rc;
 
-use swanilda::scene::pose::pose_to_array;
+use geometry::pose::pose_to_array;
+
 use swanilda::{Console, LogLine, Options, ScriptKind, Simulator};
 
 /// Steps after which a scene that does not end by itself is stopped.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use geometry::pose::interpolate;
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
     ActiveHooks, CoefficientCombineRule, ColliderBuilder, ColliderHandle, MassProperties, RigidBody, RigidBodyBuilder,
@@ -12,7 +13,6 @@ use super::colliders;
 use super::convert::{from_pose, to_matrix, to_pose, to_vector};
 use super::plan::{BodyBuild, BodyPlan, FrictionRule, Surface, is_far};
 use super::world::World;
-use crate::scene::pose::interpolate;
 use crate::scene::{Field, Handle, Pose, Scene};
 
 /// A static body that moved less than this between two calls has not moved: metres and radians.

@@ -3,15 +3,15 @@
 //! Primitives become their analytic forms, convex meshes hulls, other meshes triangle meshes; a dynamic mesh that is not convex is
 //! decomposed into convex pieces, because triangles have no inside.
 
+use geometry::Mesh;
+use geometry::PrimitiveKind;
 use rapier3d_f64::math::{Pose as EnginePose, Rotation, Vector};
 use rapier3d_f64::parry::transformation::vhacd::{VHACD, VHACDParameters};
 use rapier3d_f64::prelude::SharedShape;
 
 use super::convert::{to_pose, to_vector};
 use super::plan::PartForm;
-use crate::scene::mesh::Mesh;
 use crate::scene::shape::Primitive;
-use crate::scene::shape::primitive::PrimitiveKind;
 
 /// The smallest thickness of anything, metres.
 const THIN: f64 = 0.0001;

@@ -4,8 +4,9 @@
 
 use std::f64::consts::TAU;
 
+use motion::{ruckig, ruckig_plan};
+
 use crate::scene::joint::{Control, Joint};
-use crate::scene::motion::{ruckig, ruckig_plan};
 
 /// The time in which position control closes the fraction P of its error, whatever the sub-step.
 const CONTROL_PERIOD: f64 = 0.005;

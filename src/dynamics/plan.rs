@@ -6,10 +6,11 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use geometry::MassProperties;
+use geometry::Mesh;
+
 use super::frozen::Frozen;
 use crate::scene::joint::{Joint, JointMode, JointSolver, JointType};
-use crate::scene::mesh::Mesh;
-use crate::scene::shape::mass::MassProperties;
 use crate::scene::shape::{Primitive, Shape};
 use crate::scene::tree::dummy::LinkType;
 use crate::scene::{Handle, Kind, Object, Pose, Scene, Uid};

@@ -3,10 +3,10 @@
 //! There is one algorithm to divide shapes, V-HACD by parry; `hacd` uses it as well.
 
 use api_macro::api;
+use geometry::DecompositionParameters;
+use geometry::Mesh;
 
 use super::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::mesh::Mesh;
-use crate::scene::mesh::decomposition::Fineness;
 use crate::scene::shape::Shape;
 use crate::scene::{Data, Handle, Kind, SceneError};
 use crate::script::{Handles, Table};
@@ -53,10 +53,10 @@ fn vhacd(cx: &mut Cx, shape_handle: Handle, #[default(Table(Data::Nil))] params:
 #[api("simConvex.hacd")]
 fn hacd(cx: &mut Cx, shape_handle: Handle, #[default(Table(Data::Nil))] params: Table) -> Result<Vec<Handle>> {
     let _ = params;
-    divide(cx, shape_handle, Fineness::default())
+    divide(cx, shape_handle, DecompositionParameters::default())
 }
 
-fn divide(cx: &mut Cx, original: Handle, fineness: Fineness) -> Result<Vec<Handle>> {
+fn divide(cx: &mut Cx, original: Handle, fineness: DecompositionParameters) -> Result<Vec<Handle>> {
     let (shapes, pose) = cx.scene().convex_shapes(original, fineness)?;
     let mut handles = Vec::new();
     for shape in shapes {
@@ -68,12 +68,12 @@ fn divide(cx: &mut Cx, original: Handle, fineness: Fineness) -> Result<Vec<Handl
 }
 
 /// `resolution` counts voxels in all, `alpha` and `beta` prefer cuts along symmetries.
-fn fineness(params: &Data) -> Result<Fineness> {
+fn fineness(params: &Data) -> Result<DecompositionParameters> {
     let number = |name: &str, usual: f64| match params.field(name) {
         None | Some(Data::Nil) => Ok(usual),
         Some(value) => value.as_f64().filter(|x| x.is_finite() && *x >= 0.0).ok_or_else(|| invalid(name)),
     };
-    Ok(Fineness {
+    Ok(DecompositionParameters {
         voxels: number("resolution", 1e5)?,
         concavity: number("concavity", 0.1)?,
         plane_downsampling: number("plane_downsampling", 4.0)? as u32,

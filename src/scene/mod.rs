@@ -8,8 +8,6 @@ pub mod change;
 pub mod error;
 pub mod graph;
 pub mod joint;
-pub mod mesh;
-pub mod motion;
 pub mod parameters;
 pub mod pose;
 pub mod sensor;
@@ -20,9 +18,10 @@ pub mod tree;
 pub mod values;
 pub mod voxels;
 
+pub use geometry::Pose;
+
 pub use change::{Change, Changes, Counters, Field};
 pub use error::{SceneError, SceneResult};
-pub use pose::Pose;
 pub use pose::placement::{Frame, Placement};
 pub use simulation::settings::{DynamicsSettings, Settings};
 pub use store::{FIRST_MESH_UID, Scene};

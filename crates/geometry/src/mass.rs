@@ -1,16 +1,15 @@
 //! Mass, centre of mass and inertia of rigid shapes.
 //!
-//! As in the original the inertia is kept per unit mass: changing the mass alone rescales the absolute
-//! inertia. Masses in kg, lengths in m, absolute inertias in kg m2. Rules: SPEC-shapes sections 5 and 6,
-//! SPEC-objects section 7.
+//! As in CoppeliaSim the inertia is kept per unit mass: changing the mass alone rescales the absolute
+//! inertia. Masses in kg, lengths in m, absolute inertias in kg m2.
 
 use std::f64::consts::PI;
 
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
 
 use super::primitive::{PrimitiveKind, creation_mass, has_pure_size};
-use crate::scene::mesh::Mesh;
-use crate::scene::pose::{Pose, pose_from_matrix, pose_to_matrix};
+use crate::Mesh;
+use crate::pose::{Pose, pose_from_matrix, pose_to_matrix};
 
 /// Smallest mass of a shape (kg).
 pub const MIN_MASS: f64 = 1e-7;
@@ -139,7 +138,7 @@ impl MassProperties {
 /// `sim.computeMassAndInertia` for a density in kg/m3: exact for cuboids, balls, ellipsoids, cylinders and
 /// capsules that physics knows, else the solid convex hull of the `vertices` (m, shape frame).
 ///
-/// Compounds pass all their vertices and no primitive. `None` (the original's 0) for flat geometry and for a
+/// Compounds pass all their vertices and no primitive. `None` (CoppeliaSim's 0) for flat geometry and for a
 /// density that is not positive and finite.
 pub fn compute_mass_and_inertia(
     primitive: Option<(PrimitiveKind, [f64; 3])>,
@@ -223,7 +222,7 @@ fn steiner(d: &Vector3<f64>) -> Matrix3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::pose::IDENTITY_MATRIX;
+    use crate::pose::IDENTITY_MATRIX;
 
     #[track_caller]
     fn close(a: &[f64], b: &[f64], tolerance: f64) {
@@ -266,7 +265,7 @@ mod tests {
 
     #[test]
     fn grouping_of_rotated_members() {
-        let at = |p: [f64; 3], e: [f64; 3]| pose_from_matrix(&crate::scene::pose::euler::build_matrix(&p, &e));
+        let at = |p: [f64; 3], e: [f64; 3]| pose_from_matrix(&crate::pose::euler::build_matrix(&p, &e));
         let (a, b) = (at([0.1, 0.2, 0.3], [0.4, 0.5, 0.6]), at([-0.5, 0.1, 0.2], [1., 0.2, 0.1]));
         let box_ = primitive(PrimitiveKind::Cuboid, [0.1, 0.2, 0.3]);
         let rod = primitive(PrimitiveKind::Cylinder, [0.2, 0.2, 0.5]);

@@ -1,11 +1,11 @@
 //! The primitive shapes of `sim.createPrimitiveShape`: meshes, sizes, mass at creation.
 //!
 //! Sizes are full extents along x, y, z (m), centred on the frame; axes of revolution lie along z, the apex of
-//! a cone towards +z. Counts and formulas: SPEC-shapes section 2.1; height fields: SPEC-import section 3.
+//! a cone towards +z.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use crate::scene::mesh::Mesh;
+use crate::Mesh;
 
 /// Sides of rotational solids.
 const SIDES: u32 = 32;
@@ -133,8 +133,8 @@ pub fn heightfield(columns: usize, rows: usize, width: f64, heights: &[f64]) -> 
 
 /// Mass (kg) and diagonal of the inertia per kg (m2) that a new primitive gets for a density (kg/m3).
 ///
-/// These are the formulas of the original with its flaws: a cone weighs nine times too much, a capsule some
-/// 4 % too much, see SPEC-shapes. Zero for height fields.
+/// These are the formulas of CoppeliaSim with their flaws: a cone weighs nine times too much, a capsule some
+/// 4 % too much. Zero for height fields.
 pub fn creation_mass(kind: PrimitiveKind, size: [f64; 3], density: f64) -> (f64, [f64; 3]) {
     let [x, y, z] = size;
     let r = if kind == PrimitiveKind::Spheroid { (x + y + z) / 6.0 } else { (x + y) / 4.0 };

@@ -1,8 +1,7 @@
 //! Jerk-limited trajectories: what `sim.ruckigPos`, `ruckigVel` and `ruckigStep` do, as a value.
 //!
 //! The planning is rsruckig's. This module reads the flat argument lists, keeps the clock in base
-//! cycles like the original and reports its codes. Positions are in m or rad, times in seconds.
-//! Rules: SPEC-motion-ik section 1.
+//! cycles as CoppeliaSim does and reports its codes. Positions are in m or rad, times in seconds.
 
 use rsruckig::prelude::{ControlInterface, DataArrayOrVec, InputParameter, Synchronization};
 use thiserror::Error;
@@ -23,7 +22,7 @@ pub const BAD_CYCLE_TIME: i32 = -3;
 /// Step result: limits or states that no trajectory can have. Nothing moved.
 pub const INVALID_INPUT: i32 = -100;
 
-/// Up to this many base cycles per step are added one by one, with the rounding of the original.
+/// Up to this many base cycles per step are added one by one, with the rounding of CoppeliaSim.
 const COUNTED_CYCLES: f64 = 1e5;
 
 /// Why a trajectory was refused.
@@ -247,7 +246,7 @@ fn advance(mut time: f64, duration: f64, base_cycle: f64, cycles: f64) -> f64 {
 }
 
 #[cfg(test)]
-pub(in crate::scene) mod tests {
+pub(crate) mod tests {
     use super::*;
 
     #[track_caller]

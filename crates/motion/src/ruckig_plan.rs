@@ -8,7 +8,7 @@ use super::ruckig::{INVALID_INPUT, RuckigError};
 const LARGEST: f64 = 1e12;
 
 /// One joint, one step: plans from (`pos`, `vel`, `acc`) to rest at `target` within the limits and returns
-/// position, velocity, acceleration after `dt` seconds (SPEC-joints sections 6 and 7). Past the end it rests.
+/// position, velocity, acceleration after `dt` seconds. Past the end it rests.
 ///
 /// # Errors
 /// [`RuckigError::InvalidData`] for numbers that are not finite or a negative `dt`,
@@ -67,10 +67,10 @@ fn axis_step(
 
 /// A computed trajectory of the library.
 #[derive(Debug, Clone)]
-pub(in crate::scene) struct Plan<const N: usize>(rsruckig::prelude::Trajectory<N>);
+pub(crate) struct Plan<const N: usize>(rsruckig::prelude::Trajectory<N>);
 
 impl<const N: usize> Plan<N> {
-    pub(in crate::scene) fn new(input: &InputParameter<N>) -> Result<Self, RuckigError> {
+    pub(crate) fn new(input: &InputParameter<N>) -> Result<Self, RuckigError> {
         if !plannable(input) {
             return Err(RuckigError::Failed(INVALID_INPUT));
         }
@@ -89,12 +89,12 @@ impl<const N: usize> Plan<N> {
         }
     }
 
-    pub(in crate::scene) fn duration(&self) -> f64 {
+    pub(crate) fn duration(&self) -> f64 {
         self.0.duration
     }
 
     /// Calls `each` with the axis and its position, velocity, acceleration at `time`.
-    pub(in crate::scene) fn sample(&self, time: f64, mut each: impl FnMut(usize, (f64, f64, f64))) {
+    pub(crate) fn sample(&self, time: f64, mut each: impl FnMut(usize, (f64, f64, f64))) {
         self.0.state_to_integrate_from(time, &mut 0, |axis, t, p, v, a, j| {
             each(axis, rsruckig::util::integrate(t, p, v, a, j));
         });
@@ -138,7 +138,7 @@ fn plannable<const N: usize>(input: &InputParameter<N>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::motion::ruckig::tests::close;
+    use crate::ruckig::tests::close;
 
     #[test]
     fn single_steps_of_a_joint() {

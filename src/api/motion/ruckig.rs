@@ -6,9 +6,9 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use api_macro::api;
+use motion::ruckig::{BAD_CYCLE_TIME, RuckigError, Trajectory};
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::motion::ruckig::{BAD_CYCLE_TIME, RuckigError, Trajectory};
 use crate::script::{ByHandle, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![ruckig_pos, ruckig_vel, ruckig_step, ruckig_remove];

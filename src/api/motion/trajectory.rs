@@ -1,10 +1,10 @@
 //! `sim.*`: time-optimal trajectories.
 
 use api_macro::api;
+use motion::spline::Boundary;
+use motion::time_optimal::{Limits, TimeOptimalError, TimedPath};
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::motion::spline::Boundary;
-use crate::scene::motion::time_optimal::{Limits, TimeOptimalError, TimedPath};
 use crate::script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![generate_time_optimal_trajectory];

@@ -3,10 +3,10 @@
 //! Setters also accept the argument order of releases before 4.3: object, frame, data.
 
 use api_macro::api;
+use geometry::pose::euler;
+use geometry::pose::{self, Pose};
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::pose::euler;
-use crate::scene::pose::{self, Pose};
 use crate::scene::{Frame, Handle, Placement, SceneError, flag, special};
 use crate::script::{Args, FromScript, ObjectRef};
 

@@ -1,11 +1,11 @@
 //! `sim.*`: poses, matrices and angles, without objects. Yaw, pitch and roll are converted in Lua.
 
 use api_macro::api;
+use geometry::pose::euler;
+use geometry::pose::{self, Pose, PoseError};
 
 use super::pose::checked;
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::pose::euler;
-use crate::scene::pose::{self, Pose, PoseError};
 use crate::script::{Args, FromScript};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![

@@ -1,10 +1,10 @@
 //! `sim.*`: deprecated functions of joints and shapes that have no alias with the same arguments.
 
 use api_macro::api;
+use geometry::MassProperties;
+use geometry::pose::{pose_from_matrix, pose_to_matrix};
 
 use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::pose::{pose_from_matrix, pose_to_matrix};
-use crate::scene::shape::mass::MassProperties;
 use crate::scene::{Field, Handle, Pose, SceneError};
 use crate::script::Number;
 

@@ -6,11 +6,11 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use api_macro::api;
+use geometry::pose::euler;
 
 use super::param_property::{self, FLOATS, INTEGERS, LEVELS, LIGHT, SWITCHES, TEXTS};
 use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::SceneError;
-use crate::scene::pose::euler;
 use crate::script::{Bytes, Color, Number, PropertyValue, Target, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![

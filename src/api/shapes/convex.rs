@@ -1,11 +1,11 @@
 //! `sim.*`: hulls, convex decomposition, shapes along paths.
 
 use api_macro::api;
+use geometry::Extrusion;
+use geometry::pose::pose_from_array;
+use geometry::{Mesh, MeshError};
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::mesh::extrusion::Extrusion;
-use crate::scene::mesh::{Mesh, MeshError};
-use crate::scene::pose::pose_from_array;
 use crate::scene::shape::Shape;
 use crate::scene::{Handle, Kind, SceneError};
 use crate::script::{Number, Rest};

@@ -1,13 +1,13 @@
 //! `sim.*`: creating shapes, their meshes and boxes.
 
 use api_macro::api;
+use geometry::PrimitiveKind;
+use geometry::pose::{pose_from_array, pose_to_array};
+use geometry::{Mesh, MeshError};
 
 use super::texture;
 use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::mesh::{Mesh, MeshError};
-use crate::scene::pose::{pose_from_array, pose_to_array};
 use crate::scene::shape::build::PrimitiveOptions;
-use crate::scene::shape::primitive::PrimitiveKind;
 use crate::scene::shape::{Appearance, Part, Shape};
 use crate::scene::{Data, Handle, Key, Kind, Scene, SceneError};
 use crate::script::{Bytes, Number};

@@ -3,14 +3,14 @@
 use std::rc::Rc;
 
 use api_macro::api;
+use geometry::PrimitiveKind;
+use geometry::pose::euler::rotation_from_euler;
 
 use crate::api::display::images::{failure, read_file};
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::format::picture::{Layout, Picture};
 use crate::scene::appearance::texture::Texture;
 use crate::scene::appearance::texture_mapping::{TextureMapping, TextureSource};
-use crate::scene::pose::euler::rotation_from_euler;
-use crate::scene::shape::primitive::PrimitiveKind;
 use crate::scene::shape::{Part, Shape};
 use crate::scene::{Data, Handle, Kind, Pose, Scene, SceneError};
 use crate::script::{Bytes, IntPair, Number};

@@ -22,6 +22,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Vector3, Vector6};
 
 use chain::Chain;
+use geometry::partition;
 
 use super::bodies::Bodies;
 use super::contacts;
@@ -29,7 +30,6 @@ use super::links::Links;
 use super::plan::LinkPlan;
 use super::world::World;
 use crate::scene::Handle;
-use crate::scene::mesh::partition::partition;
 
 /// The links of a scene and the order they are solved in.
 #[derive(Default)]

@@ -1,10 +1,11 @@
 //! Scenes built by hand: bodies, links between them, and steps of the physics without scripts.
 
+use geometry::MassProperties;
+use geometry::PrimitiveKind;
+
 use super::super::*;
 use crate::scene::joint::JointType;
 use crate::scene::shape::Shape;
-use crate::scene::shape::mass::MassProperties;
-use crate::scene::shape::primitive::PrimitiveKind;
 use crate::scene::{Field, Kind, Pose};
 
 pub(super) const STEP: f64 = 0.05;

@@ -1,7 +1,8 @@
 //! Chains that swing, light ones with heavy loads.
 
+use geometry::MassProperties;
+
 use super::*;
-use crate::scene::shape::mass::MassProperties;
 
 /// A straight chain of rods of 0.1 m at rest.
 struct Chain {

@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::rc::Rc;
 
+use geometry::PrimitiveKind;
+
 use super::{Loaded, SceneFile, save};
 use crate::format::ttt::File;
 use crate::scene::parameters::engine_blocks::EngineValues;
 use crate::scene::shape::Shape;
-use crate::scene::shape::primitive::PrimitiveKind;
 use crate::scene::{DynamicsSettings, Handle, Kept, Kind, Object, Pose, Scene, Settings};
 
 /// The smaller ones of other people's scenes and models, where they are at hand.

@@ -1,5 +1,9 @@
 //! Shapes of the simple variant: a primitive, a terrain, a mesh, or a compound of such, with mass and inertia as people know them.
 
+use geometry::Mesh;
+use geometry::mass::{MassProperties, solid};
+use geometry::pose::euler::{rotation_from_euler, rotation_to_euler};
+use geometry::primitive::{PrimitiveKind, heightfield, tessellate};
 use nalgebra::{Matrix3, Vector3};
 
 use super::arrays::{self, Arrays, joined, list};
@@ -9,10 +13,6 @@ use super::table::{Step, Unit, word_of};
 use super::write::{Item, Writing, number};
 use crate::format::ttt::{FileResult, Node, PositionFirst, unit_quaternion};
 use crate::scene::Pose;
-use crate::scene::mesh::Mesh;
-use crate::scene::pose::euler::{rotation_from_euler, rotation_to_euler};
-use crate::scene::shape::mass::{MassProperties, solid};
-use crate::scene::shape::primitive::{PrimitiveKind, heightfield, tessellate};
 
 /// Of a body whose mass is not told, kg/m3.
 const DENSITY: f64 = 1000.0;
@@ -108,7 +108,7 @@ fn triangles(element: Element<'_>, data: &mut Node) -> Words<Mesh> {
             if !size.iter().all(|side: &f64| (0.0..1e9).contains(side)) {
                 return Err("the size of a primitive is out of range".into());
             }
-            let size = crate::scene::shape::primitive::clamp_size(kind, size);
+            let size = geometry::primitive::clamp_size(kind, size);
             set_primitive(data, code, size);
             tessellate(kind, size, false).ok_or_else(|| "this primitive has no size".into())
         }

@@ -1,6 +1,7 @@
 //! Out of nodes of chunks into the text of elements, by the tables.
 
 use base64::Engine;
+use geometry::pose::euler::rotation_to_euler;
 
 use super::arrays;
 use super::read::{CODED, get};
@@ -8,7 +9,6 @@ use super::table::{Kind, Row, Unit, rows, word_of};
 use crate::format::ttt::Node;
 use crate::format::ttt::chunks::MeshPool;
 use crate::format::ttt::unit_quaternion;
-use crate::scene::pose::euler::rotation_to_euler;
 
 const REVOLUTE: i64 = 10;
 

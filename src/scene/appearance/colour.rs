@@ -253,7 +253,7 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::shape::primitive::PrimitiveKind;
+    use geometry::PrimitiveKind;
 
     #[test]
     fn colours_are_kept_in_32_bits_and_not_limited() {

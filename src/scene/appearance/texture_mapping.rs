@@ -70,7 +70,7 @@ impl TextureMapping {
         }
     }
 
-    /// Turns each triangle as [`Mesh::flip`](crate::scene::mesh::Mesh::flip) does.
+    /// Turns each triangle as [`Mesh::flip`](geometry::Mesh::flip) does.
     pub(in crate::scene) fn flip(&mut self) {
         let turned = self.coordinates.as_chunks::<6>().0.iter().flat_map(|&[a, b, c, d, e, f]| [a, b, e, f, c, d]);
         self.coordinates = turned.collect();
@@ -194,7 +194,7 @@ fn no_texture() -> SceneError {
 mod tests {
     use super::*;
     use crate::scene::Kind;
-    use crate::scene::shape::primitive::PrimitiveKind;
+    use geometry::PrimitiveKind;
 
     fn image(name: &str) -> Texture {
         Texture::new(name, [1, 1], false, &[1, 2, 3]).unwrap()

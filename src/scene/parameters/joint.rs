@@ -2,10 +2,10 @@
 //!
 //! Numbers of functionality that is gone (IK weights, Vortex) are not known here.
 
+use geometry::pose::pose_to_array;
 use nalgebra::{Quaternion, UnitQuaternion};
 
 use crate::scene::joint::{Control, Joint};
-use crate::scene::pose::pose_to_array;
 
 /// Control of old releases: a motor that is on is in position control when its controller is on, in velocity control otherwise.
 fn motor_control(motor: bool, controller: bool) -> Control {

@@ -2,9 +2,9 @@
 //!
 //! What a type adds stands in `kind_params`; numbers of functionality that is gone (roles, permissions) are not known.
 
+use geometry::BoundingBox;
 use nalgebra::{Point3, Vector3};
 
-use crate::scene::mesh::bounding_box::BoundingBox;
 use crate::scene::tree::object::DETECTABLE;
 use crate::scene::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
 

@@ -1,7 +1,8 @@
 //! The numbered parameters of shapes (`sim.shapeintparam_*`, `sim.shapefloatparam_*`).
 
+use geometry::pose::euler::{rotation_from_euler, rotation_to_euler};
+
 use crate::scene::appearance::texture_mapping::TextureMapping;
-use crate::scene::pose::euler::{rotation_from_euler, rotation_to_euler};
 use crate::scene::shape::{Appearance, Shape};
 
 impl Shape {
@@ -124,7 +125,7 @@ impl TextureMapping {
 #[cfg(test)]
 mod tests {
     use crate::scene::shape::Shape;
-    use crate::scene::shape::primitive::PrimitiveKind;
+    use geometry::PrimitiveKind;
 
     #[test]
     fn the_mask_is_kept_as_written() {

@@ -1,8 +1,8 @@
 //! Where objects are: local and world poses, relative frames.
 
+use geometry::pose::velocity;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
-use super::measured_velocity;
 use crate::scene::joint::JointType;
 use crate::scene::{Change, Field, Handle, Kind, Measured, Pose, Scene, SceneError, SceneResult, special};
 
@@ -219,9 +219,9 @@ fn measured(previous: Option<Pose>, now: Pose, dt: Option<f64>) -> Measured {
     match (previous, dt) {
         (Some(before), Some(dt)) if before != now => Measured {
             previous: Some(now),
-            linear: measured_velocity::linear_velocity(&before, &now, dt),
-            euler_rate: measured_velocity::angular_velocity_euler(&before, &now, dt),
-            angular: measured_velocity::angular_velocity_axis(&before, &now, dt),
+            linear: velocity::linear_velocity(&before, &now, dt),
+            euler_rate: velocity::angular_velocity_euler(&before, &now, dt),
+            angular: velocity::angular_velocity_axis(&before, &now, dt),
         },
         _ => Measured { previous: Some(now), ..Measured::default() },
     }

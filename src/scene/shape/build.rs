@@ -2,12 +2,13 @@
 
 use std::rc::Rc;
 
-use super::mass::MassProperties;
-use super::primitive::{PrimitiveKind, bounding_size, clamp_size, has_pure_size, heightfield, tessellate};
+use geometry::BoundingBox;
+use geometry::MassProperties;
+use geometry::Mesh;
+use geometry::primitive::{PrimitiveKind, bounding_size, clamp_size, has_pure_size, heightfield, tessellate};
+
 use super::{Appearance, HeightField, Material, Part, Primitive, Shape, ShapeDynamics, Velocity};
 use crate::scene::Pose;
-use crate::scene::mesh::Mesh;
-use crate::scene::mesh::bounding_box::BoundingBox;
 use crate::scene::{SceneError, SceneResult};
 
 /// Density of new primitives, kg/m3.

@@ -4,12 +4,13 @@
 
 use std::rc::Rc;
 
-use super::geometry::box_of;
-use super::mass::MassProperties;
-use super::primitive::PrimitiveKind;
+use geometry::DecompositionParameters;
+use geometry::MassProperties;
+use geometry::Mesh;
+use geometry::PrimitiveKind;
+
+use super::reshape::box_of;
 use super::{Part, Shape};
-use crate::scene::mesh::Mesh;
-use crate::scene::mesh::decomposition::Fineness;
 use crate::scene::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
 
 impl Shape {
@@ -159,7 +160,7 @@ impl Scene {
     /// # Errors
     /// When the object is no shape or has no volume.
     pub fn convex_decomposition(&self, handle: Handle) -> SceneResult<(Shape, Pose)> {
-        let (pieces, pose) = self.convex_shapes(handle, Fineness::default())?;
+        let (pieces, pose) = self.convex_shapes(handle, DecompositionParameters::default())?;
         let parts: Vec<Part> = pieces.into_iter().flat_map(|piece| piece.parts).collect();
         let bounding_box = box_of(&parts).ok_or(SceneError::InvalidData)?;
         Ok((Shape { parts, bounding_box, ..self.object(handle)?.shape()?.clone() }, pose))
@@ -169,7 +170,7 @@ impl Scene {
     ///
     /// # Errors
     /// When the object is no shape or has no volume.
-    pub fn convex_shapes(&self, handle: Handle, fineness: Fineness) -> SceneResult<(Vec<Shape>, Pose)> {
+    pub fn convex_shapes(&self, handle: Handle, fineness: DecompositionParameters) -> SceneResult<(Vec<Shape>, Pose)> {
         let original = self.object(handle)?.shape()?;
         let looks = original.parts.first().map_or_else(Shape::mesh_appearance, |part| part.appearance.clone());
         let mut pieces = Vec::new();

@@ -1,21 +1,17 @@
 //! Shapes as data: geometry, mass, material, appearance.
 
 pub mod build;
-pub mod geometry;
 pub(in crate::scene) mod group;
 pub(in crate::scene) mod hull_points;
-pub mod mass;
-pub mod primitive;
+pub mod reshape;
 
 use std::rc::Rc;
 
+use geometry::{BoundingBox, MassProperties, Mesh, PrimitiveKind};
+
 use super::appearance::colour::Colour;
 use super::appearance::texture_mapping::TextureMapping;
-use super::mesh::Mesh;
-use super::mesh::bounding_box::BoundingBox;
 use super::{Kept, Pose, Uid};
-use mass::MassProperties;
-use primitive::PrimitiveKind;
 
 /// Frictions of the presets that hold things, in the order of [`Material::of_frictions`].
 const GRIP: [f64; 5] = [1.0, 0.5, 1.0, 1.0, 1.0];

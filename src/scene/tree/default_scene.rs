@@ -1,11 +1,11 @@
 //! What a scene holds that was not loaded from a file: a floor, a camera, lights.
 
+use geometry::PrimitiveKind;
 use nalgebra::UnitQuaternion;
 
 use super::dummy::Dummy;
 use crate::scene::sensor::Light;
 use crate::scene::shape::build::PrimitiveOptions;
-use crate::scene::shape::primitive::PrimitiveKind;
 use crate::scene::shape::{Material, Shape};
 use crate::scene::{Field, Handle, Kind, Pose, Scene, SceneResult};
 

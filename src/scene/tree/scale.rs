@@ -2,14 +2,14 @@
 
 use std::rc::Rc;
 
+use geometry::Mesh;
+use geometry::PrimitiveKind;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use crate::scene::joint::{Control, Joint, JointType};
-use crate::scene::mesh::Mesh;
 use crate::scene::pose::placement::is_place;
 use crate::scene::sensor::View;
 use crate::scene::sensor::volume::Volume;
-use crate::scene::shape::primitive::PrimitiveKind;
 use crate::scene::shape::{Part, Shape};
 use crate::scene::{Field, Handle, Kind, Object, Pose, Scene, SceneError, SceneResult};
 

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use geometry::Mesh;
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
@@ -11,7 +12,6 @@ use parry3d_f64::shape::{TriMesh, Triangle};
 
 use super::octree::OcTree;
 use super::point_cloud::PointCloud;
-use crate::scene::mesh::Mesh;
 use crate::scene::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
 
 type Point = [f64; 3];
@@ -208,8 +208,8 @@ impl OcTree {
 mod tests {
     use super::*;
     use crate::scene::shape::Shape;
-    use crate::scene::shape::primitive::PrimitiveKind;
     use crate::scene::voxels::octree::Voxel;
+    use geometry::PrimitiveKind;
 
     fn cube(scene: &mut Scene, edge: f64) -> Handle {
         let shape = Shape::primitive(PrimitiveKind::Cuboid, [edge; 3], Default::default()).unwrap();

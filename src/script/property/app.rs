@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use geometry::pose::quaternion_to_array;
+
 use super::access::{Accessor, Subject, subject_properties};
 use super::{PropertyValue, Quaternion};
-use crate::scene::pose::quaternion_to_array;
 use crate::scene::{CustomData, Data, Kept};
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::events::Protocol;

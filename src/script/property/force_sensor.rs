@@ -1,8 +1,9 @@
 //! Properties of force sensors.
 
+use geometry::pose::pose_to_array;
+
 use super::access::{Accessor, finite, length, object_properties, refused};
 use super::{PoseArray, Vector3};
-use crate::scene::pose::pose_to_array;
 use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
 use crate::scene::{Object, Pose, SceneResult};
 

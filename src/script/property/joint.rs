@@ -1,9 +1,10 @@
 //! Properties of joints.
 
+use geometry::pose::{pose_to_array, quaternion_from_array, quaternion_to_array};
+
 use super::access::{Accessor, object_properties, placed_properties};
 use super::{PoseArray, Quaternion};
 use crate::scene::joint::{Control, JointMode, JointSolver};
-use crate::scene::pose::{pose_to_array, quaternion_from_array, quaternion_to_array};
 use crate::scene::{Handle, Pose, Scene, SceneError, SceneResult};
 use crate::script::error::ApiError;
 

@@ -1,10 +1,11 @@
 //! Properties of the meshes shapes consist of. What is said of a texture holds while there is one.
 
+use geometry::Mesh;
+
 use super::access::{Accessor, Subject, finite, subject_properties};
 use super::{IntPair, Target, Text};
 use crate::scene::appearance::texture::Texture;
 use crate::scene::appearance::texture_mapping::TextureMapping;
-use crate::scene::mesh::Mesh;
 use crate::scene::shape::Part;
 use crate::scene::{Field, Object, Uid};
 use crate::script::binding::args::Bytes;

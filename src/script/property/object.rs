@@ -1,9 +1,10 @@
 //! Properties all objects have.
 
+use geometry::pose::{pose_from_array, pose_to_array};
+
 use super::access::{Accessor, object_properties, pair, placed_properties, refused};
 use super::table::object_class;
 use super::{Long, PoseArray, Text, Vector3};
-use crate::scene::pose::{pose_from_array, pose_to_array};
 use crate::scene::{Handle, Movement, NOT_MODEL, Object, Scene, SceneResult, clean_alias};
 use crate::script::Bytes;
 

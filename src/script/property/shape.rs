@@ -1,9 +1,10 @@
 //! Properties of shapes.
 
+use geometry::pose::quaternion_to_array;
+
 use super::access::{Accessor, finite, object_properties, refused};
 use super::{Color, Quaternion, Vector3};
 use crate::scene::Field;
-use crate::scene::pose::quaternion_to_array;
 use crate::script::error::ApiError;
 
 pub(super) const SHAPE: &[Accessor] = object_properties! {

@@ -1,9 +1,9 @@
-//! Boxes around meshes, the tightest one included (SPEC-shapes section 4). Lengths are in metres.
+//! Boxes around meshes, the tightest one included. Lengths are in metres.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::Mesh;
-use crate::scene::pose::Pose;
+use crate::Pose;
 
 /// Most face normals that the search for the tightest box tries, and the points it may look at in all.
 const BOX_DIRECTIONS: usize = 200;
@@ -137,7 +137,7 @@ fn outline(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::mesh::samples::{block, close};
+    use crate::mesh::samples::{block, close};
 
     #[test]
     fn tightest_box_is_ordered_and_found_when_rotated() {

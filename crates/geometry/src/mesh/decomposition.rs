@@ -16,7 +16,7 @@ const COARSEST: u32 = 16;
 
 /// How finely a mesh is divided.
 #[derive(Debug, Clone, Copy)]
-pub struct Fineness {
+pub struct DecompositionParameters {
     /// In a cube around the mesh.
     pub voxels: f64,
     /// How much of the volume a piece may differ from its hull.
@@ -31,7 +31,7 @@ pub struct Fineness {
     pub beta: f64,
 }
 
-impl Default for Fineness {
+impl Default for DecompositionParameters {
     fn default() -> Self {
         let usual = VHACDParameters::default();
         Self {
@@ -45,7 +45,7 @@ impl Default for Fineness {
     }
 }
 
-impl Fineness {
+impl DecompositionParameters {
     fn parameters(self) -> VHACDParameters {
         VHACDParameters {
             resolution: self.voxels.cbrt().round().clamp(SIDES[0], SIDES[1]) as u32,
@@ -61,7 +61,7 @@ impl Fineness {
 
 impl Mesh {
     /// Convex pieces that together are about this mesh; none when it is flat. A convex mesh is its own hull.
-    pub fn convex_pieces(&self, fineness: Fineness) -> Vec<Mesh> {
+    pub fn convex_pieces(&self, fineness: DecompositionParameters) -> Vec<Mesh> {
         if self.is_convex() {
             return Mesh::convex_hull(&self.vertices).into_iter().collect();
         }
@@ -85,14 +85,14 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Pose;
-    use crate::scene::mesh::samples::{block, tetrahedron};
+    use crate::Pose;
+    use crate::mesh::samples::{block, tetrahedron};
 
     #[test]
     fn an_angle_is_two_blocks() {
         let mut angle = block([1.0, 0.2, 0.2]);
         angle.append(&block([0.2, 1.0, 0.2]), &Pose::translation(0.4, 0.5, 0.0));
-        let pieces = angle.convex_pieces(Fineness::default());
+        let pieces = angle.convex_pieces(DecompositionParameters::default());
         let volume: f64 = pieces.iter().map(Mesh::volume).sum();
         assert!(pieces.len() >= 2 && pieces.iter().all(Mesh::is_convex));
         assert!((volume - 0.072).abs() < 0.012, "{volume}");
@@ -100,8 +100,8 @@ mod tests {
 
     #[test]
     fn what_is_convex_or_flat() {
-        assert_eq!(tetrahedron().convex_pieces(Fineness::default()).len(), 1);
+        assert_eq!(tetrahedron().convex_pieces(DecompositionParameters::default()).len(), 1);
         let flat = Mesh::new(vec![[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]], vec![[0, 1, 2]]).unwrap();
-        assert!(flat.convex_pieces(Fineness::default()).is_empty());
+        assert!(flat.convex_pieces(DecompositionParameters::default()).is_empty());
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::{Mesh, MeshError};
-use crate::scene::Pose;
+use crate::Pose;
 
 /// Points of a section closer than this are one, metres.
 const SAME_POINT: f64 = 1e-9;

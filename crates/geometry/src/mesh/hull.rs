@@ -103,7 +103,7 @@ fn shaken(p: [f64; 3], size: f64) -> Vector {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::mesh::samples::CORNER;
+    use crate::mesh::samples::CORNER;
 
     #[test]
     fn hulls_need_volume() {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Mesh;
-use super::partition::partition;
+use crate::partition;
 
 impl Mesh {
     /// The connected pieces, in the order of their first triangles: lists of triangles.
@@ -36,8 +36,8 @@ impl Mesh {
 
 #[cfg(test)]
 mod tests {
-    use crate::scene::Pose;
-    use crate::scene::shape::primitive::{PrimitiveKind, tessellate};
+    use crate::Pose;
+    use crate::primitive::{PrimitiveKind, tessellate};
 
     #[test]
     fn two_boxes_are_two_islands() {

@@ -1,21 +1,24 @@
 //! Triangle meshes: validated, transformed, boxed. Lengths are in metres.
 //!
 //! Triangles wind counter-clockwise seen from outside. A [`Mesh`] made by this module is valid: finite
-//! vertices, indices in range, three normals per triangle. Rules: SPEC-shapes sections 2 to 4.
+//! vertices, indices in range, three normals per triangle.
 
-pub mod bounding_box;
-pub mod decomposition;
-pub mod extrusion;
-pub(in crate::scene) mod hull;
-pub(in crate::scene) mod islands;
-pub(crate) mod partition;
+mod bounding_box;
+mod decomposition;
+mod extrusion;
+mod hull;
+mod islands;
 
 use std::collections::{HashMap, HashSet};
 
 use nalgebra::Vector3;
 use thiserror::Error;
 
-use super::pose::Pose;
+pub use bounding_box::BoundingBox;
+pub use decomposition::DecompositionParameters;
+pub use extrusion::Extrusion;
+
+use crate::Pose;
 
 /// A triangle mesh.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -247,15 +250,16 @@ impl Mesh {
         (self.triangles, self.normals) = (triangles, normals);
     }
 
-    pub(super) fn points(&self) -> Vec<Vector3<f64>> {
+    pub(crate) fn points(&self) -> Vec<Vector3<f64>> {
         self.vertices.iter().map(|v| Vector3::from(*v)).collect()
     }
 
-    pub(super) fn corners(&self, triangle: &[u32; 3]) -> [Vector3<f64>; 3] {
+    /// The three points of a triangle, which is one of `triangles`.
+    pub fn corners(&self, triangle: &[u32; 3]) -> [Vector3<f64>; 3] {
         triangle.map(|i| Vector3::from(self.vertices[i as usize]))
     }
 
-    pub(super) fn area_vector(&self, triangle: &[u32; 3]) -> Vector3<f64> {
+    pub(crate) fn area_vector(&self, triangle: &[u32; 3]) -> Vector3<f64> {
         let [a, b, c] = self.corners(triangle);
         (b - a).cross(&(c - a))
     }
@@ -278,7 +282,7 @@ fn moved(pose: &Pose, v: &[f64; 3]) -> [f64; 3] {
 
 /// Meshes for the tests of this and its neighbouring modules.
 #[cfg(test)]
-pub(super) mod samples {
+pub(crate) mod samples {
     use super::Mesh;
 
     pub const CORNER: [[f64; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];

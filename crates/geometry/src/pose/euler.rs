@@ -1,4 +1,4 @@
-//! Euler angles: pure maths. Angles are in radians; formulas: SPEC-poses sections 1 and 3.
+//! Euler angles: pure maths. Angles are in radians.
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
@@ -45,7 +45,7 @@ mod tests {
     use std::f64::consts::FRAC_PI_2;
 
     use super::*;
-    use crate::scene::pose::tests::close;
+    use crate::pose::tests::close;
 
     #[test]
     fn euler_angles_p1_to_p3() {

@@ -3,11 +3,10 @@
 //! Positions are in metres, angles in radians. At the scripting edge a pose is
 //! `[x, y, z, qx, qy, qz, qw]`, a matrix the upper 3x4 block in row-major order, an
 //! orientation the triple alpha, beta, gamma with `R = Rx(alpha) Ry(beta) Rz(gamma)`.
-//! Formulas: SPEC-poses sections 1, 3 and 4. Quaternions have no canonical sign.
+//! Quaternions have no canonical sign.
 
 pub mod euler;
-pub(in crate::scene) mod measured_velocity;
-pub mod placement;
+pub mod velocity;
 
 use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3};
 use thiserror::Error;
@@ -178,7 +177,7 @@ pub fn multiply_vector(transform: &[f64], v: &[f64]) -> Result<Vec<f64>, PoseErr
     Ok(points.flat_map(|p| <[f64; 3]>::from(apply(p))).collect())
 }
 
-pub(super) fn shortest(q: UnitQuaternion<f64>) -> UnitQuaternion<f64> {
+pub(crate) fn shortest(q: UnitQuaternion<f64>) -> UnitQuaternion<f64> {
     if q.w < 0.0 { UnitQuaternion::new_unchecked(-q.into_inner()) } else { q }
 }
 
@@ -188,7 +187,7 @@ fn sandwich(q: &[f64; 4], v: &Vector3<f64>) -> Vector3<f64> {
     (q * Quaternion::from_imag(*v) * q.conjugate()).imag()
 }
 
-pub(super) fn rotation_matrix(q: &UnitQuaternion<f64>) -> Matrix3<f64> {
+pub(crate) fn rotation_matrix(q: &UnitQuaternion<f64>) -> Matrix3<f64> {
     q.to_rotation_matrix().into_inner()
 }
 
@@ -196,7 +195,7 @@ fn rotation_block(m: &[f64; 12]) -> Matrix3<f64> {
     Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10])
 }
 
-pub(super) fn to_matrix(r: &Matrix3<f64>, t: &Vector3<f64>) -> [f64; 12] {
+pub(crate) fn to_matrix(r: &Matrix3<f64>, t: &Vector3<f64>) -> [f64; 12] {
     let row = |i: usize| [r[(i, 0)], r[(i, 1)], r[(i, 2)], t[i]];
     let mut m = [0.0; 12];
     (0..3).for_each(|i| m[4 * i..4 * i + 4].copy_from_slice(&row(i)));
@@ -208,7 +207,7 @@ fn unit(v: Vector3<f64>) -> Option<Vector3<f64>> {
     (v.iter().all(|c| c.is_finite()) && largest > 0.0).then(|| (v / largest).normalize())
 }
 
-pub(super) fn orthonormal_block(m: &[f64; 12]) -> Matrix3<f64> {
+pub(crate) fn orthonormal_block(m: &[f64; 12]) -> Matrix3<f64> {
     let r = rotation_block(m);
     let axes = || {
         let z = unit(r.column(2).into())?;
@@ -238,7 +237,7 @@ fn axes_rotation(v: &[f64; 3], second: Option<&[f64; 3]>, i: usize, after: bool)
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use super::euler::build_matrix;
     use super::*;
     use std::f64::consts::{FRAC_1_SQRT_2 as S, FRAC_PI_2, PI};

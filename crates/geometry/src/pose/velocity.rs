@@ -1,4 +1,4 @@
-//! Velocities of whatever moves, measured between two poses (SPEC-poses section 4).
+//! Velocities of whatever moves, measured between two poses.
 
 use super::euler::rotation_to_euler;
 use super::{Pose, shortest};
@@ -28,9 +28,9 @@ fn per_second(v: [f64; 3], dt: f64) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::pose::euler::build_matrix;
-    use crate::scene::pose::pose_from_matrix;
-    use crate::scene::pose::tests::close;
+    use crate::pose::euler::build_matrix;
+    use crate::pose::pose_from_matrix;
+    use crate::pose::tests::close;
 
     #[test]
     fn measured_velocities_of_both_kinds() {

@@ -2,6 +2,10 @@
 
 use std::rc::Rc;
 
+use geometry::BoundingBox;
+use geometry::MassProperties;
+use geometry::Mesh;
+use geometry::PrimitiveKind;
 use nalgebra::Matrix3;
 
 use super::mesh::is_nearly_convex;
@@ -12,10 +16,6 @@ use crate::format::ttt::chunks::{MeshData, MeshNode, Shape as Chunk, ShapeGeomet
 use crate::format::ttt::tree::{Mesh as FileMesh, MeshTree};
 use crate::scene::Pose;
 use crate::scene::appearance::texture_mapping::TextureMapping;
-use crate::scene::mesh::Mesh;
-use crate::scene::mesh::bounding_box::BoundingBox;
-use crate::scene::shape::mass::MassProperties;
-use crate::scene::shape::primitive::PrimitiveKind;
 use crate::scene::shape::{Appearance, HeightField, Part, Primitive, Shape, ShapeDynamics, Velocity};
 
 /// Smallest moment of inertia per kilogram (m2) that counts.

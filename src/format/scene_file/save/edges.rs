@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::scene::mesh::Mesh;
+use geometry::Mesh;
 
 /// One bit per edge of each triangle, from the lowest bit on.
 pub(super) fn drawn(mesh: &Mesh, threshold: f64) -> Vec<u8> {

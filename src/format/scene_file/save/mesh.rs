@@ -3,11 +3,12 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use geometry::Mesh;
+
 use super::edges;
 use crate::format::ttt::chunks::MeshData;
 use crate::format::ttt::mesh_arrays::{Arrays, MeshArrays, Places};
 use crate::scene::Pose;
-use crate::scene::mesh::Mesh;
 
 /// The arrays of a file as it grows.
 #[derive(Default)]

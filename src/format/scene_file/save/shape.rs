@@ -1,14 +1,15 @@
 //! Shapes: one mesh, or a group of meshes, each in the frame of its box.
 
+use geometry::MassProperties;
+use geometry::PrimitiveKind;
+
 use super::{Context, colour, texture};
 use crate::format::ttt::chunks::{Material as MaterialChunk, MeshData, MeshNode, Shape as Chunk, ShapeGeometry};
 use crate::format::ttt::tree::{Mesh as FileMesh, MeshTree};
 use crate::format::ttt::{EngineBlock, Heights};
 use crate::scene::Pose;
 use crate::scene::parameters::engine_blocks::EngineValues;
-use crate::scene::shape::geometry::box_of;
-use crate::scene::shape::mass::MassProperties;
-use crate::scene::shape::primitive::PrimitiveKind;
+use crate::scene::shape::reshape::box_of;
 use crate::scene::shape::{Appearance, Material, Part, Primitive, Shape, ShapeDynamics};
 
 const CONVEX: u8 = 0x4;

@@ -2,13 +2,13 @@
 
 use std::rc::Rc;
 
+use geometry::BoundingBox;
+use geometry::Mesh;
+use geometry::PrimitiveKind;
+use geometry::mass::compute_mass_and_inertia;
 use nalgebra::UnitQuaternion;
 
-use super::mass::compute_mass_and_inertia;
-use super::primitive::PrimitiveKind;
 use super::{Part, Shape};
-use crate::scene::mesh::Mesh;
-use crate::scene::mesh::bounding_box::BoundingBox;
 use crate::scene::{Field, Handle, Pose, Scene, SceneError, SceneResult};
 
 impl Part {

@@ -1,0 +1,3 @@
+//! Poses of objects: in the world, in a frame of one's choice, and how fast they change.
+
+pub mod placement;
