@@ -215,7 +215,7 @@ impl Simulator {
 
     /// One pass of the loop: a simulation step when running, an idle pass when stopped or paused.
     pub fn pass(&mut self) {
-        self.sim.loop_pass();
+        self.sim.loop_iteration();
     }
 
     /// Brings a scene of CoppeliaSim into the empty scene, or adds a model to the present one.

@@ -45,6 +45,9 @@ const OWNERS: &[(&str, &str)] = &[
     ("ctrlc", "src/cli"),
 ];
 
+/// Where functions for scripts stand. What they may touch is in their signature: `&Cx` reads, `&mut Cx` changes something or calls scripts.
+const FUNCTIONS_FOR_SCRIPTS: &[&str] = &["src/api", "src/modules"];
+
 /// The edges to libraries written in C.
 const UNSAFE: &[&str] = &["src/script", "src/io/zmq"];
 
@@ -79,6 +82,19 @@ fn every_dependency_has_one_owner() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// `Sim` is the whole simulator: who holds it may do anything, whatever the signature says.
+#[test]
+fn functions_for_scripts_reach_the_simulator_through_their_context() {
+    let mut wrong = Vec::new();
+    let folders = |file: &PathBuf| FUNCTIONS_FOR_SCRIPTS.iter().any(|folder| relative(file).starts_with(folder));
+    for file in sources().into_iter().filter(folders) {
+        let text = read(&file);
+        let hold = |line: &&str| line.contains(".sim()") || line.contains("sim.upgrade()") || has_word(line, "Sim");
+        wrong.extend(code_lines(&text).filter(hold).map(|line| format!("{}: {}", file.display(), line.trim())));
+    }
+    assert!(wrong.is_empty(), "add a narrow accessor to `Cx` instead:\n{}", wrong.join("\n"));
 }
 
 #[test]
@@ -185,6 +201,10 @@ fn identifier(text: &str) -> String {
 
 fn code_lines(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter(|line| !line.trim_start().starts_with("//"))
+}
+
+fn has_word(line: &str, word: &str) -> bool {
+    line.split(|c: char| !c.is_alphanumeric() && c != '_').any(|part| part == word)
 }
 
 fn names_crate(line: &str, name: &str) -> bool {

@@ -26,7 +26,7 @@ const LONGEST_WAIT: f64 = 1.0;
 #[api("remote.zmq.receive")]
 fn receive(cx: &mut Cx, patience: f64) -> Result<Option<(i64, Option<Text>)>> {
     let patience = Duration::from_secs_f64(patience.clamp(0.0, LONGEST_WAIT));
-    let server = cx.sim().zmq_server();
+    let server = cx.zmq_server();
     Ok(server.and_then(|server| server.receive(patience)).map(|incoming| match incoming {
         Incoming::Request(peer, message) => (peer as i64, Some(Text(message))),
         Incoming::Gone(peer) => (peer as i64, None),
@@ -39,7 +39,7 @@ fn receive(cx: &mut Cx, patience: f64) -> Result<Option<(i64, Option<Text>)>> {
 /// @param message the answer
 #[api("remote.zmq.reply")]
 fn reply(cx: &mut Cx, peer: i64, message: Bytes) -> Result<()> {
-    if let Some(server) = cx.sim().zmq_server() {
+    if let Some(server) = cx.zmq_server() {
         server.reply(peer as u64, &message.0);
     }
     Ok(())
@@ -50,7 +50,7 @@ fn reply(cx: &mut Cx, peer: i64, message: Bytes) -> Result<()> {
 /// @return closed
 #[api("remote.zmq.closed")]
 fn closed(cx: &Cx) -> Result<bool> {
-    Ok(cx.sim().zmq_server().is_none_or(|server| server.is_closed()))
+    Ok(cx.zmq_server().is_none_or(|server| server.is_closed()))
 }
 
 /// Whether something has come in by other sockets of the simulator, which are served when this function's caller returns.
@@ -58,7 +58,7 @@ fn closed(cx: &Cx) -> Result<bool> {
 /// @return waiting
 #[api("remote.zmq.others")]
 fn others(cx: &Cx) -> Result<bool> {
-    Ok(cx.sim().zmq_server().is_some_and(|server| server.others_wait()))
+    Ok(cx.zmq_server().is_some_and(|server| server.others_wait()))
 }
 
 /// The types a function is declared to return.

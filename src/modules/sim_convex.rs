@@ -26,7 +26,7 @@ fn hull(cx: &mut Cx, object_handles: Handles, #[default(0.0)] growth: f64) -> Re
     }
     let mut shape = Shape::from_mesh(grown(&points, growth)?, Shape::mesh_appearance())?;
     shape.parts.iter_mut().for_each(|part| part.convex = true);
-    cx.sim().clone().add_object("shape", Kind::Shape(Box::new(shape)))
+    cx.add_object("shape", Kind::Shape(Box::new(shape)))
 }
 
 /// The hull of points.
@@ -60,7 +60,7 @@ fn divide(cx: &mut Cx, original: Handle, fineness: DecompositionParameters) -> R
     let (shapes, pose) = cx.scene().convex_shapes(original, fineness)?;
     let mut handles = Vec::new();
     for shape in shapes {
-        let handle = cx.sim().clone().add_object("convex", Kind::Shape(Box::new(shape)))?;
+        let handle = cx.add_object("convex", Kind::Shape(Box::new(shape)))?;
         cx.scene_mut().set_world_pose(handle, pose)?;
         handles.push(handle);
     }

@@ -60,9 +60,9 @@ fn exec(
 ) -> Result<(i64, Bytes, Bytes)> {
     let program = program(cx, program_path, &arguments, &opts)?;
     let mut run = program.run(input.0).map_err(failure)?;
-    let exit_code = cx.sim().wait_for(None, || run.exit_code())?;
+    let exit_code = cx.wait_for(None, || run.exit_code())?;
     let exit_code = exit_code.ok_or(ApiError::Interrupted)?.map_err(failure)?;
-    cx.sim().wait_for(Some(PATIENCE), || run.outputs_are_complete().then_some(()))?;
+    cx.wait_for(Some(PATIENCE), || run.outputs_are_complete().then_some(()))?;
     let (out, err) = run.outputs().map_err(failure)?;
     Ok((exit_code.into(), Bytes(out), Bytes(err)))
 }
@@ -94,7 +94,7 @@ fn wait(cx: &Cx, handle: String, #[default(5.0)] timeout: f64) -> Result<Results
     let processes = processes(cx);
     let mut processes = processes.borrow_mut();
     let process = processes.get(&handle)?;
-    let exit_code = cx.sim().wait_for(limit(timeout), || process.exit_code())?.transpose().map_err(failure)?;
+    let exit_code = cx.wait_for(limit(timeout), || process.exit_code())?.transpose().map_err(failure)?;
     Ok(Results(vec![exit_code.map_or(Data::Nil, |code| Data::Int(code.into()))]))
 }
 

@@ -34,7 +34,7 @@ pub(crate) const REMOTE: &[ApiFn] = functions![start_remote];
 #[api("simWS.start")]
 fn start(cx: &mut Cx, listen_port: i64) -> Result<String> {
     let port = u16::try_from(listen_port).map_err(|_| ApiError::Other(format!("invalid port: {listen_port}")))?;
-    let address = cx.sim().options.listen_address;
+    let address = cx.options().listen_address;
     serve(cx, TcpListener::bind((address, port)), WsPages::All)
         .map_err(|error| unusable(&format!("{address}:{port}"), &error))
 }
@@ -53,17 +53,15 @@ fn get_port(cx: &Cx, server_handle: String) -> Result<i64> {
 /// @return serverHandle
 #[api("remote.ws.start")]
 fn start_remote(cx: &mut Cx) -> Result<String> {
-    let listener = cx.sim().remote_listener.borrow().as_ref().map(TcpListener::try_clone);
+    let listener = cx.remote_listener();
     let listener = listener.ok_or_else(|| ApiError::Other("there is no port for the remote API.".into()))?;
-    let pages = WsPages::Own(cx.sim().options.web_origins.clone());
+    let pages = WsPages::Own(cx.options().web_origins.clone());
     serve(cx, listener, pages).map_err(|error| unusable("the remote API's port", &error))
 }
 
-fn serve(cx: &Cx, listener: std::io::Result<TcpListener>, pages: WsPages) -> std::io::Result<String> {
-    let sim = cx.sim();
-    let numbers = sim.web_sockets.borrow().numbers.clone();
-    let socket = WsEndpoint::listen(sim.event_loop()?, listener?, pages, numbers)?;
-    Ok(sim.add_web_socket(cx, Role::Server, socket).handle())
+fn serve(cx: &mut Cx, listener: std::io::Result<TcpListener>, pages: WsPages) -> std::io::Result<String> {
+    let socket = WsEndpoint::listen(cx.event_loop()?, listener?, pages, cx.web_socket_numbers())?;
+    Ok(cx.add_web_socket(Role::Server, socket).handle())
 }
 
 fn unusable(address: &str, error: &std::io::Error) -> ApiError {
@@ -75,8 +73,8 @@ fn unusable(address: &str, error: &std::io::Error) -> ApiError {
 /// @param serverHandle
 #[api("simWS.stop")]
 fn stop(cx: &mut Cx, server_handle: String) -> Result<()> {
-    let number = handle_number(&server_handle, "Server").filter(|&number| cx.sim().web_socket(number).is_some());
-    cx.sim().stop_web_socket(number.ok_or_else(invalid_handle)?);
+    let number = handle_number(&server_handle, "Server").filter(|&number| cx.web_socket(number).is_some());
+    cx.stop_web_socket(number.ok_or_else(invalid_handle)?);
     Ok(())
 }
 
@@ -86,14 +84,13 @@ fn stop(cx: &mut Cx, server_handle: String) -> Result<()> {
 /// @return clientHandle
 #[api("simWS.connect")]
 fn connect(cx: &mut Cx, uri: String) -> Result<String> {
-    let sim = cx.sim();
-    let agent = sim.app.borrow().named_params.get("simWS.userAgent").cloned().unwrap_or_default();
-    let numbers = sim.web_sockets.borrow().numbers.clone();
+    let agent = cx.app().named_params.get("simWS.userAgent").cloned().unwrap_or_default();
+    let numbers = cx.web_socket_numbers();
     let refused = |reason: String| ApiError::Other(format!("Could not create connection: {reason}"));
     let request = WsRequest::new(&uri, &String::from_utf8_lossy(&agent), numbers.next()).map_err(refused)?;
-    let event_loop = sim.event_loop().map_err(|error| refused(error.to_string()))?;
+    let event_loop = cx.event_loop().map_err(|error| refused(error.to_string()))?;
     let socket = WsEndpoint::connect(event_loop, request, numbers);
-    Ok(sim.add_web_socket(cx, Role::Client, socket).handle())
+    Ok(cx.add_web_socket(Role::Client, socket).handle())
 }
 
 /// Ends a client at once.
@@ -101,8 +98,8 @@ fn connect(cx: &mut Cx, uri: String) -> Result<String> {
 /// @param clientHandle
 #[api("simWS.disconnect")]
 fn disconnect(cx: &mut Cx, client_handle: String) -> Result<()> {
-    let number = handle_number(&client_handle, "Client").filter(|&number| cx.sim().web_socket(number).is_some());
-    cx.sim().stop_web_socket(number.ok_or_else(invalid_handle)?);
+    let number = handle_number(&client_handle, "Client").filter(|&number| cx.web_socket(number).is_some());
+    cx.stop_web_socket(number.ok_or_else(invalid_handle)?);
     Ok(())
 }
 
@@ -123,9 +120,7 @@ fn send(
     let endpoint = endpoint(cx, &server_or_client_handle)?;
     let connection = handle_number(&connection_handle, "Connection").ok_or_else(invalid_handle)?;
     match endpoint.send(connection, data.0, opcode) {
-        Err(SendError::Expired) if !cx.sim().web_sockets.borrow().numbers.has_given(connection) => {
-            Err(invalid_handle())
-        }
+        Err(SendError::Expired) if !cx.web_socket_numbers().has_given(connection) => Err(invalid_handle()),
         Err(error) => Err(ApiError::Other(error.to_string())),
         Ok(()) => Ok(()),
     }
@@ -187,7 +182,7 @@ fn set_handler(cx: &Cx, handle: &str, occasion: Occasion, function: ScriptFuncti
 
 fn endpoint(cx: &Cx, handle: &str) -> Result<Rc<Endpoint>> {
     let number = handle_number(handle, "Server").or_else(|| handle_number(handle, "Client"));
-    let endpoint = number.and_then(|number| cx.sim().web_socket(number));
+    let endpoint = number.and_then(|number| cx.web_socket(number));
     endpoint.filter(|endpoint| endpoint.handle() == handle).ok_or_else(invalid_handle)
 }
 

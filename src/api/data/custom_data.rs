@@ -3,6 +3,8 @@
 //! On objects and the scene the same store holds the properties below `customData.`: a buffer property and the tag of its name are one.
 //! The table and buffer forms are written in Lua.
 
+use std::collections::BTreeSet;
+
 use api_macro::api;
 
 use crate::api::{ApiFn, Cx, Result, functions};
@@ -36,7 +38,7 @@ fn owner(cx: &Cx, raw: i64) -> Result<Owner> {
         special::APP_STORAGE => Ok(Owner::AppStorage),
         special::APP => Ok(Owner::App),
         special::SCENE => Ok(Owner::Scene(Target::Scene)),
-        _ => match cx.sim().property_target(raw, cx.script()) {
+        _ => match cx.property_target(raw) {
             Ok(target @ Target::Object(_)) => Ok(Owner::Scene(target)),
             _ => Err(SceneError::NoSuchObject.into()),
         },
@@ -63,14 +65,14 @@ fn write_custom_string_data(
     }
     let edit = if tag_name.is_empty() { Edit::Clear } else { Edit::Tag(&tag_name, bytes.map(Data::Buffer)) };
     match owner {
-        Owner::Scene(target) => drop(cx.sim().edit_named_values(&target, Namespace::CustomData, edit)?),
-        Owner::App | Owner::AppStorage => drop(cx.sim().app.borrow_mut().raw_data.edit(edit)),
+        Owner::Scene(target) => drop(cx.edit_named_values(&target, Namespace::CustomData, edit)?),
+        Owner::App | Owner::AppStorage => drop(cx.app_mut().raw_data.edit(edit)),
     }
     Ok(())
 }
 
-fn write_app_storage(cx: &Cx, tag: &str, bytes: Option<Vec<u8>>) {
-    cx.sim().with_app_storage(|storage| {
+fn write_app_storage(cx: &mut Cx, tag: &str, bytes: Option<Vec<u8>>) {
+    cx.change_storage(|storage| {
         if !tag.is_empty() {
             return storage.set_block(Section::Tags, tag, bytes);
         }
@@ -91,9 +93,9 @@ fn read_custom_string_data(cx: &Cx, object_handle: Number, tag_name: String) -> 
         _ => None,
     };
     let bytes = match owner(cx, object_handle.0)? {
-        Owner::Scene(target) => cx.sim().with_named_values(&target, Namespace::CustomData, read)?,
-        Owner::App => read(&cx.sim().app.borrow().raw_data),
-        Owner::AppStorage => cx.sim().with_app_storage(|storage| storage.blocks(Section::Tags).get(&tag_name).cloned()),
+        Owner::Scene(target) => cx.named_values(&target, Namespace::CustomData, read)?,
+        Owner::App => read(&cx.app().raw_data),
+        Owner::AppStorage => cx.stored_block(Section::Tags, &tag_name),
     };
     Ok(bytes.map_or(Data::Nil, Data::Text))
 }
@@ -106,11 +108,9 @@ fn read_custom_string_data(cx: &Cx, object_handle: Number, tag_name: String) -> 
 fn read_custom_data_tags(cx: &Cx, object_handle: Number) -> Result<Vec<String>> {
     let tags = |values: &CustomData| values.tags().collect();
     match owner(cx, object_handle.0)? {
-        Owner::Scene(target) => cx.sim().with_named_values(&target, Namespace::CustomData, tags),
-        Owner::App => Ok(tags(&cx.sim().app.borrow().raw_data)),
-        Owner::AppStorage => {
-            Ok(cx.sim().with_app_storage(|storage| storage.blocks(Section::Tags).keys().cloned().collect()))
-        }
+        Owner::Scene(target) => cx.named_values(&target, Namespace::CustomData, tags),
+        Owner::App => Ok(tags(&cx.app().raw_data)),
+        Owner::AppStorage => Ok(cx.stored_tags(Section::Tags)),
     }
 }
 
@@ -128,11 +128,11 @@ fn persistent_data_write(
 ) -> Result<()> {
     let value = Some(data_value.0).filter(|bytes| !bytes.is_empty());
     if options.0 & IN_FILE == 0 {
-        cx.sim().app.borrow_mut().persistent_data.insert(data_tag, value);
+        cx.app_mut().persistent_data.insert(data_tag, value);
         return Ok(());
     }
-    cx.sim().app.borrow_mut().persistent_data.remove(&data_tag);
-    cx.sim().with_app_storage(|storage| storage.set_block(Section::Persistent, &data_tag, value));
+    cx.app_mut().persistent_data.remove(&data_tag);
+    cx.change_storage(|storage| storage.set_block(Section::Persistent, &data_tag, value));
     Ok(())
 }
 
@@ -142,8 +142,8 @@ fn persistent_data_write(
 /// @return dataValue nothing if there is none
 #[api("sim.persistentDataRead")]
 fn persistent_data_read(cx: &Cx, data_tag: String) -> Result<Option<Bytes>> {
-    let until_the_end = cx.sim().app.borrow().persistent_data.get(&data_tag).cloned();
-    let in_file = || cx.sim().with_app_storage(|storage| storage.blocks(Section::Persistent).get(&data_tag).cloned());
+    let until_the_end = cx.app().persistent_data.get(&data_tag).cloned();
+    let in_file = || cx.stored_block(Section::Persistent, &data_tag);
     Ok(until_the_end.unwrap_or_else(in_file).map(Bytes))
 }
 
@@ -152,12 +152,12 @@ fn persistent_data_read(cx: &Cx, data_tag: String) -> Result<Option<Bytes>> {
 /// @return tags in alphabetical order
 #[api("sim.getPersistentDataTags")]
 fn get_persistent_data_tags(cx: &Cx) -> Result<Vec<String>> {
-    let mut tags = cx.sim().with_app_storage(|storage| storage.blocks(Section::Persistent).clone());
-    for (tag, value) in &cx.sim().app.borrow().persistent_data {
+    let mut tags = BTreeSet::from_iter(cx.stored_tags(Section::Persistent));
+    for (tag, value) in &cx.app().persistent_data {
         match value {
-            Some(bytes) => drop(tags.insert(tag.clone(), bytes.clone())),
-            None => drop(tags.remove(tag)),
-        }
+            Some(_) => tags.insert(tag.clone()),
+            None => tags.remove(tag),
+        };
     }
-    Ok(tags.into_keys().collect())
+    Ok(Vec::from_iter(tags))
 }

@@ -78,14 +78,14 @@ impl Options {
 }
 
 fn read<T: PropertyValue>(cx: &Cx, target: i64, name: &str) -> Result<T> {
-    let target = cx.sim().property_target(target, cx.script())?;
-    let data = cx.sim().read_property(&target, name, T::TYPE)?;
+    let target = cx.property_target(target)?;
+    let data = cx.read_property(&target, name, T::TYPE)?;
     T::from_data(data).ok_or_else(|| ApiError::Other("property is corrupt.".into()))
 }
 
-fn write<T: PropertyValue>(cx: &Cx, target: i64, name: &str, value: T) -> Result<()> {
-    let target = cx.sim().property_target(target, cx.script())?;
-    cx.sim().write_property(&target, name, (T::TYPE, value.into_data()), cx.script())
+fn write<T: PropertyValue>(cx: &mut Cx, target: i64, name: &str, value: T) -> Result<()> {
+    let target = cx.property_target(target)?;
+    cx.write_property(&target, name, (T::TYPE, value.into_data()))
 }
 
 /// A getter and a setter for each type.
@@ -150,8 +150,8 @@ fn remove_property(
     property_name: PropertyName,
     #[default(Options::default())] options: Options,
 ) -> Result<()> {
-    let target = cx.sim().property_target(target, cx.script())?;
-    options.apply(cx.sim().remove_property(&target, property_name.as_str())).map(drop)
+    let target = cx.property_target(target)?;
+    options.apply(cx.remove_property(&target, property_name.as_str())).map(drop)
 }
 
 /// What is known about a property; nothing when there is none of that name.
@@ -167,8 +167,8 @@ fn get_property_info(
     property_name: PropertyName,
     #[default(Options::default())] _options: Options,
 ) -> Result<Option<(i64, i64, &'static str)>> {
-    let target = cx.sim().property_target(target, cx.script())?;
-    Ok(cx.sim().property_info(&target, property_name.as_str()).map(|(ty, flags)| (ty as i64, flags, "")))
+    let target = cx.property_target(target)?;
+    Ok(cx.property_info(&target, property_name.as_str()).map(|(ty, flags)| (ty as i64, flags, "")))
 }
 
 /// The properties of a target one by one; nothing past the last one.
@@ -184,7 +184,7 @@ fn get_property_name(
     index: i64,
     #[default(Options::default())] options: Options,
 ) -> Result<Option<(String, &'static str)>> {
-    let target = cx.sim().property_target(target, cx.script())?;
+    let target = cx.property_target(target)?;
     let Ok(index) = usize::try_from(index) else { return Ok(None) };
-    Ok(cx.sim().property_name(&target, index, &options.prefix))
+    Ok(cx.property_name(&target, index, &options.prefix))
 }

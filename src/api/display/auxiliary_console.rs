@@ -44,7 +44,7 @@ fn auxiliary_console_open(
     #[default(None)] _background_color: Option<[f64; 3]>,
 ) -> Result<i64> {
     let console = AuxiliaryConsole { title, closes_at_end: mode.0 & CLOSES_AT_END != 0 };
-    Ok(cx.sim().app.borrow_mut().consoles.open(console))
+    Ok(cx.app_mut().consoles.open(console))
 }
 
 /// Prints to a console.
@@ -54,7 +54,7 @@ fn auxiliary_console_open(
 /// @return result 1, or 0 if there is no such console
 #[api("sim.auxiliaryConsolePrint")]
 fn auxiliary_console_print(cx: &Cx, console_handle: i64, #[default(None)] text: Option<Bytes>) -> Result<i64> {
-    let Some(title) = cx.sim().app.borrow().consoles.title(console_handle) else { return Ok(0) };
+    let Some(title) = cx.app().consoles.title(console_handle) else { return Ok(0) };
     if let Some(Bytes(text)) = text {
         let text = String::from_utf8_lossy(&text);
         cx.env().log(verbosity::INFOS, &format!("{title}: {}", text.trim_end_matches('\n')));
@@ -69,7 +69,7 @@ fn auxiliary_console_print(cx: &Cx, console_handle: i64, #[default(None)] text: 
 /// @return result 1, or 0 if there is no such console
 #[api("sim.auxiliaryConsoleShow")]
 fn auxiliary_console_show(cx: &Cx, console_handle: Number, _show_state: bool) -> Result<i64> {
-    Ok(i64::from(cx.sim().app.borrow().consoles.title(console_handle.0).is_some()))
+    Ok(i64::from(cx.app().consoles.title(console_handle.0).is_some()))
 }
 
 /// Closes a console.
@@ -78,7 +78,7 @@ fn auxiliary_console_show(cx: &Cx, console_handle: Number, _show_state: bool) ->
 /// @return result 1, or 0 if there is no such console
 #[api("sim.auxiliaryConsoleClose")]
 fn auxiliary_console_close(cx: &mut Cx, console_handle: Number) -> Result<i64> {
-    Ok(i64::from(cx.sim().app.borrow_mut().consoles.close(console_handle.0)))
+    Ok(i64::from(cx.app_mut().consoles.close(console_handle.0)))
 }
 
 /// The next thing the user did in the interface. Nobody does anything there.
@@ -98,8 +98,8 @@ fn get_simulator_message(_cx: &Cx) -> Result<(i64, Vec<i64>, Data)> {
 #[api("sim.systemSemaphore")]
 fn system_semaphore(cx: &mut Cx, key: Bytes, acquire: bool) -> Result<()> {
     if acquire {
-        return cx.sim().acquire_semaphore(&key.0);
+        return cx.acquire_semaphore(&key.0);
     }
-    cx.sim().semaphores.borrow_mut().release(&key.0);
+    cx.release_semaphore(&key.0);
     Ok(())
 }

@@ -3,7 +3,6 @@
 //! A scene is a file of CoppeliaSim, or a Lua file on top of the default scene, or the default scene alone.
 
 use std::path::Path;
-use std::rc::Rc;
 
 use api_macro::api;
 
@@ -38,8 +37,7 @@ fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
         FileOrBytes::Name(name) => (named_scene(&name)?, Some(absolute(&name))),
         FileOrBytes::Bytes(bytes) => (scene_source("the buffer", bytes, None)?, None),
     };
-    let caller = Rc::clone(cx.script());
-    Rc::clone(cx.sim()).switch_scene(&caller, source, path)?;
+    cx.switch_scene(source, path)?;
     Ok(1)
 }
 
@@ -58,7 +56,7 @@ fn load_model(cx: &mut Cx, filename_or_buffer: Data, #[default(false)] only_thum
         FileOrBytes::Name(name) => scene_file(&name, &read(&name)?, folder_of(&name))?,
         FileOrBytes::Bytes(bytes) => scene_file("the buffer", &bytes, None)?,
     };
-    let root = Rc::clone(cx.sim()).load_model_file(file)?;
+    let root = cx.load_model(file)?;
     Ok(root.map_or(special::WORLD, Handle::raw))
 }
 
@@ -68,9 +66,8 @@ fn load_model(cx: &mut Cx, filename_or_buffer: Data, #[default(false)] only_thum
 /// @return result 1, or a buffer with the bytes
 #[api("sim.saveScene")]
 fn save_scene(cx: &mut Cx, #[default(None)] filename: Option<String>) -> Result<Data> {
-    let sim = Rc::clone(cx.sim());
-    let Some(filename) = filename else { return Ok(Data::Buffer(sim.scene_file()?.write())) };
-    sim.save_scene(&filename)?;
+    let Some(filename) = filename else { return Ok(Data::Buffer(cx.scene_file()?.write())) };
+    cx.save_scene(&filename)?;
     Ok(Data::Int(1))
 }
 
@@ -84,7 +81,7 @@ fn save_model(cx: &mut Cx, model_base_handle: Handle, #[default(None)] filename:
     if !cx.scene().object(model_base_handle)?.is_model() {
         return Err(SceneError::NotAModel.into());
     }
-    let file = cx.sim().model_file(model_base_handle)?;
+    let file = cx.model_file(model_base_handle)?;
     let Some(filename) = filename else { return Ok(Data::Buffer(file.write())) };
     write_named(&file, &filename)?;
     Ok(Data::Int(1))
@@ -157,7 +154,6 @@ fn absolute(filename: &str) -> String {
 /// @return result 1
 #[api("sim.closeScene")]
 fn close_scene(cx: &mut Cx) -> Result<i64> {
-    let caller = Rc::clone(cx.script());
-    Rc::clone(cx.sim()).switch_scene(&caller, SceneSource::Default, None)?;
+    cx.switch_scene(SceneSource::Default, None)?;
     Ok(1)
 }

@@ -2,6 +2,9 @@
 //!
 //! Ports belong to the simulator, so that scripts may share a handle; they are closed when the simulation ends.
 
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
 use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
@@ -18,7 +21,7 @@ const NOTHING_TO_SEND: i64 = -5;
 
 #[api("sim._serialOpen")]
 fn serial_open(cx: &mut Cx, port_string: String, baud_rate: Number) -> Result<i64> {
-    let mut ports = cx.sim().serial_ports.borrow_mut();
+    let mut ports = cx.serial_ports_mut();
     if ports.values().any(|port| port.path() == port_string) {
         return Ok(FAILED);
     }
@@ -27,7 +30,7 @@ fn serial_open(cx: &mut Cx, port_string: String, baud_rate: Number) -> Result<i6
 
 #[api("sim._serialClose")]
 fn serial_close(cx: &mut Cx, port_handle: Number) -> Result<()> {
-    cx.sim().serial_ports.borrow_mut().remove(port_handle.0).map(drop).ok_or_else(unknown)
+    cx.serial_ports_mut().remove(port_handle.0).map(drop).ok_or_else(unknown)
 }
 
 /// Sends bytes through a serial port.
@@ -37,9 +40,10 @@ fn serial_close(cx: &mut Cx, port_handle: Number) -> Result<()> {
 /// @return charsSent how many the device took; -5 for no data, -1 when the device is gone
 #[api("sim.serialSend")]
 fn serial_send(cx: &mut Cx, port_handle: Number, data: Bytes) -> Result<i64> {
-    let mut ports = cx.sim().serial_ports.borrow_mut();
+    let stop = Arc::clone(&cx.options().stop);
+    let mut ports = cx.serial_ports_mut();
     let port = ports.get_mut(port_handle.0).ok_or_else(unknown)?;
-    Ok(match (data.0.len(), port.write(&data.0, || cx.sim().is_interrupted())) {
+    Ok(match (data.0.len(), port.write(&data.0, || stop.load(Ordering::Relaxed))) {
         (0, _) => NOTHING_TO_SEND,
         (_, 0) => FAILED,
         (_, written) => written as i64,
@@ -51,8 +55,8 @@ fn serial_send(cx: &mut Cx, port_handle: Number, data: Bytes) -> Result<i64> {
 /// @param portHandle from sim.serialOpen
 /// @return byteCount -1 when the device is gone
 #[api("sim.serialCheck")]
-fn serial_check(cx: &Cx, port_handle: Number) -> Result<i64> {
-    let mut ports = cx.sim().serial_ports.borrow_mut();
+fn serial_check(cx: &mut Cx, port_handle: Number) -> Result<i64> {
+    let mut ports = cx.serial_ports_mut();
     let port = ports.get_mut(port_handle.0).ok_or_else(unknown)?;
     Ok(port.available().map_or(FAILED, |count| count as i64))
 }
@@ -60,7 +64,7 @@ fn serial_check(cx: &Cx, port_handle: Number) -> Result<i64> {
 /// Bytes that are there, at most `length` of them; nothing when there are none, or no such port.
 #[api("sim._serialRead")]
 fn serial_read(cx: &mut Cx, port_handle: Number, length: Number) -> Result<Option<Bytes>> {
-    let mut ports = cx.sim().serial_ports.borrow_mut();
+    let mut ports = cx.serial_ports_mut();
     let bytes = ports.get_mut(port_handle.0).map(|port| port.read(usize::try_from(length.0).unwrap_or(0)));
     Ok(bytes.filter(|bytes| !bytes.is_empty()).map(Bytes))
 }
@@ -71,7 +75,7 @@ fn serial_rest(cx: &Cx) -> Result<()> {
     if cx.can_yield() {
         return Ok(());
     }
-    cx.sim().wait_for(Some(std::time::Duration::from_millis(1)), || None::<()>).map(drop)
+    cx.wait_for(Some(std::time::Duration::from_millis(1)), || None::<()>).map(drop)
 }
 
 fn unknown() -> ApiError {

@@ -104,7 +104,7 @@ const MODEL: i64 = 0x80_0000;
 #[api("sim.isDynamicallyEnabled")]
 fn is_dynamically_enabled(cx: &Cx, object_handle: Handle) -> Result<bool> {
     cx.scene().object(object_handle)?;
-    Ok(cx.sim().dynamics.borrow().as_ref().is_some_and(|dynamics| dynamics.simulates(object_handle)))
+    Ok(cx.dynamics().is_some_and(|dynamics| dynamics.simulates(object_handle)))
 }
 
 /// A contact of the last dynamics call. Four empty tables when there is none with that index.
@@ -119,7 +119,7 @@ fn is_dynamically_enabled(cx: &Cx, object_handle: Handle) -> Result<bool> {
 #[api("sim.getContactInfo")]
 fn get_contact_info(cx: &Cx, dynamic_pass: i64, object_handle: i64, index: i64) -> Result<ContactInfo> {
     let shape = if object_handle == special::ALL { None } else { Some(existing(cx, object_handle)?) };
-    let dynamics = cx.sim().dynamics.borrow();
+    let dynamics = cx.dynamics();
     let contacts = dynamics.iter().flat_map(|dynamics| dynamics.contacts());
     let found = contacts
         .filter(|contact| dynamic_pass == special::ALL || dynamic_pass == i64::from(contact.pass))
@@ -150,7 +150,7 @@ fn read_force_sensor(cx: &Cx, object_handle: ObjectRef) -> Result<(i64, [f64; 3]
     let object = scene.object(object_handle.handle)?;
     let sensor = object.force_sensor()?;
     let reading = if object_handle.has(flag::RAW_VALUE) { sensor.raw } else { sensor.filtered };
-    let running = !cx.sim().clock.is_stopped();
+    let running = !cx.clock().is_stopped();
     let broken = running && object.children().is_empty();
     let (force, torque) = reading.unwrap_or_default();
     Ok((i64::from(reading.is_some()) | i64::from(broken) << 1, force, torque))

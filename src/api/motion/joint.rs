@@ -55,7 +55,7 @@ fn create_joint(
     if let Some(size) = sizes {
         joint.size = size;
     }
-    cx.sim().clone().add_object(joint_type.alias(), Kind::Joint(Box::new(joint)))
+    cx.add_object(joint_type.alias(), Kind::Joint(Box::new(joint)))
 }
 
 /// Type of a joint.

@@ -10,6 +10,6 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![handle_joint_motion];
 #[api("sim.handleJointMotion")]
 fn handle_joint_motion(cx: &mut Cx) -> Result<()> {
     crate::api::scripts::simulation::main_script_only(cx)?;
-    cx.sim().clone().handle_joint_motion();
+    cx.handle_joint_motion();
     Ok(())
 }

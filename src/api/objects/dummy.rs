@@ -14,7 +14,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![create_dummy, get_link_dummy, 
 /// @return dummyHandle the dummy
 #[api("sim.createDummy")]
 fn create_dummy(cx: &mut Cx, size: f64) -> Result<Handle> {
-    cx.sim().clone().add_object("dummy", Kind::Dummy(Dummy::new(size)))
+    cx.add_object("dummy", Kind::Dummy(Dummy::new(size)))
 }
 
 /// The dummy another is linked to.

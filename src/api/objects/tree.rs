@@ -1,7 +1,5 @@
 //! `sim.*`: the tree of objects: parents, children, enumeration, removal, selection.
 
-use std::rc::Rc;
-
 use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
@@ -166,7 +164,7 @@ fn is_handle(cx: &Cx, object_handle: Number) -> Result<bool> {
 
 fn exists(cx: &Cx, raw: i64) -> bool {
     let object = Handle::from_raw(raw).is_some_and(|handle| cx.scene().exists(handle));
-    object || cx.scene().collection(raw).is_ok() || cx.sim().script(raw).is_some()
+    object || cx.scene().collection(raw).is_ok() || cx.script_by_handle(raw).is_some()
 }
 
 /// Whether a handle is valid, as a number.
@@ -215,12 +213,12 @@ fn remove_objects(cx: &mut Cx, object_handles: Handles, #[default(false)] delaye
 
 fn remove(cx: &mut Cx, handles: &[Handle], delayed: bool) -> Result<()> {
     if !delayed {
-        return Rc::clone(cx.sim()).remove_objects(handles);
+        return cx.remove_objects(handles);
     }
     if handles.iter().any(|&handle| !cx.scene().exists(handle)) {
         return Err(SceneError::InvalidHandles.into());
     }
-    cx.sim().removals.delay(handles);
+    cx.remove_objects_later(handles);
     Ok(())
 }
 

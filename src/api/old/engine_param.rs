@@ -26,7 +26,7 @@ fn target(handle: Number) -> Result<Option<Handle>> {
 
 fn set(cx: &mut Cx, number: i64, target: Option<Handle>, value: f64) -> Result<()> {
     if is_step_size(number) && value.is_finite() {
-        cx.sim().set_physics_step(value);
+        cx.set_physics_step(value);
         return Ok(());
     }
     Ok(cx.scene_mut().set_engine_param(number, target, value)?)

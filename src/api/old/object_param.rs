@@ -27,7 +27,7 @@ const SCRIPT_PARAMS: std::ops::RangeInclusive<i64> = 10_100..=10_112;
 
 /// The script a number names, where the parameter is one of scripts: the functions here take scripts that are no objects as well.
 fn script(cx: &Cx, raw: i64, parameter: i64) -> Option<Rc<Script>> {
-    SCRIPT_PARAMS.contains(&parameter).then(|| cx.sim().script(raw)).flatten()
+    SCRIPT_PARAMS.contains(&parameter).then(|| cx.script_by_handle(raw)).flatten()
 }
 
 fn object(raw: i64) -> Result<Handle> {

@@ -92,11 +92,11 @@ fn read(cx: &Cx, script: &Rc<Script>, attribute: Attribute) -> Result<Data> {
         };
         return Ok(Data::Int(handle.unwrap_or(special::WORLD)));
     };
-    let value = cx.sim().read_property(&target_of(script), name, ty)?;
+    let value = cx.read_property(&target_of(script), name, ty)?;
     Ok(if attribute == Attribute::Enabled { Data::Bool(!value.truthy()) } else { value })
 }
 
-fn write(cx: &Cx, script: &Rc<Script>, attribute: Attribute, value: Data) -> Result<()> {
+fn write(cx: &mut Cx, script: &Rc<Script>, attribute: Attribute, value: Data) -> Result<()> {
     match attribute {
         Attribute::Forgotten => return Ok(()),
         Attribute::ExecutionCount => {
@@ -116,7 +116,7 @@ fn write(cx: &Cx, script: &Rc<Script>, attribute: Attribute, value: Data) -> Res
         (_, Data::Float(number)) => Data::Int(number as i64),
         (_, value) => value,
     };
-    cx.sim().write_property(&target_of(script), name, (ty, value), cx.script())
+    cx.write_property(&target_of(script), name, (ty, value))
 }
 
 fn object(cx: &Cx, raw: i64) -> Result<Handle> {
@@ -141,7 +141,7 @@ fn get_object_associated_with_script(cx: &Cx, script_handle: Number) -> Result<i
 #[api("sim.getScriptAssociatedWithObject")]
 fn get_script_associated_with_object(cx: &Cx, object_handle: Number) -> Result<i64> {
     let object = object(cx, object_handle.0)?;
-    Ok(cx.sim().script_attached_to(object, ScriptType::Simulation).unwrap_or(special::WORLD))
+    Ok(cx.script_attached_to(object, ScriptType::Simulation).unwrap_or(special::WORLD))
 }
 
 /// The customization script of an object.
@@ -151,7 +151,7 @@ fn get_script_associated_with_object(cx: &Cx, object_handle: Number) -> Result<i
 #[api("sim.getCustomizationScriptAssociatedWithObject")]
 fn get_customization_script_associated_with_object(cx: &Cx, object_handle: Number) -> Result<i64> {
     let object = object(cx, object_handle.0)?;
-    Ok(cx.sim().script_attached_to(object, ScriptType::Customization).unwrap_or(special::WORLD))
+    Ok(cx.script_attached_to(object, ScriptType::Customization).unwrap_or(special::WORLD))
 }
 
 /// Handle of a script.
@@ -172,16 +172,16 @@ fn get_script_handle(
         Data::Int(number) => number,
         Data::Text(name) => {
             let name = String::from_utf8_lossy(&name).into_owned();
-            return cx.sim().script_by_name(ScriptType::Simulation, &name);
+            return cx.script_by_name(ScriptType::Simulation, &name);
         }
         _ => return Err(ApiError::NotA { position: 1, expected: "integer" }),
     };
     let script_type = ScriptType::from_number(script_type).ok_or(ApiError::NoSuchScript)?;
     if object_handle.0 == special::WORLD {
-        return cx.sim().script_by_name(script_type, &script_name);
+        return cx.script_by_name(script_type, &script_name);
     }
     let object = object(cx, object_handle.0)?;
-    Ok(cx.sim().script_attached_to(object, script_type).unwrap_or(special::WORLD))
+    Ok(cx.script_attached_to(object, script_type).unwrap_or(special::WORLD))
 }
 
 /// Name of a script.
@@ -245,7 +245,7 @@ pub(in crate::api) fn string_param(cx: &Cx, script: &Rc<Script>, parameter: i64)
     }
 }
 
-pub(in crate::api) fn set_param(cx: &Cx, script: &Rc<Script>, parameter: i64, value: Data) -> Result<()> {
+pub(in crate::api) fn set_param(cx: &mut Cx, script: &Rc<Script>, parameter: i64, value: Data) -> Result<()> {
     write(cx, script, Attribute::from_number(parameter)?, value)
 }
 

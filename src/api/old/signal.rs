@@ -31,25 +31,25 @@ const FLOAT: &str = KINDS[1];
 const STRING: &str = KINDS[2];
 const DOUBLE: &str = KINDS[3];
 
-fn set<T: PropertyValue>(cx: &Cx, kind: &str, name: &str, value: T) -> i64 {
+fn set<T: PropertyValue>(cx: &mut Cx, kind: &str, name: &str, value: T) -> i64 {
     let name = format!("signal.{kind}{name}");
     // A name with illegal characters stores nothing, and nobody is told: so it is in CoppeliaSim.
-    let _ = cx.sim().write_property(&Target::Scene, &name, (T::TYPE, value.into_data()), cx.script());
+    let _ = cx.write_property(&Target::Scene, &name, (T::TYPE, value.into_data()));
     1
 }
 
 fn get<T: PropertyValue>(cx: &Cx, kind: &str, name: &str) -> Option<T> {
-    let data = cx.sim().read_property(&Target::Scene, &format!("signal.{kind}{name}"), T::TYPE).ok()?;
+    let data = cx.read_property(&Target::Scene, &format!("signal.{kind}{name}"), T::TYPE).ok()?;
     T::from_data(data)
 }
 
 /// Removes one signal of a kind, or all of them; returns how many there were.
-fn clear(cx: &Cx, kind: &str, name: Option<&str>) -> i64 {
+fn clear(cx: &mut Cx, kind: &str, name: Option<&str>) -> i64 {
     let names = match name {
         Some(name) => vec![name.to_owned()],
         None => names_of(cx, kind),
     };
-    let removed = names.iter().map(|name| cx.sim().remove_property(&Target::Scene, &format!("signal.{kind}{name}")));
+    let removed = names.iter().map(|name| cx.remove_property(&Target::Scene, &format!("signal.{kind}{name}")));
     removed.filter(Result::is_ok).count() as i64
 }
 

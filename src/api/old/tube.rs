@@ -19,7 +19,8 @@ const FAILED: i64 = -1;
 #[api("sim.tubeOpen")]
 fn tube_open(cx: &mut Cx, data_header: Number, data_name: Bytes, read_buffer_size: Number) -> Result<i64> {
     let capacity = usize::try_from(read_buffer_size.0).unwrap_or(0);
-    Ok(cx.sim().tubes.borrow_mut().open(data_header.0, data_name.0, capacity, cx.script().id))
+    let owner = cx.script().id;
+    Ok(cx.tubes_mut().open(data_header.0, data_name.0, capacity, owner))
 }
 
 /// Writes a packet into a tube.
@@ -29,7 +30,7 @@ fn tube_open(cx: &mut Cx, data_header: Number, data_name: Bytes, read_buffer_siz
 /// @return result 1, 0 if nobody has opened the other end (the packet is lost), -1 if there is no such tube
 #[api("sim.tubeWrite")]
 fn tube_write(cx: &mut Cx, tube_handle: Number, data: Bytes) -> Result<i64> {
-    Ok(cx.sim().tubes.borrow_mut().write(tube_handle.0, data.0).map_or(FAILED, i64::from))
+    Ok(cx.tubes_mut().write(tube_handle.0, data.0).map_or(FAILED, i64::from))
 }
 
 /// Takes the oldest packet out of a tube.
@@ -38,7 +39,7 @@ fn tube_write(cx: &mut Cx, tube_handle: Number, data: Bytes) -> Result<i64> {
 /// @return data nothing if no packet waits
 #[api("sim.tubeRead")]
 fn tube_read(cx: &mut Cx, tube_handle: Number) -> Result<Option<Bytes>> {
-    Ok(cx.sim().tubes.borrow_mut().read(tube_handle.0).map(Bytes))
+    Ok(cx.tubes_mut().read(tube_handle.0).map(Bytes))
 }
 
 /// How it is with a tube.
@@ -49,7 +50,7 @@ fn tube_read(cx: &mut Cx, tube_handle: Number) -> Result<Option<Bytes>> {
 /// @return writePacketsCount packets that wait at the other end
 #[api("sim.tubeStatus")]
 fn tube_status(cx: &Cx, tube_handle: Number) -> Result<(i64, i64, i64)> {
-    let status = cx.sim().tubes.borrow().status(tube_handle.0);
+    let status = cx.tubes().status(tube_handle.0);
     Ok(status.map_or((FAILED, 0, 0), |s| (i64::from(s.connected), s.to_read as i64, s.written as i64)))
 }
 
@@ -59,5 +60,5 @@ fn tube_status(cx: &Cx, tube_handle: Number) -> Result<(i64, i64, i64)> {
 /// @return result 1, or -1 if there is no such tube
 #[api("sim.tubeClose")]
 fn tube_close(cx: &mut Cx, tube_handle: Number) -> Result<i64> {
-    Ok(if cx.sim().tubes.borrow_mut().close(tube_handle.0) { 1 } else { FAILED })
+    Ok(if cx.tubes_mut().close(tube_handle.0) { 1 } else { FAILED })
 }

@@ -92,7 +92,7 @@ fn get_int32_param(cx: &Cx, parameter: Number) -> Result<i64> {
         int::DYNAMIC_ENGINE => cx.scene().settings().dynamics.engine[0],
         other => {
             let number = known(other, int::LAST)?;
-            cx.sim().app.borrow().idle_params.integers.get(&number).copied().unwrap_or_default()
+            cx.app().idle_params.integers.get(&number).copied().unwrap_or_default()
         }
     })
 }
@@ -108,10 +108,10 @@ fn set_int32_param(cx: &mut Cx, parameter: Number, parameter_value: Number) -> R
         return Ok(());
     }
     match parameter.0 {
-        int::DYNAMIC_ENGINE => cx.sim().set_engine([value, 0])?,
+        int::DYNAMIC_ENGINE => cx.set_engine([value, 0])?,
         other => {
             let number = known(other, int::LAST)?;
-            cx.sim().app.borrow_mut().idle_params.integers.insert(number, value);
+            cx.app_mut().idle_params.integers.insert(number, value);
         }
     }
     Ok(())
@@ -127,12 +127,12 @@ fn get_bool_param(cx: &Cx, parameter: Number) -> Result<bool> {
         return Ok(value);
     }
     Ok(match parameter.0 {
-        switch::EXIT_REQUEST => cx.sim().clock.quit_is_requested(),
+        switch::EXIT_REQUEST => cx.clock().quit_is_requested(),
         switch::HEADLESS | switch::USING_SCRIPT_OBJECTS => true,
         other => {
             let number = known(other, switch::LAST)?;
             let initially = switch::HANDLING.contains(&number) || switch::SENSOR_HANDLING.contains(&number);
-            cx.sim().app.borrow().idle_params.bools.get(&number).copied().unwrap_or(initially)
+            cx.app().idle_params.bools.get(&number).copied().unwrap_or(initially)
         }
     })
 }
@@ -147,10 +147,10 @@ fn set_bool_param(cx: &mut Cx, parameter: Number, bool_state: bool) -> Result<()
         return Ok(());
     }
     match parameter.0 {
-        switch::EXIT_REQUEST => cx.sim().request_quit(bool_state),
+        switch::EXIT_REQUEST => cx.request_quit(bool_state),
         other => {
             let number = known(other, switch::LAST)?;
-            cx.sim().app.borrow_mut().idle_params.bools.insert(number, bool_state);
+            cx.app_mut().idle_params.bools.insert(number, bool_state);
         }
     }
     Ok(())
@@ -169,7 +169,7 @@ fn get_float_param(cx: &Cx, parameter: Number) -> Result<f64> {
         float::RANDOM => cx.env().random.borrow_mut().next(),
         other => {
             let number = known(other, float::LAST)?;
-            cx.sim().app.borrow().idle_params.floats.get(&number).copied().unwrap_or_default()
+            cx.app().idle_params.floats.get(&number).copied().unwrap_or_default()
         }
     })
 }
@@ -182,7 +182,7 @@ fn get_float_param(cx: &Cx, parameter: Number) -> Result<f64> {
 fn set_float_param(cx: &mut Cx, parameter: Number, parameter_value: f64) -> Result<()> {
     if !param_property::write(cx, FLOATS, parameter.0, parameter_value)? {
         let number = known(parameter.0, float::LAST)?;
-        cx.sim().app.borrow_mut().idle_params.floats.insert(number, parameter_value);
+        cx.app_mut().idle_params.floats.insert(number, parameter_value);
     }
     Ok(())
 }
@@ -201,7 +201,7 @@ fn get_array_param(cx: &Cx, parameter: Number) -> Result<[f64; 3]> {
         array::RANDOM_EULER => euler::rotation_to_euler(&cx.env().random.borrow_mut().rotation()),
         other => {
             let number = known(other, array::LAST)?;
-            cx.sim().app.borrow().idle_params.arrays.get(&number).copied().unwrap_or_default()
+            cx.app().idle_params.arrays.get(&number).copied().unwrap_or_default()
         }
     })
 }
@@ -222,7 +222,7 @@ fn set_array_param(cx: &mut Cx, parameter: Number, parameter_values: [f64; 3]) -
         }
         other => {
             let number = known(other, array::LAST)?;
-            cx.sim().app.borrow_mut().idle_params.arrays.insert(number, parameter_values);
+            cx.app_mut().idle_params.arrays.insert(number, parameter_values);
         }
     }
     Ok(())
@@ -244,7 +244,7 @@ fn get_string_param(cx: &Cx, parameter: Number) -> Result<Text> {
     Ok(match number {
         string::SCENE_FOLDER => path(|path| path.parent().map(Path::as_os_str)).unwrap_or(Text(Vec::new())),
         string::SCENE_NAME => path(Path::file_name).unwrap_or(Text(Vec::new())),
-        _ => Text(cx.sim().app.borrow().idle_params.texts.get(&number).cloned().unwrap_or_default()),
+        _ => Text(cx.app().idle_params.texts.get(&number).cloned().unwrap_or_default()),
     })
 }
 
@@ -259,7 +259,7 @@ fn set_string_param(cx: &mut Cx, parameter: Number, parameter_value: Bytes) -> R
         return Ok(());
     }
     param_property::write(cx, LEVELS, number, Text(parameter_value.0.clone()))?;
-    cx.sim().app.borrow_mut().idle_params.texts.insert(number, parameter_value.0);
+    cx.app_mut().idle_params.texts.insert(number, parameter_value.0);
     Ok(())
 }
 
@@ -269,7 +269,7 @@ fn set_string_param(cx: &mut Cx, parameter: Number, parameter_value: Bytes) -> R
 /// @return stringParam nothing if there is none
 #[api("sim.getNamedStringParam")]
 fn get_named_string_param(cx: &Cx, param_name: String) -> Result<Option<Text>> {
-    let value = cx.sim().read_property(&Target::App, &format!("namedParam.{param_name}"), Text::TYPE);
+    let value = cx.read_property(&Target::App, &format!("namedParam.{param_name}"), Text::TYPE);
     Ok(value.ok().and_then(Text::from_data))
 }
 
@@ -280,7 +280,7 @@ fn get_named_string_param(cx: &Cx, param_name: String) -> Result<Option<Text>> {
 #[api("sim.setNamedStringParam")]
 fn set_named_string_param(cx: &mut Cx, param_name: String, string_param: Text) -> Result<()> {
     let value = (Text::TYPE, string_param.into_data());
-    cx.sim().write_property(&Target::App, &format!("namedParam.{param_name}"), value, cx.script())
+    cx.write_property(&Target::App, &format!("namedParam.{param_name}"), value)
 }
 
 /// Lets plugins of the original handle what came from outside. There are none; main scripts call it all the same.

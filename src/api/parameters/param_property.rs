@@ -93,12 +93,12 @@ fn twin(twins: &[Twin], number: i64) -> Option<(Target, &'static str)> {
 /// The value of the property that `number` is; None when it is none.
 pub(in crate::api) fn read<T: PropertyValue>(cx: &Cx, twins: &[Twin], number: i64) -> Result<Option<T>> {
     let Some((target, name)) = twin(twins, number) else { return Ok(None) };
-    Ok(T::from_data(cx.sim().read_property(&target, name, T::TYPE)?))
+    Ok(T::from_data(cx.read_property(&target, name, T::TYPE)?))
 }
 
 /// Sets the property that `number` is; tells whether it is one.
-pub(in crate::api) fn write<T: PropertyValue>(cx: &Cx, twins: &[Twin], number: i64, value: T) -> Result<bool> {
+pub(in crate::api) fn write<T: PropertyValue>(cx: &mut Cx, twins: &[Twin], number: i64, value: T) -> Result<bool> {
     let Some((target, name)) = twin(twins, number) else { return Ok(false) };
-    cx.sim().write_property(&target, name, (T::TYPE, value.into_data()), cx.script())?;
+    cx.write_property(&target, name, (T::TYPE, value.into_data()))?;
     Ok(true)
 }

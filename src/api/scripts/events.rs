@@ -17,7 +17,7 @@ fn set_event_filters(cx: &mut Cx, #[default(Data::Array(Vec::new()))] filters: D
         Data::Array(_) | Data::Map(_) => Filters::from_table(&filters),
         _ => return Err(ApiError::Other("invalid argument.".into())),
     };
-    cx.sim().set_event_filters(cx.script(), filters);
+    cx.set_event_filters(filters);
     Ok(())
 }
 
@@ -26,7 +26,7 @@ fn set_event_filters(cx: &mut Cx, #[default(Data::Array(Vec::new()))] filters: D
 /// @return events
 #[api("sim.getGenesisEvents")]
 fn get_genesis_events(cx: &mut Cx) -> Result<Bytes> {
-    Ok(Bytes(cx.sim().genesis_events()))
+    Ok(Bytes(cx.genesis_events()))
 }
 
 /// Adds an event of one's own to the stream.
@@ -45,6 +45,6 @@ fn push_user_event(
     event_data: Table,
     #[default(0)] options: i64,
 ) -> Result<()> {
-    cx.sim().push_user_event(event, (handle, uid), &event_data.0, options);
+    cx.push_user_event(event, (handle, uid), &event_data.0, options);
     Ok(())
 }

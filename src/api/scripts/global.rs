@@ -49,7 +49,7 @@ fn register_script_func_hook(
     }
     let call =
         SysCall::from_name(&system_callback).ok_or_else(|| ApiError::Other("invalid system callback.".into()))?;
-    cx.sim().note_callbacks(call.bit());
+    cx.note_callback(call);
     let entries = list.entry(call).or_default();
     match user_function {
         ScriptFunction::Name(name) if name.is_empty() => release(cx, std::mem::take(entries)),
@@ -170,7 +170,7 @@ fn aux_func(cx: &Cx, cmd: String, _arguments: Rest) -> Result<Results> {
 /// Ends the program after the current pass.
 #[api("quitSimulator")]
 fn quit_simulator(cx: &mut Cx) -> Result<()> {
-    cx.sim().request_quit(true);
+    cx.request_quit(true);
     Ok(())
 }
 
@@ -179,8 +179,7 @@ fn quit_simulator(cx: &mut Cx) -> Result<()> {
 /// @param text the line
 #[api("_print")]
 fn print_line(cx: &Cx, text: crate::script::Bytes) -> Result<()> {
-    let time = cx.sim().clock.time();
-    cx.sim().log.print(&text.0, time);
+    cx.print(&text.0);
     Ok(())
 }
 

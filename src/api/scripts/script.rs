@@ -38,7 +38,7 @@ fn create_script(
         ScriptType::from_number(script_type).ok_or_else(|| ApiError::Other("invalid script type.".into()))?;
     let script = ScriptObject::new(script_type, script_text.0, &lang, options & 1 != 0);
     let handle = cx.scene_mut().add("script", Kind::Script(Box::new(script)))?;
-    Rc::clone(cx.sim()).announce_created(&[handle]);
+    cx.notify_created(&[handle]);
     Ok(handle)
 }
 
@@ -48,14 +48,14 @@ fn create_script(
 #[api("sim.removeScript")]
 fn remove_script(cx: &mut Cx, script_handle: Number) -> Result<()> {
     let handle = script_of(cx, script_handle.0)?.object.ok_or(ApiError::NoSuchScript)?;
-    Rc::clone(cx.sim()).remove_objects(&[handle])
+    cx.remove_objects(&[handle])
 }
 
 /// The script a number means: a handle, or the caller itself.
 pub(in crate::api) fn script_of(cx: &Cx, raw: i64) -> Result<Rc<Script>> {
     match raw {
         special::SELF => Ok(Rc::clone(cx.script())),
-        _ => cx.sim().script(raw).ok_or(ApiError::NoSuchScript),
+        _ => cx.script_by_handle(raw).ok_or(ApiError::NoSuchScript),
     }
 }
 
@@ -65,7 +65,7 @@ pub(in crate::api) fn script_of(cx: &Cx, raw: i64) -> Result<Rc<Script>> {
 #[api("sim.initScript")]
 fn init_script(cx: &mut Cx, script_handle: i64) -> Result<()> {
     let script = script_of(cx, script_handle)?;
-    Rc::clone(cx.sim()).init_script(&script);
+    cx.init_script(&script);
     Ok(())
 }
 
@@ -84,12 +84,12 @@ fn get_script(cx: &Cx, script_type: i64, #[default(Data::Nil)] script_name: Data
         Data::Int(raw) if raw >= 0 => {
             let object = Handle::from_raw(raw).filter(|&handle| cx.scene().exists(handle));
             let object = object.ok_or(SceneError::NoSuchObject)?;
-            Ok(cx.sim().script_attached_to(object, script_type).unwrap_or(special::WORLD))
+            Ok(cx.script_attached_to(object, script_type).unwrap_or(special::WORLD))
         }
-        Data::Text(name) => cx.sim().script_by_name(script_type, &String::from_utf8_lossy(&name)),
+        Data::Text(name) => cx.script_by_name(script_type, &String::from_utf8_lossy(&name)),
         _ => match names.0.first() {
-            Some(Data::Text(name)) => cx.sim().script_by_name(script_type, &String::from_utf8_lossy(name)),
-            _ => cx.sim().script_by_name(script_type, ""),
+            Some(Data::Text(name)) => cx.script_by_name(script_type, &String::from_utf8_lossy(name)),
+            _ => cx.script_by_name(script_type, ""),
         },
     }
 }
@@ -114,8 +114,8 @@ fn call_script_function(cx: &mut Cx, function_name: Callee, script_handle: Calle
         Some((function, place)) => (function, Some(place)),
         None => (name.as_str(), None),
     };
-    let script = if raw == special::SELF { script_of(cx, raw)? } else { cx.sim().script_for_call(raw, place)? };
-    let mut results = Rc::clone(cx.sim()).call_function(&script, function, &arguments.0)?;
+    let script = if raw == special::SELF { script_of(cx, raw)? } else { cx.script_for_call(raw, place)? };
+    let mut results = cx.call_function(&script, function, &arguments.0)?;
     if results.is_empty() {
         results.push(Data::Nil);
     }
@@ -145,7 +145,7 @@ fn execute_script_string(cx: &mut Cx, string_to_execute: Bytes, script_handle: i
         Some(at) => &string_to_execute.0[..at],
         None => &string_to_execute.0[..],
     };
-    let mut results = Rc::clone(cx.sim()).execute_string(&script, code)?;
+    let mut results = cx.execute_string(&script, code)?;
     if results.is_empty() {
         results.push(Data::Array(Vec::new()));
     }
@@ -165,6 +165,6 @@ fn broadcast_msg(cx: &mut Cx, message: Data, options: Rest) -> Result<()> {
     let mut arguments = vec![message];
     arguments.extend(options.0);
     arguments.push(Data::Int(sender));
-    Rc::clone(cx.sim()).broadcast_message(sender, &arguments);
+    cx.broadcast_message(&arguments);
     Ok(())
 }

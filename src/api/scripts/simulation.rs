@@ -1,7 +1,5 @@
 //! `sim.*`: running the simulation, and what the main script calls.
 
-use std::rc::Rc;
-
 use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
@@ -28,21 +26,21 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// Starts the simulation, or resumes a paused one.
 #[api("sim.startSimulation")]
 fn start_simulation(cx: &mut Cx) -> Result<()> {
-    cx.sim().clone().start();
+    cx.start_simulation();
     Ok(())
 }
 
 /// Asks for a pause. Nothing happens when the simulation is not running or is about to stop.
 #[api("sim.pauseSimulation")]
 fn pause_simulation(cx: &mut Cx) -> Result<()> {
-    cx.sim().pause();
+    cx.pause_simulation();
     Ok(())
 }
 
 /// Asks for the end of the simulation.
 #[api("sim._stopSimulation")]
 fn request_stop(cx: &mut Cx) -> Result<()> {
-    cx.sim().clone().stop();
+    cx.stop_simulation();
     Ok(())
 }
 
@@ -51,7 +49,7 @@ fn request_stop(cx: &mut Cx) -> Result<()> {
 /// @return state one of sim.simulation_*
 #[api("sim.getSimulationState")]
 fn get_simulation_state(cx: &Cx) -> Result<i64> {
-    Ok(cx.sim().clock.state() as i64)
+    Ok(cx.clock().state() as i64)
 }
 
 /// Simulated time since the start.
@@ -59,7 +57,7 @@ fn get_simulation_state(cx: &Cx) -> Result<i64> {
 /// @return time seconds
 #[api("sim.getSimulationTime")]
 fn get_simulation_time(cx: &Cx) -> Result<f64> {
-    Ok(cx.sim().clock.time())
+    Ok(cx.clock().time())
 }
 
 /// Length of a simulation step.
@@ -87,7 +85,7 @@ fn handle_simulation_start(cx: &mut Cx) -> Result<()> {
 fn handle_sensing_start(cx: &mut Cx) -> Result<()> {
     main_script_only(cx)?;
     // No time has passed before the sensing part of the first step.
-    let dt = (cx.sim().clock.steps() > 0).then(|| cx.scene().settings().time_step);
+    let dt = (cx.clock().steps() > 0).then(|| cx.scene().settings().time_step);
     cx.scene_mut().measure_velocities(dt);
     Ok(())
 }
@@ -105,8 +103,8 @@ fn callback(number: i64) -> Result<SysCall> {
 #[api("sim.handleEmbeddedScripts")]
 fn handle_embedded_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<i64> {
     main_script_only(cx)?;
-    let sim = Rc::clone(cx.sim());
-    Ok(sim.deliver_to_embedded(callback(call_type)?, &arguments.0))
+    let simulation = call_group(cx, Group::Simulation, call_type, &arguments)?;
+    Ok(simulation + call_group(cx, Group::Customization, call_type, &arguments)?)
 }
 
 /// Calls a callback of all simulation scripts. For the main script; others get -1.
@@ -118,7 +116,7 @@ fn handle_simulation_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Re
     if main_script_only(cx).is_err() {
         return Ok(-1);
     }
-    deliver_to(cx, Group::Simulation, call_type, &arguments)
+    call_group(cx, Group::Simulation, call_type, &arguments)
 }
 
 /// Calls a callback of all customization scripts. For the main script.
@@ -128,7 +126,7 @@ fn handle_simulation_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Re
 #[api("sim.handleCustomizationScripts")]
 fn handle_customization_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<i64> {
     main_script_only(cx)?;
-    deliver_to(cx, Group::Customization, call_type, &arguments)
+    call_group(cx, Group::Customization, call_type, &arguments)
 }
 
 /// Calls a callback of all add-ons. For the main script.
@@ -138,7 +136,7 @@ fn handle_customization_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) ->
 #[api("sim.handleAddOnScripts")]
 fn handle_add_on_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<i64> {
     main_script_only(cx)?;
-    deliver_to(cx, Group::AddOn, call_type, &arguments)
+    call_group(cx, Group::AddOn, call_type, &arguments)
 }
 
 /// Calls a callback of the sandbox. For the main script.
@@ -147,12 +145,11 @@ fn handle_add_on_scripts(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result
 #[api("sim.handleSandboxScript")]
 fn handle_sandbox_script(cx: &mut Cx, call_type: i64, arguments: Rest) -> Result<()> {
     main_script_only(cx)?;
-    deliver_to(cx, Group::Sandbox, call_type, &arguments).map(drop)
+    call_group(cx, Group::Sandbox, call_type, &arguments).map(drop)
 }
 
-fn deliver_to(cx: &mut Cx, group: Group, call_type: i64, arguments: &Rest) -> Result<i64> {
-    let sim = Rc::clone(cx.sim());
-    Ok(sim.deliver_to(group, callback(call_type)?, &arguments.0))
+fn call_group(cx: &mut Cx, group: Group, call_type: i64, arguments: &Rest) -> Result<i64> {
+    Ok(cx.call_group(group, callback(call_type)?, &arguments.0))
 }
 
 /// Advances the physics. For the main script or a simulation script.
@@ -164,5 +161,5 @@ fn handle_dynamics(cx: &mut Cx, delta_time: f64) -> Result<i64> {
     if !matches!(cx.script().script_type, ScriptType::Main | ScriptType::Simulation) {
         return Err(ApiError::MainOrSimulationScriptOnly);
     }
-    Rc::clone(cx.sim()).handle_dynamics(delta_time)
+    cx.handle_dynamics(delta_time)
 }

@@ -15,7 +15,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] =
 /// @return systemTime seconds
 #[api("sim.getSystemTime")]
 fn get_system_time(cx: &Cx) -> Result<f64> {
-    Ok(cx.sim().clock.wall_seconds())
+    Ok(cx.clock().wall_seconds())
 }
 
 /// Time by the wall clock in milliseconds.
@@ -24,7 +24,7 @@ fn get_system_time(cx: &Cx) -> Result<f64> {
 /// @return systemTimeOrTimeDiff
 #[api("sim.getSystemTimeInMs")]
 fn get_system_time_in_ms(cx: &Cx, previous_time: Number) -> Result<i64> {
-    let now = (cx.sim().clock.wall_seconds() * 1000.0) as i64;
+    let now = (cx.clock().wall_seconds() * 1000.0) as i64;
     Ok(if previous_time.0 < 0 { now } else { now.saturating_sub(previous_time.0) })
 }
 

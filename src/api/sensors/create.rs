@@ -46,7 +46,7 @@ fn create_proximity_sensor(
     let floats = leading(float_params.as_ref())?;
     let sensor = ProximitySensor::new(sensor_type.0, options.0, integers, floats);
     let sensor = sensor.ok_or(SceneError::InvalidArgument)?;
-    cx.sim().clone().add_object("proximitySensor", Kind::ProximitySensor(Box::new(sensor)))
+    cx.add_object("proximitySensor", Kind::ProximitySensor(Box::new(sensor)))
 }
 
 /// A new vision sensor at the world's origin; it looks along z.
@@ -64,7 +64,7 @@ fn create_vision_sensor(
 ) -> Result<Handle> {
     let [width, height, _, _] = leading(int_params.as_ref())?.unwrap_or([256, 256, 0, 0]);
     let sensor = VisionSensor::new(options.0, [width, height], leading(float_params.as_ref())?);
-    cx.sim().clone().add_object("visionSensor", Kind::VisionSensor(Box::new(sensor)))
+    cx.add_object("visionSensor", Kind::VisionSensor(Box::new(sensor)))
 }
 
 /// A new, empty octree at the world's origin.
@@ -82,7 +82,7 @@ fn create_octree(
 ) -> Result<Handle> {
     let mut octree = OcTree::new(voxel_size, point_size);
     octree.random_colours = options.0 & 2 != 0;
-    cx.sim().clone().add_object("octree", Kind::OcTree(Box::new(octree)))
+    cx.add_object("octree", Kind::OcTree(Box::new(octree)))
 }
 
 /// A new, empty point cloud at the world's origin.
@@ -110,7 +110,7 @@ fn create_point_cloud(
         random_colours: options.0 & 2 != 0,
         points: Vec::new(),
     };
-    cx.sim().clone().add_object("pointCloud", Kind::PointCloud(Box::new(cloud)))
+    cx.add_object("pointCloud", Kind::PointCloud(Box::new(cloud)))
 }
 
 /// State, three zeros, diffuse and specular colour.

@@ -30,5 +30,5 @@ fn create_force_sensor(cx: &mut Cx, options: Number, int_params: Vec<i64>, float
         torque_threshold_enabled: options.0 & 2 != 0,
         ..ForceSensor::default()
     };
-    cx.sim().clone().add_object("forceSensor", Kind::ForceSensor(Box::new(sensor)))
+    cx.add_object("forceSensor", Kind::ForceSensor(Box::new(sensor)))
 }

@@ -41,7 +41,7 @@ fn handle_vision_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<i64> {
 fn warn_if_any(cx: &Cx, what: &str, is: impl Fn(&Kind) -> bool) {
     if cx.scene().has_sensors() && cx.scene().objects().any(|object| is(&object.kind)) {
         let text = format!("{what} measure nothing: not implemented in Swanilda.");
-        cx.sim().log(verbosity::WARNINGS | verbosity::ONCE, &text);
+        cx.log(verbosity::WARNINGS | verbosity::ONCE, &text);
     }
 }
 

@@ -46,7 +46,7 @@ fn convex_decompose(
         cx.scene_mut().morph_shape(shape_handle, shape)?;
         return Ok(shape_handle);
     }
-    let handle = cx.sim().clone().add_object("convex", Kind::Shape(Box::new(shape)))?;
+    let handle = cx.add_object("convex", Kind::Shape(Box::new(shape)))?;
     cx.scene_mut().set_world_pose(handle, pose)?;
     Ok(handle)
 }
@@ -80,7 +80,7 @@ fn generate_shape_from_path(
         other => refused(&other.to_string()),
     })?;
     let shape = Shape::from_mesh(mesh, Shape::mesh_appearance())?;
-    cx.sim().clone().add_object("shape", Kind::Shape(Box::new(shape)))
+    cx.add_object("shape", Kind::Shape(Box::new(shape)))
 }
 
 fn refused(why: &str) -> ApiError {

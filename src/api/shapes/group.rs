@@ -35,10 +35,9 @@ fn ungroup_shape(cx: &mut Cx, shape_handle: Number) -> Result<Vec<Handle>> {
     }
 }
 
-/// Tells everyone of the new shapes and removes the old ones.
+/// Notifies the scripts of the new shapes and removes the old ones.
 fn replace(cx: &mut Cx, old: &[Handle], new: Vec<Handle>) -> Result<Vec<Handle>> {
-    let sim = cx.sim().clone();
-    sim.announce_created(&new);
-    sim.remove_objects(old)?;
+    cx.notify_created(&new);
+    cx.remove_objects(old)?;
     Ok(new)
 }

@@ -148,7 +148,7 @@ fn create_heightfield_shape(
     shape.dynamics.respondable = options.0 & 8 == 0;
     let handle = cx.scene_mut().add("heightfield", Kind::Shape(Box::new(shape)))?;
     cx.scene_mut().modify(handle, crate::scene::Field::SpecialProperty, |object| object.special_property &= !0x3)?;
-    cx.sim().clone().announce_created(&[handle]);
+    cx.notify_created(&[handle]);
     Ok(handle)
 }
 
@@ -167,7 +167,7 @@ fn refusal(error: MeshError) -> SceneError {
 }
 
 fn add(cx: &mut Cx, alias: &str, shape: Shape) -> Result<Handle> {
-    cx.sim().clone().add_object(alias, Kind::Shape(Box::new(shape)))
+    cx.add_object(alias, Kind::Shape(Box::new(shape)))
 }
 
 /// The mesh of a shape, in its frame; compounds as one.

@@ -70,10 +70,9 @@ fn create_texture(
     let id = cx.scene_mut().add_texture(texture)?;
     let mapping =
         TextureMapping { scale, frame, ..with_options(TextureMapping::new(TextureSource::Texture(id)), options.0) };
-    let sim = cx.sim().clone();
-    let handle = sim.scene.borrow_mut().add(PrimitiveKind::Plane.alias(), Kind::Shape(Box::new(shape)))?;
+    let handle = cx.scene_mut().add(PrimitiveKind::Plane.alias(), Kind::Shape(Box::new(shape)))?;
     cx.scene_mut().set_shape_texture(handle, Some(mapping))?;
-    sim.announce_created(&[handle]);
+    cx.notify_created(&[handle]);
     Ok((handle, id, IntPair([width.into(), height.into()])))
 }
 

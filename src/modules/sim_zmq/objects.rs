@@ -71,7 +71,7 @@ fn warn_of_lost_events(cx: &Cx, socket: &Socket) {
 
 /// The context all scripts share, made when it is first asked for.
 fn singleton(cx: &Cx) -> ZmqResult<Rc<Context>> {
-    let shared = &cx.sim().zmq_context;
+    let shared = cx.zmq_context();
     if shared.get().is_none() {
         let context = Rc::new(Context::new()?);
         return Ok(shared.get_or_init(|| context).clone());
@@ -168,7 +168,7 @@ impl Objects {
     pub(super) fn add_socket(&self, cx: &Cx, socket: Socket) -> String {
         let number = self.next(cx);
         self.sockets.borrow_mut().insert(number, Rc::new(socket));
-        self.presence.replace(Some(cx.sim().zmq_users.clone()));
+        self.presence.replace(Some(cx.zmq_users().clone()));
         handle(number, SOCKET)
     }
 

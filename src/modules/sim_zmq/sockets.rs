@@ -195,7 +195,7 @@ fn wait(cx: &Cx, items: &[(Rc<Socket>, i16)], timeout: i64) -> Result<zmq::ZmqRe
         if left == 0 || ready.iter().any(|&events| events != 0) {
             return Ok(Ok(ready));
         }
-        if cx.sim().is_interrupted() {
+        if cx.is_interrupted() {
             return Err(ApiError::Interrupted);
         }
     }

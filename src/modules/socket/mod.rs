@@ -159,7 +159,7 @@ impl FromScript for AnySocket {
 
 /// Whether a running script must stop waiting.
 fn stop<'a>(cx: &'a Cx<'_>) -> &'a AtomicBool {
-    &cx.sim().options.stop
+    &cx.options().stop
 }
 
 fn define(args: &mut Args<'_>) -> Result<c_int> {

@@ -15,7 +15,7 @@ pub(crate) use run::FUNCTIONS as RUN;
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![is_test, pass, errors, lines, kill, file, time_limit, golden];
 
 fn bench(cx: &Cx) -> Result<Rc<TestBench>> {
-    let bench = cx.sim().test_bench.get().cloned();
+    let bench = cx.test_bench().cloned();
     bench.ok_or_else(|| ApiError::Other("this works in tests only: run the file with 'swanilda test'.".into()))
 }
 
@@ -24,19 +24,19 @@ fn bench(cx: &Cx) -> Result<Rc<TestBench>> {
 /// @return isTest
 #[api("swanilda.test.isTest")]
 fn is_test(cx: &Cx) -> Result<bool> {
-    Ok(cx.sim().test_bench.get().is_some())
+    Ok(cx.test_bench().is_some())
 }
 
 /// One pass of the simulator's loop: a step when a simulation runs.
 #[api("swanilda.test.pass")]
 fn pass(cx: &mut Cx) -> Result<()> {
     bench(cx)?;
-    if cx.sim().scripts.depth() > 1 {
+    if cx.call_depth() > 1 {
         return Err(ApiError::Other("a step cannot be made from within a step.".into()));
     }
-    cx.sim().loop_pass();
+    cx.run_loop_iteration();
     // Long passes make few Lua instructions, between which nobody would look.
-    if cx.sim().is_interrupted() { Err(ApiError::Other("interrupted.".into())) } else { Ok(()) }
+    if cx.is_interrupted() { Err(ApiError::Other("interrupted.".into())) } else { Ok(()) }
 }
 
 /// How many errors scripts have raised that nobody caught.
@@ -44,7 +44,7 @@ fn pass(cx: &mut Cx) -> Result<()> {
 /// @return count
 #[api("swanilda.test.errors")]
 fn errors(cx: &Cx) -> Result<i64> {
-    Ok(cx.sim().log.errors() as i64)
+    Ok(cx.errors() as i64)
 }
 
 /// What has been printed and logged.
@@ -57,7 +57,7 @@ fn lines(cx: &Cx, #[default(0)] first: i64, #[default(false)] unfinished: bool) 
     let bench = bench(cx)?;
     let mut lines = bench.lines_from(usize::try_from(first).unwrap_or_default());
     if unfinished {
-        lines.extend(bench.unfinished(cx.sim().clock.time()));
+        lines.extend(bench.unfinished(cx.clock().time()));
     }
     Ok(Data::Array(lines.into_iter().map(line_data).collect()))
 }
@@ -77,8 +77,8 @@ fn line_data(line: ConsoleLine) -> Data {
 #[api("swanilda.test.kill")]
 fn kill(cx: &mut Cx, script_handle: i64) -> Result<()> {
     bench(cx)?;
-    let script = cx.sim().script(script_handle).ok_or(ApiError::NoSuchScript)?;
-    cx.sim().drop_dead(&script);
+    let script = cx.script_by_handle(script_handle).ok_or(ApiError::NoSuchScript)?;
+    cx.abort_script(&script);
     Ok(())
 }
 

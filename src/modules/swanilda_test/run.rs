@@ -25,12 +25,12 @@ fn run(cx: &mut Cx, file: String, options: Data) -> Result<Data> {
     let run_apart = bench.run_apart.ok_or_else(|| wrong("a scene that runs by itself cannot run others."))?;
     let wishes = Wishes::new(&options)?;
     let request = wishes.request(&file, bench.time_limit)?;
-    let options = wishes.options(&cx.sim().options, &request.scene)?;
+    let options = wishes.options(cx.options(), &request.scene)?;
     let report = run_apart(options, &request).map_err(ApiError::Other)?;
-    if cx.sim().is_interrupted() {
+    if cx.is_interrupted() {
         return Err(wrong("interrupted."));
     }
-    cx.sim().line_counts.borrow_mut().merge(report.line_counts.clone());
+    cx.add_line_counts(report.line_counts.clone());
     Ok(report_data(report))
 }
 

@@ -71,7 +71,7 @@ impl Sim {
     /// When the scene is full.
     pub(crate) fn load_model_file(self: &Rc<Self>, file: SceneFile) -> ApiResult<Option<Handle>> {
         let loaded = self.load_file(file, false)?;
-        self.announce_created(&loaded.objects);
+        self.notify_created(&loaded.objects);
         Ok(loaded.root)
     }
 

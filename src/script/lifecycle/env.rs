@@ -16,7 +16,7 @@ use crate::script::sim::Sim;
 
 /// The host's side of one Lua state.
 pub(crate) struct Env {
-    pub sim: Weak<Sim>,
+    pub(in crate::script) sim: Weak<Sim>,
     pub script: Rc<Script>,
     /// Callbacks whose function was there when the chunk had run.
     pub defined: Cell<u64>,

@@ -209,7 +209,7 @@ impl Sim {
     }
 
     /// Ends a script as a crash would: it is not asked to clean up.
-    pub(crate) fn drop_dead(&self, script: &Script) {
+    pub(crate) fn abort(&self, script: &Script) {
         script.set_base_state(state::ENDED);
         self.close(script);
     }

@@ -46,18 +46,18 @@ impl Removals {
 }
 
 impl Sim {
-    /// Adds an object and tells everyone.
+    /// Adds an object and notifies everyone.
     ///
     /// # Errors
     /// When the scene is full.
     pub(crate) fn add_object(self: &Rc<Self>, alias: &str, kind: Kind) -> ApiResult<Handle> {
         let handle = self.scene.borrow_mut().add(alias, kind)?;
-        self.announce_created(&[handle]);
+        self.notify_created(&[handle]);
         Ok(handle)
     }
 
-    /// Tells everyone about new objects.
-    pub(crate) fn announce_created(self: &Rc<Self>, handles: &[Handle]) {
+    /// Notifies everyone of new objects.
+    pub(crate) fn notify_created(self: &Rc<Self>, handles: &[Handle]) {
         let list = raw(handles);
         let data = Data::map([("objects", list.clone().into()), ("objectHandles", list.into())]);
         self.broadcast(SysCall::AfterCreate, &[data]);
@@ -82,7 +82,7 @@ impl Sim {
         self.broadcast(SysCall::AfterCopy, &[data]);
         let created: Vec<Handle> = originals.iter().filter_map(|original| copies.get(original).copied()).collect();
         copies.iter().for_each(|(original, copy)| self.copy_attached(*original, *copy));
-        self.announce_created(&created);
+        self.notify_created(&created);
         Ok(copies)
     }
 

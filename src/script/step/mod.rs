@@ -19,7 +19,7 @@ use clock::SimulationState;
 
 impl Sim {
     /// One pass of the application's loop: idle, paused or advancing.
-    pub(crate) fn loop_pass(self: &Rc<Self>) {
+    pub(crate) fn loop_iteration(self: &Rc<Self>) {
         self.deliver_web_sockets();
         if !self.clock.state().is_advancing() {
             self.dispatch_events();

@@ -1,15 +1,28 @@
-//! The context of one API call.
+//! The context of one API call, and all that a function may touch.
+//!
+//! What `&Cx` offers reads; what `&mut Cx` offers changes something or calls scripts, be it through a cell. Nothing here returns the
+//! simulator as a whole: an accessor is named after the part it is for.
+
+mod events;
+mod files;
+mod objects;
+mod output;
+mod outside;
+mod properties;
+mod scripts;
+mod simulation;
 
 use std::any::TypeId;
 use std::cell::{Ref, RefMut};
 use std::rc::Rc;
+use std::time::Duration;
 
 use crate::scene::Scene;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::env::Env;
 use crate::script::lifecycle::instance::Script;
 use crate::script::lua::Stack;
-use crate::script::sim::Sim;
+use crate::script::sim::{Options, Sim};
 
 /// What an API function gets: `&Cx` to read, `&mut Cx` to write the scene or call scripts. A function cannot hold a borrow of the
 /// scene while it calls a script, because both need the context.
@@ -25,7 +38,7 @@ impl<'a> Cx<'a> {
     }
 
     /// The script that is calling.
-    pub(crate) fn script(&self) -> &Rc<Script> {
+    pub(crate) fn script(&self) -> &'a Rc<Script> {
         &self.env().script
     }
 
@@ -37,8 +50,9 @@ impl<'a> Cx<'a> {
         self.stack
     }
 
-    pub(crate) fn sim(&self) -> &Rc<Sim> {
-        &self.sim
+    /// How the simulator was set up.
+    pub(crate) fn options(&self) -> &Options {
+        &self.sim.options
     }
 
     /// For functions that start programs or load native libraries.
@@ -47,6 +61,23 @@ impl<'a> Cx<'a> {
     /// When scripts may not do that.
     pub(crate) fn require_unsafe(&self) -> ApiResult<()> {
         if self.sim.options.exec_unsafe { Ok(()) } else { Err(ApiError::Unsafe) }
+    }
+
+    /// Whether the user wants the program to end.
+    pub(crate) fn is_interrupted(&self) -> bool {
+        self.sim.is_interrupted()
+    }
+
+    /// Asks again and again until there is an answer; None when there is none within `limit`.
+    ///
+    /// # Errors
+    /// When the user wants the program to end.
+    pub(crate) fn wait_for<T>(
+        &self,
+        limit: Option<Duration>,
+        answer: impl FnMut() -> Option<T>,
+    ) -> ApiResult<Option<T>> {
+        self.sim.wait_for(limit, answer)
     }
 
     /// What a library keeps for the calling script's state: made at the first call, dropped with the state.

@@ -1,0 +1,34 @@
+//! What is printed and logged, and what tests see of it. Output changes nothing a script can read back, so `&Cx` suffices.
+
+use std::rc::Rc;
+
+use super::Cx;
+use crate::script::coverage::LineCounts;
+use crate::script::test_bench::TestBench;
+
+impl Cx<'_> {
+    /// A line of a script's `print`.
+    pub(crate) fn print(&self, line: &[u8]) {
+        self.sim.log.print(line, self.sim.clock.time());
+    }
+
+    /// Logs in the name of the simulator; `cx.env().log` does in that of the calling script.
+    pub(crate) fn log(&self, level: i64, text: &str) {
+        self.sim.log(level, text);
+    }
+
+    /// How many errors scripts have raised that nobody caught.
+    pub(crate) fn errors(&self) -> u64 {
+        self.sim.log.errors()
+    }
+
+    /// Where the runner of a test waits, if this is one.
+    pub(crate) fn test_bench(&self) -> Option<&Rc<TestBench>> {
+        self.sim.test_bench.get()
+    }
+
+    /// Adds lines that another simulator has counted.
+    pub(crate) fn add_line_counts(&mut self, counts: LineCounts) {
+        self.sim.line_counts.borrow_mut().merge(counts);
+    }
+}

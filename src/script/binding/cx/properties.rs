@@ -1,0 +1,103 @@
+//! Properties of the application, the scene, objects and scripts, and what else scripts keep with the application.
+
+use std::cell::{Ref, RefMut};
+
+use super::Cx;
+use crate::scene::{CustomData, Data, Edit, Namespace, ValueType};
+use crate::script::error::ApiResult;
+use crate::script::files::app_storage::{AppStorage, Section};
+use crate::script::property::{AppData, Info, Target};
+
+impl Cx<'_> {
+    /// The target the calling script means by `raw`.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub(crate) fn property_target(&self, raw: i64) -> ApiResult<Target> {
+        self.sim.property_target(raw, self.script())
+    }
+
+    /// Value of a property of type `ty`. Reading a random number advances the application's generator, which no event shows.
+    ///
+    /// # Errors
+    /// When there is no such property, or it cannot be read.
+    pub(crate) fn read_property(&self, target: &Target, name: &str, ty: ValueType) -> ApiResult<Data> {
+        self.sim.read_property(target, name, ty)
+    }
+
+    /// Sets a property; the calling script becomes the owner of a signal.
+    ///
+    /// # Errors
+    /// When there is no such property, or it cannot be written.
+    pub(crate) fn write_property(&mut self, target: &Target, name: &str, value: (ValueType, Data)) -> ApiResult<()> {
+        self.sim.write_property(target, name, value, self.script())
+    }
+
+    /// Removes custom data, a signal or a named parameter.
+    ///
+    /// # Errors
+    /// When there is none, or it cannot be removed.
+    pub(crate) fn remove_property(&mut self, target: &Target, name: &str) -> ApiResult<()> {
+        self.sim.remove_property(target, name)
+    }
+
+    /// Type and flags of a property; None when there is none of that name.
+    pub(crate) fn property_info(&self, target: &Target, name: &str) -> Option<Info> {
+        self.sim.property_info(target, name)
+    }
+
+    /// The property at `index` in the order of enumeration, with its class; None past the end.
+    pub(crate) fn property_name(&self, target: &Target, index: usize, prefix: &str) -> Option<(String, &'static str)> {
+        self.sim.property_name(target, index, prefix)
+    }
+
+    /// Reads custom data or signals as a whole.
+    ///
+    /// # Errors
+    /// When the target has none or is gone.
+    pub(crate) fn named_values<R>(
+        &self,
+        target: &Target,
+        namespace: Namespace,
+        read: impl FnOnce(&CustomData) -> R,
+    ) -> ApiResult<R> {
+        self.sim.with_named_values(target, namespace, read)
+    }
+
+    /// Changes custom data or signals; returns whether anything is different then.
+    ///
+    /// # Errors
+    /// When the target has none or is gone.
+    pub(crate) fn edit_named_values(
+        &mut self,
+        target: &Target,
+        namespace: Namespace,
+        edit: Edit<'_>,
+    ) -> ApiResult<bool> {
+        self.sim.edit_named_values(target, namespace, edit)
+    }
+
+    /// What scripts keep with the application.
+    pub(crate) fn app(&self) -> Ref<'_, AppData> {
+        self.sim.app.borrow()
+    }
+
+    pub(crate) fn app_mut(&mut self) -> RefMut<'_, AppData> {
+        self.sim.app.borrow_mut()
+    }
+
+    /// Bytes in the application's file, which is read at its first use.
+    pub(crate) fn stored_block(&self, section: Section, tag: &str) -> Option<Vec<u8>> {
+        self.sim.with_app_storage(|storage| storage.blocks(section).get(tag).cloned())
+    }
+
+    /// The tags of the bytes in the application's file, in alphabetical order.
+    pub(crate) fn stored_tags(&self, section: Section) -> Vec<String> {
+        self.sim.with_app_storage(|storage| storage.blocks(section).keys().cloned().collect())
+    }
+
+    /// Changes what is in the application's file.
+    pub(crate) fn change_storage<R>(&mut self, change: impl FnOnce(&mut AppStorage) -> R) -> R {
+        self.sim.with_app_storage(change)
+    }
+}

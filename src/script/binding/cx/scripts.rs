@@ -1,0 +1,80 @@
+//! Scripts: finding them, and calling them.
+
+use std::rc::Rc;
+
+use super::Cx;
+use crate::scene::tree::script_object::ScriptType;
+use crate::scene::{Data, Handle};
+use crate::script::calls::callback::SysCall;
+use crate::script::error::ApiResult;
+use crate::script::lifecycle::instance::Script;
+use crate::script::lifecycle::order::Group;
+
+impl Cx<'_> {
+    /// The script with that handle.
+    pub(crate) fn script_by_handle(&self, handle: i64) -> Option<Rc<Script>> {
+        self.sim.script(handle)
+    }
+
+    /// The script of that type attached to an object: the first of its children by priority, else the object itself.
+    pub(crate) fn script_attached_to(&self, object: Handle, script_type: ScriptType) -> Option<i64> {
+        self.sim.script_attached_to(object, script_type)
+    }
+
+    /// The script of that type and name: a path for scene scripts, the display name for add-ons, nothing for main and sandbox.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub(crate) fn script_by_name(&self, script_type: ScriptType, name: &str) -> ApiResult<i64> {
+        self.sim.script_by_name(script_type, name)
+    }
+
+    /// The script with that handle or, with a name, of that type.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub(crate) fn script_for_call(&self, raw: i64, name: Option<&str>) -> ApiResult<Rc<Script>> {
+        self.sim.script_for_call(raw, name)
+    }
+
+    /// Script calls in progress, over all states.
+    pub(crate) fn call_depth(&self) -> usize {
+        self.sim.scripts.depth()
+    }
+
+    /// Calls the global function `name` (dots walk through tables) of a script.
+    ///
+    /// # Errors
+    /// In CoppeliaSim's words; the callee's own error is logged under its name and ends it.
+    pub(crate) fn call_function(&mut self, script: &Rc<Script>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+        self.sim.call_function(script, name, args)
+    }
+
+    /// Runs a string in a script: as an expression if it is one, else as a chunk.
+    ///
+    /// # Errors
+    /// When it fails.
+    pub(crate) fn execute_string(&mut self, script: &Rc<Script>, code: &[u8]) -> ApiResult<Vec<Data>> {
+        self.sim.execute_string(script, code)
+    }
+
+    /// Sends a message to all initialised scripts but the calling one.
+    pub(crate) fn broadcast_message(&mut self, args: &[Data]) {
+        self.sim.broadcast_message(self.script().id, args);
+    }
+
+    /// Calls a callback of the scripts of a group; returns how many ran it.
+    pub(crate) fn call_group(&mut self, group: Group, call: SysCall, args: &[Data]) -> i64 {
+        self.sim.deliver_to(group, call, args)
+    }
+
+    /// Ends a script and starts it anew at once where 4.10 does.
+    pub(crate) fn init_script(&mut self, script: &Rc<Script>) {
+        self.sim.init_script(script);
+    }
+
+    /// Ends a script as a crash would: without its cleanup.
+    pub(crate) fn abort_script(&mut self, script: &Script) {
+        self.sim.abort(script);
+    }
+}

@@ -1,0 +1,71 @@
+//! The simulation: its clock, its course, and its settings with rules.
+
+use std::cell::Ref;
+
+use super::Cx;
+use crate::dynamics::Dynamics;
+use crate::script::error::ApiResult;
+use crate::script::step::clock::Clock;
+
+impl Cx<'_> {
+    /// State and time of the simulation.
+    pub(crate) fn clock(&self) -> &Clock {
+        &self.sim.clock
+    }
+
+    /// Starts a stopped simulation or resumes a paused one; otherwise nothing.
+    pub(crate) fn start_simulation(&mut self) {
+        self.sim.start();
+    }
+
+    /// Asks for a pause; refused when not running or when a stop is pending.
+    pub(crate) fn pause_simulation(&mut self) {
+        self.sim.pause();
+    }
+
+    /// Asks for the end of the simulation; a paused one resumes for its last steps.
+    pub(crate) fn stop_simulation(&mut self) {
+        self.sim.stop();
+    }
+
+    /// Asks for the end of the program, or withdraws that.
+    pub(crate) fn request_quit(&mut self, on: bool) {
+        self.sim.request_quit(on);
+    }
+
+    /// One iteration of the application's loop.
+    pub(crate) fn run_loop_iteration(&mut self) {
+        self.sim.loop_iteration();
+    }
+
+    /// What the physics knows; None while it steps.
+    pub(crate) fn dynamics(&self) -> Option<Ref<'_, Dynamics>> {
+        Ref::filter_map(self.sim.dynamics.borrow(), Option::as_ref).ok()
+    }
+
+    /// Advances the physics by `time_step` seconds; returns the number of sub-steps.
+    ///
+    /// # Errors
+    /// While the physics steps already.
+    pub(crate) fn handle_dynamics(&mut self, time_step: f64) -> ApiResult<i64> {
+        self.sim.handle_dynamics(time_step)
+    }
+
+    /// One step of every joint that is on its way to a target.
+    pub(crate) fn handle_joint_motion(&mut self) {
+        self.sim.handle_joint_motion();
+    }
+
+    /// Chooses the engine whose parameters count, and its version. Without effect while the simulation is not stopped.
+    ///
+    /// # Errors
+    /// When there is no such engine.
+    pub(crate) fn set_engine(&mut self, engine: [i64; 2]) -> ApiResult<()> {
+        self.sim.set_engine(engine)
+    }
+
+    /// Sets the wished sub-step of the physics, seconds. Without effect while the simulation is not stopped.
+    pub(crate) fn set_physics_step(&mut self, step: f64) {
+        self.sim.set_physics_step(step);
+    }
+}
