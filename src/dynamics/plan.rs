@@ -1,4 +1,4 @@
-//! Who takes part in the dynamics: which shapes own bodies, and what links them (SPEC-dynamics section 3).
+//! Who takes part in the dynamics: which shapes own bodies, and what links them (spec: dynamics 3).
 //!
 //! Pure decisions over the scene; nothing here knows rapier. A plan is made anew whenever something it depends on has changed, and
 //! compared with what exists.

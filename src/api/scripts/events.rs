@@ -1,4 +1,4 @@
-//! `sim.*`: the stream of events (SPEC-6).
+//! `sim.*`: the stream of events (spec: events).
 
 use api_macro::api;
 

@@ -1,4 +1,4 @@
-//! Graphs: streams of values over time, and curves made of them (SPEC-sensors 7). Nothing is drawn.
+//! Graphs: streams of values over time, and curves made of them (spec: sensors 7). Nothing is drawn.
 
 pub(in crate::scene) mod record;
 

@@ -1,4 +1,4 @@
-//! What scripts do to joints: mode, interval, position, targets, ways of control (SPEC-joints sections 4 to 7).
+//! What scripts do to joints: mode, interval, position, targets, ways of control (spec: joints 4, joints 5, joints 6, joints 7).
 //!
 //! Motions are started and ended here; stepping them is `joint_motion`, following a master `joint_dependency`.
 

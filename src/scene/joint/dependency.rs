@@ -1,4 +1,4 @@
-//! Joints that follow other joints: q = offset + coefficient * q of the master (SPEC-joints section 5).
+//! Joints that follow other joints: q = offset + coefficient * q of the master (spec: joints 5).
 
 use std::collections::BTreeMap;
 

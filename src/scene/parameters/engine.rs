@@ -11,7 +11,7 @@ use crate::scene::{Data, ValueType};
 ///
 /// The state is `works` (the physics here uses it), `kept` (stored and read back) or `number` (kept, and no property). A list has a
 /// number per element. `bit` is the number that joins switches of an engine, and the bit of this one. Defaults are those of the file
-/// format and SPEC-dynamics 5 and 6; those of Vortex' switches, which neither tells, are our choice.
+/// format and of the engines (spec: dynamics 5, dynamics 6); those of Vortex' switches, which neither states, are our choice.
 const TABLE: &str = include_str!("engine.tsv");
 
 /// The first real number of each engine is its step size: one for all here, a setting of the scene.

@@ -214,7 +214,7 @@ pub fn normalized(pose: Pose) -> Pose {
     Pose::from_parts(pose.translation, rotation)
 }
 
-/// Velocity over one step (SPEC-poses 4).
+/// Velocity over one step (spec: poses 4).
 fn measured(previous: Option<Pose>, now: Pose, dt: Option<f64>) -> Measured {
     match (previous, dt) {
         (Some(before), Some(dt)) if before != now => Measured {

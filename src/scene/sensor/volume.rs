@@ -1,4 +1,4 @@
-//! The volume a proximity sensor looks into (SPEC-sensors 1.1): its numbers, and its edges for display.
+//! The volume a proximity sensor looks into (spec: sensors 1.1): its numbers, and its edges for display.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! Joining shapes into one and taking them apart (SPEC-shapes section 5).
+//! Joining shapes into one and taking them apart (spec: shapes 5).
 //!
 //! A shape keeps a flat list of parts; each knows the groups it is in. The frame of a group is that of its last part.
 

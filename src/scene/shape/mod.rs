@@ -131,7 +131,7 @@ impl Material {
         Self { friction, restitution: 0.0, linear_damping: 0.0, angular_damping: 0.0, engine_values }
     }
 
-    /// The preset with that number (`sim.dynmat_*`), if there is one; values of SPEC-dynamics section 5.
+    /// The preset with that number (`sim.dynmat_*`), if there is one (spec: dynamics 5).
     pub fn preset(id: i64) -> Option<Self> {
         Some(Self::of_frictions(match id.checked_sub(Self::FIRST_PRESET)? {
             0 => [0.71, 0.71, 0.71, 0.5, 0.5],

@@ -1,4 +1,4 @@
-//! What a simulation run is undone to when it ends (SPEC-objects 8, SPEC-7 7.6).
+//! What a simulation run is undone to when it ends (spec: objects 8, spec: simulation 6).
 
 use std::collections::BTreeSet;
 

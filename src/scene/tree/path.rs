@@ -1,4 +1,4 @@
-//! Names of objects and the paths they are looked up by (SPEC-8): aliases, `/a/b[1]`, `./x`, `:/y{2}`.
+//! Names of objects and the paths they are looked up by (spec: addressing): aliases, `/a/b[1]`, `./x`, `:/y{2}`.
 //!
 //! Who the emitter of a relative path is, is decided by the caller.
 

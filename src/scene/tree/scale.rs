@@ -1,4 +1,4 @@
-//! Scaling of objects (SPEC-objects 7).
+//! Scaling of objects (spec: objects 7).
 
 use std::rc::Rc;
 

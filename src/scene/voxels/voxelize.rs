@@ -1,4 +1,4 @@
-//! Objects as cells of a grid and as points, by parry's tests of boxes against triangles (SPEC-sensors 4).
+//! Objects as cells of a grid and as points, by parry's tests of boxes against triangles (spec: sensors 4).
 
 use std::collections::BTreeSet;
 

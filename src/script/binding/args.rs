@@ -1,7 +1,8 @@
 //! Decoding: from the values on a Lua stack to the parameters of an API function.
 //!
-//! Every type that scripts can pass in implements [`FromScript`]. Typing rules are those of SPEC-1 1.5: a number may be a numeric
-//! string, an integer must be one, a string may be a number or a buffer, anything is a bool, tables may be longer than needed.
+//! Every type that scripts can pass in implements [`FromScript`]. Typing rules are those of CoppeliaSim (spec: conventions 3): a
+//! number may be a numeric string, an integer must be one, a string may be a number or a buffer, anything is a bool, tables may be
+//! longer than needed.
 
 use std::ffi::c_int;
 

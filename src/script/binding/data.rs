@@ -1,4 +1,4 @@
-//! Values between a Lua stack and [`Data`] (SPEC-4 4.3).
+//! Values between a Lua stack and [`Data`] (spec: calls 3).
 
 use std::ffi::{CStr, c_int, c_void};
 

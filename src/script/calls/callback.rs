@@ -1,4 +1,4 @@
-//! The callbacks scripts may define (`sysCall_*`), with their numbers (SPEC-2 2.1).
+//! The callbacks scripts may define (`sysCall_*`), with their numbers (spec: callbacks 1).
 
 macro_rules! callbacks {
     ($($variant:ident = $code:literal $name:literal),* $(,)?) => {
@@ -72,7 +72,7 @@ impl SysCall {
         1 << self as u64
     }
 
-    /// Whether this callback starts an unloaded script (SPEC-1 1.3).
+    /// Whether this callback starts an unloaded script (spec: scripts 3).
     pub(crate) const fn wakes(self) -> bool {
         self as u8 <= Self::Sensing as u8
     }

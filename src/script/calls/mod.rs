@@ -1,4 +1,4 @@
-//! Calls between scripts: functions by name, code strings, initialisation (SPEC-4).
+//! Calls between scripts: functions by name, code strings, initialisation (spec: calls).
 
 pub(in crate::script) mod callback;
 pub(in crate::script) mod data_changes;

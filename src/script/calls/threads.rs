@@ -1,4 +1,4 @@
-//! Yield levels and pre-emption (SPEC-3).
+//! Yield levels and pre-emption (spec: threads).
 //!
 //! A thread is pre-empted after a fixed number of Lua instructions in place of the original's two milliseconds, so that results do
 //! not depend on the machine. Whether the running coroutine may be pre-empted at all is written into its count hook: a coroutine that

@@ -1,4 +1,4 @@
-//! Values of properties as the event stream writes them (SPEC-6 6.2): CBOR with a few types of its own.
+//! Values of properties as the event stream writes them (spec: events 2): CBOR with a few types of its own.
 //!
 //! Items are put together here and not by a library, because the stream asks for widths a canonical encoder would not choose: floats
 //! of 32 bits whatever their value, integers of 32 bits inside arrays.

@@ -1,4 +1,4 @@
-//! Which events a script wants to hear of (SPEC-6 6.6).
+//! Which events a script wants to hear of (spec: events 6).
 
 use std::collections::{BTreeMap, BTreeSet};
 

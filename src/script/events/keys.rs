@@ -1,4 +1,4 @@
-//! Which properties of a target the event stream tells, and which of them a change can concern (SPEC-6 6.8).
+//! Which properties of a target the event stream tells, and which of them a change can concern (spec: events 8).
 
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, Mutex};

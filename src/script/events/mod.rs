@@ -1,4 +1,4 @@
-//! The stream of events: everything that changes, told to the scripts that have `sysCall_event` (SPEC-6).
+//! The stream of events: everything that changes, told to the scripts that have `sysCall_event` (spec: events).
 //!
 //! Nothing is collected while nobody listens. While somebody does, every call that changed the scene is followed by
 //! [`Sim::collect_events`], which turns the scene's record of changes into events: what a property is now is compared with what was

@@ -1,4 +1,4 @@
-//! Events that wait for the next dispatch: merged, then numbered and written as one batch (SPEC-6 6.1, 6.3, 6.4).
+//! Events that wait for the next dispatch: merged, then numbered and written as one batch (spec: events 1, events 3, events 4).
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};

@@ -7,7 +7,7 @@ use super::env::Runtime;
 use crate::scene::Handle;
 use crate::scene::tree::script_object::ScriptType;
 
-/// Base states and bits of a script's state (SPEC-1 1.3).
+/// Base states and bits of a script's state (spec: scripts 3).
 pub(crate) mod state {
     pub const UNLOADED: i64 = 0;
     pub const UNINITIALIZED: i64 = 1;

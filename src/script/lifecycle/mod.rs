@@ -1,4 +1,4 @@
-//! A script's life: loading, initialising, being called, dying (SPEC-1 1.3 to 1.5).
+//! A script's life: loading, initialising, being called, dying (spec: scripts 3, scripts 4, scripts 5).
 
 pub(in crate::script) mod attached;
 pub(in crate::script) mod embedded;

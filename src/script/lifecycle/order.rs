@@ -1,4 +1,4 @@
-//! Who is called when (SPEC-1 1.6).
+//! Who is called when (spec: scripts 6).
 
 use std::rc::Rc;
 

@@ -1,4 +1,4 @@
-//! Filling a fresh Lua state: library, `sim`, package path (SPEC-1 1.9).
+//! Filling a fresh Lua state: library, `sim`, package path (spec: scripts 9).
 
 use std::ffi::{CStr, c_int, c_void};
 use std::rc::Rc;

@@ -1,4 +1,4 @@
-//! Typed properties: named, typed values of the application, the scene, objects and scripts (SPEC-5 5.3 to 5.6).
+//! Typed properties: named, typed values of the application, the scene, objects and scripts (spec: data 3, data 4, data 5, properties 1).
 //!
 //! Static properties stand in one table; custom data, signals and named parameters are created by scripts. Collections are no
 //! targets.

@@ -1,4 +1,4 @@
-//! Simulation time and the seven states of a run (SPEC-7).
+//! Simulation time and the seven states of a run (spec: simulation).
 
 use std::cell::Cell;
 use std::time::Instant;
@@ -162,7 +162,7 @@ impl Clock {
         self.time.get() + dt < wall - self.real_time_origin.get()
     }
 
-    /// The state after a step (SPEC-7 7.2). `LastBeforeStop` stays: the caller runs the end procedure. A stop beats a pause.
+    /// The state after a step (spec: simulation 2). `LastBeforeStop` stays: the caller runs the end procedure. A stop beats a pause.
     pub(in crate::script) fn state_after_step(&self) -> SimulationState {
         use SimulationState as S;
         match self.state.get() {

@@ -1,4 +1,4 @@
-//! One dynamics call: sub-steps with the callbacks of scripts between them (SPEC-dynamics section 2). Callbacks have old names, by which
+//! One dynamics call: sub-steps with the callbacks of scripts between them (spec: dynamics 2). Callbacks have old names, by which
 //! scripts of V-REP's time know them; both are called.
 
 use std::rc::Rc;
@@ -168,7 +168,7 @@ fn joint_data(joint: &Joint, request: &JointRequest, call: Call, pass: u32) -> D
     ])
 }
 
-/// What the table returned by `sysCall_contact` means (SPEC-dynamics section 4): values for the selected engine come first, then
+/// What the table returned by `sysCall_contact` means (spec: dynamics 4): values for the selected engine come first, then
 /// those for Bullet.
 fn verdict(answer: &Data, engine: i64) -> Verdict {
     let number = |engine: &str, name: &str| {

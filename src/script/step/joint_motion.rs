@@ -1,4 +1,4 @@
-//! Kinematic motion of joints: scripts are asked for every step (`sysCall_joint`, SPEC-2 2.5).
+//! Kinematic motion of joints: scripts are asked for every step (`sysCall_joint`, spec: callbacks 5).
 
 use std::rc::Rc;
 

@@ -1,4 +1,4 @@
-//! The loop: idle passes, main-script passes, start, pause and stop (SPEC-2 2.2, SPEC-7).
+//! The loop: idle passes, main-script passes, start, pause and stop (spec: callbacks 2, spec: simulation).
 
 pub(in crate::script) mod clock;
 pub(in crate::script) mod dynamics;
@@ -128,7 +128,7 @@ impl Sim {
         }
     }
 
-    /// The start procedure (SPEC-7 7.4).
+    /// The start procedure (spec: simulation 4).
     fn begin(self: &Rc<Self>) {
         for group in [Group::Customization, Group::AddOn, Group::Sandbox] {
             self.deliver_to(group, SysCall::BeforeSimulation, &[]);
@@ -199,7 +199,7 @@ impl Sim {
         }
     }
 
-    /// The stop procedure (SPEC-7 7.5).
+    /// The stop procedure (spec: simulation 5).
     fn finish(self: &Rc<Self>) {
         if let Some(main) = self.scripts.detached(ScriptType::Main) {
             self.reset(&main);

@@ -1,7 +1,7 @@
 -- topic: modules
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-sockets 5
+-- spec: libraries 1
 -- note: conversions, references, own encoders, the low level
 local cbor = require 'org.conman.cbor'
 local low = require 'org.conman.cbor_c'

@@ -1,7 +1,7 @@
 -- topic: modules
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-sockets 5
+-- spec: libraries 1
 -- note: what is no CBOR, and what should not be decoded or encoded
 local cbor = require 'org.conman.cbor'
 local conv = {UINT = function(v) return v end} -- with a conversion the Lua part decodes

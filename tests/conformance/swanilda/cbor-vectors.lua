@@ -1,7 +1,7 @@
 -- topic: modules
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-zmq-remote-api 8-9, APPENDIX-cbor-vectors
+-- spec: cbor 1, cbor 2
 -- note: integers beyond 2^53 and holes are where Swanilda differs (docs/DIFFERENCES.md); the rest is recorded
 local cbor = require 'org.conman.cbor'
 local function hex(s) return (s:gsub('.', function(c) return ('%02x'):format(c:byte()) end)) end

@@ -1,7 +1,7 @@
 -- as: simulation
 -- passes: 20
 -- engine: bullet278
--- spec: SPEC-dynamics 9: the force of a contact is what one shape exerts on the other, friction included
+-- spec: dynamics 9; the force of a contact is what one shape exerts on the other, friction included
 -- tol: 1e-3
 -- topic: dynamics
 sim = require 'sim'

@@ -1,7 +1,7 @@
 -- as: simulation
 -- passes: 30
 -- engine: bullet278
--- spec: SPEC-joints 5: followers of dynamic joints, of other followers and of a joint without bodies; SPEC-dynamics 8: a joint moved or reset in a run
+-- spec: joints 5, dynamics 8; dependent joints of dynamic joints, joints moved or reset in a run
 -- tol: 2e-3
 -- topic: dynjoints
 sim = require 'sim'

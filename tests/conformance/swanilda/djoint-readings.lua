@@ -1,7 +1,7 @@
 -- as: simulation
 -- passes: 14
 -- engine: bullet278
--- spec: SPEC-joints 7, 7.1: joint force is the mean over the sub-steps and the negative of the effort along +z; raw value; turns of cyclic and other joints; screw in the dynamics; interval of a spherical joint
+-- spec: joints 7, joints 7.1; joint force is the mean over the sub-steps and the negative of the effort along +z; raw value; turns of cyclic and other joints; screw in the dynamics; interval of a spherical joint
 -- tol: 1e-5
 -- topic: dynjoints
 sim = require 'sim'

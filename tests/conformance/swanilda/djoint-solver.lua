@@ -1,7 +1,7 @@
 -- topic: dynjoints
 -- as: simulation
 -- passes: 14
--- spec: docs/PHYSICS.md, Chains
+-- spec: joints 7, dynamics 3.2
 sim = require 'sim'
 local function arm(x, solver)
     local base = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1})

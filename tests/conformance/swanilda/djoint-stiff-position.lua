@@ -1,7 +1,7 @@
 -- as: simulation
 -- passes: 60
 -- engine: bullet278
--- spec: SPEC-joints 7: position control that closes its whole error in a sub-step of 5 ms, against gravity, with light links before heavy ones
+-- spec: joints 7; position control that closes its whole error in a sub-step of 5 ms, against gravity, with light links before heavy ones
 -- tol: 1e-4
 -- topic: dynjoints
 sim = require 'sim'

@@ -1,7 +1,7 @@
 -- as: customization
 -- passes: 32
 -- engine: bullet278
--- spec: SPEC-dynamics 2 (range of 1000 m), 8 (start in sleep); SPEC-shapes: suspended collision response, reset at the start
+-- spec: dynamics 2, shapes 7; range of 1000 m, sleep at start, suspended collision response
 -- tol: 1e-3
 -- topic: dynamics
 sim = require 'sim'

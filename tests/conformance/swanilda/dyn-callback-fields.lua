@@ -1,7 +1,7 @@
 -- as: simulation
 -- passes: 6
 -- engine: bullet278
--- spec: SPEC-dynamics 2, 4, 9 and SPEC-joints 6, 7: every field of sysCall_dyn, sysCall_joint, sysCall_contact, what they return, getContactInfo
+-- spec: dynamics 2, dynamics 4, dynamics 9, joints 6, joints 7; every field of sysCall_dyn, sysCall_joint, sysCall_contact, what they return, getContactInfo
 -- tol: 1e-4
 -- topic: dynamics
 sim = require 'sim'

@@ -1,7 +1,7 @@
 -- as: simulation
 -- passes: 24
 -- engine: bullet278
--- spec: SPEC-dynamics 10: thresholds of force and torque, consecutive violations, un-parenting by the script that is triggered
+-- spec: dynamics 10; thresholds of force and torque, consecutive violations, un-parenting by the script that is triggered
 -- tol: 1e-6
 -- topic: dynamics
 sim = require 'sim'

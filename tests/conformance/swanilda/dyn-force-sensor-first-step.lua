@@ -1,7 +1,7 @@
 -- as: simulation
 -- passes: 6
 -- engine: bullet278
--- spec: SPEC-dynamics 10: the value is the mean over all passes, those of the first call included
+-- spec: dynamics 10; the value is the mean over all passes, those of the first call included
 -- tol: 1e-6
 -- topic: dynamics
 sim = require 'sim'

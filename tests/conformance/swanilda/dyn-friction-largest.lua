@@ -1,7 +1,7 @@
 -- as: customization
 -- passes: 8
 -- engine: mujoco
--- spec: SPEC-dynamics 5: MuJoCo takes the larger of two frictions, the other engines their product
+-- spec: dynamics 5; MuJoCo takes the larger of two frictions, the other engines their product
 -- tol: 5e-3
 -- topic: dynamics
 sim = require 'sim'

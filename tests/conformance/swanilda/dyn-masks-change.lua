@@ -1,7 +1,7 @@
 -- as: simulation
 -- passes: 60
 -- engine: bullet278
--- spec: SPEC-dynamics 4: lower half of the mask within a tree, upper half between trees; another tree or mask counts at once
+-- spec: dynamics 4; lower half of the mask within a tree, upper half between trees; another tree or mask counts at once
 -- tol: 0
 -- topic: dynamics
 sim = require 'sim'

@@ -1,7 +1,7 @@
 -- as: customization
 -- passes: 16
 -- engine: bullet278
--- spec: SPEC-dynamics 3: a model that is not dynamic, or not respondable, is so with all that is below; SPEC-dynamics 2: flags of those who take part
+-- spec: dynamics 2, dynamics 3; models that are not dynamic or not respondable, dynamic flags
 -- tol: 1e-6
 -- topic: dynamics
 sim = require 'sim'

@@ -1,7 +1,7 @@
 -- as: simulation
 -- passes: 4
 -- engine: bullet278
--- spec: SPEC-2 2.5, SPEC-1 1.6: sysCall_jointCallback, sysCall_contactCallback and sysCall_dynCallback, beside the new names
+-- spec: callbacks 5, scripts 6; sysCall_jointCallback, sysCall_contactCallback and sysCall_dynCallback, beside the new names
 -- tol: 1e-5
 -- topic: dynamics
 sim = require 'sim'

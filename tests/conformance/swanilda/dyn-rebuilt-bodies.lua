@@ -1,7 +1,7 @@
 -- as: simulation
 -- passes: 12
 -- engine: bullet278
--- spec: SPEC-dynamics 3.1: a body that is rebuilt (moved, reset, of another mass, made dynamic) leaves nothing behind
+-- spec: dynamics 3.1; a body that is rebuilt (moved, reset, of another mass, made dynamic) leaves nothing behind
 -- tol: 1e-3
 -- topic: dynamics
 sim = require 'sim'

@@ -1,7 +1,7 @@
 -- as: customization
 -- passes: 20
 -- engine: bullet278
--- spec: SPEC-dynamics 8: resetDynamicObject of a shape, a model, everything; initial velocities act at the reset and are used up; SPEC-objects 8: a model that is not reset at the end
+-- spec: dynamics 8, objects 8; resetDynamicObject, initial velocities, models flagged not_reset
 -- tol: 1e-6
 -- topic: dynamics
 sim = require 'sim'

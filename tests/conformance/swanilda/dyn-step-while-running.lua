@@ -1,7 +1,7 @@
 -- as: customization
 -- passes: 8
 -- engine: bullet278
--- spec: SPEC-dynamics 1: the physics step changes only while the simulation is stopped, by whatever name
+-- spec: dynamics 1; the physics step changes only while the simulation is stopped, by whatever name
 -- tol: 1e-9
 -- topic: dynamics
 sim = require 'sim'

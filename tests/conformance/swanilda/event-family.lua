@@ -2,7 +2,7 @@
 -- as: sandbox
 -- passes: 0
 -- loops: 8
--- spec: SPEC-6.3
+-- spec: events 3
 -- note: what renaming, re-parenting and selecting tells about others
 sim = require 'sim'
 local a, b, c = sim.createDummy(0.01), sim.createDummy(0.01), sim.createDummy(0.01)

@@ -2,7 +2,7 @@
 -- as: sandbox
 -- passes: 0
 -- loops: 6
--- spec: SPEC-6.5
+-- spec: events 5
 -- note: a hook receives events without a callback of that name; a listener that ends is forgotten
 sim = require 'sim'
 local d = sim.createDummy(0.01)

@@ -2,7 +2,7 @@
 -- as: sandbox
 -- passes: 0
 -- loops: 8
--- spec: SPEC-6.1
+-- spec: events 1
 -- note: the meshes of a shape come after it and go before it
 sim = require 'sim'
 sim.createScript(sim.scripttype_customization, [[

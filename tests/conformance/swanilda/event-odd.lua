@@ -2,7 +2,7 @@
 -- as: sandbox
 -- passes: 0
 -- loops: 8
--- spec: SPEC-6.6
+-- spec: events 6
 -- note: odd arguments, and listeners that change things, fail or go away while they listen
 sim = require 'sim'
 local d = sim.createDummy(0.01)

@@ -2,7 +2,7 @@
 -- as: sandbox
 -- passes: 0
 -- loops: 8
--- spec: SPEC-6.2
+-- spec: events 2
 -- note: protocol 4 on request: new names, tags, and a snapshot at once
 sim = require 'sim'
 local a = sim.createDummy(0.01)

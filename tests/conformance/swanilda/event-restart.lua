@@ -1,7 +1,7 @@
 -- topic: events
 -- as: sandbox
 -- passes: 4
--- spec: SPEC-6.6
+-- spec: events 6
 -- note: filters vanish with the state; objects made in a run and the poses of the start are told when it ends
 sim = require 'sim'
 local d = sim.createDummy(0.01)

@@ -2,7 +2,7 @@
 -- as: sandbox
 -- passes: 0
 -- loops: 8
--- spec: SPEC-6.8 (mesh), SPEC-shapes 8
+-- spec: events 8, shapes 8
 -- note: an image on a shape is told with what the mesh says of it, not with its geometry
 sim = require 'sim'
 local plane, id = sim.createTexture('', 0, {1, 1}, nil, nil, 0, {2, 1})

@@ -2,7 +2,7 @@
 -- as: customization
 -- passes: 0
 -- loops: 40
--- spec: SPEC-sensors 7
+-- spec: sensors 7
 -- note: the customization script of a graph records each step
 sim = require 'sim'
 local xml = [[<CoppeliaSim><filetype>simpleModel</filetype><xmlSerializationNb>2</xmlSerializationNb>

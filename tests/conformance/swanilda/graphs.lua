@@ -1,7 +1,7 @@
 -- topic: graphs
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-sensors 7, V12
+-- spec: sensors 7
 sim = require 'sim'
 local function fails(...)
     return (select(2, pcall(...)):gsub('^%-?%d+: ', ''))

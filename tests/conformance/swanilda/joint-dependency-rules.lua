@@ -1,6 +1,6 @@
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-joints 5: chains of dependencies, circles, limits, spherical joints, modes, removal, copies
+-- spec: joints 5; chains of dependencies, circles, limits, spherical joints, modes, removal, copies
 -- tol: 1e-6
 -- topic: joints
 sim = require 'sim'

@@ -1,6 +1,6 @@
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-shapes 2.3: simConvex: hulls of objects and points with growth, pieces, refusals
+-- spec: shapes 2.3; simConvex: hulls of objects and points with growth, pieces, refusals
 -- tol: 1e-6
 -- topic: shapes
 sim = require 'sim'

@@ -1,7 +1,7 @@
 -- topic: modules
 -- as: customization
 -- passes: 0
--- spec: SPEC-sockets 6
+-- spec: libraries 2
 -- note: code as the user would run it; what is about the window has no effect
 sim = require 'sim'
 simCmd = require 'simCmd'

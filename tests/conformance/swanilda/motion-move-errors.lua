@@ -1,7 +1,7 @@
 -- as: simulation
 -- passes: 40
 -- engine: bullet278
--- spec: SPEC-motion-ik 2 and 3: fields that are missing or wrong, what is under way when a callback fails, both forms
+-- spec: motion 2, motion 3; fields that are missing or wrong, what is under way when a callback fails, both forms
 -- tol: 1e-9
 -- topic: motion
 sim = require 'sim'

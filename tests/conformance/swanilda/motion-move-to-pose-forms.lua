@@ -1,7 +1,7 @@
 -- as: simulation
 -- passes: 300
 -- engine: bullet278
--- spec: SPEC-motion-ik 3: positional form with poses and matrices, init/step/cleanup, relative frame, callback that stops, limits as scalars
+-- spec: motion 3; positional form with poses and matrices, init/step/cleanup, relative frame, callback that stops, limits as scalars
 -- tol: 2e-3
 -- topic: motion
 sim = require 'sim'

@@ -1,6 +1,6 @@
 -- as: simulation
 -- passes: 500
--- spec: SPEC-motion-ik 1: rml names of the Ruckig functions; api JSON: rmlMoveToJointPositions, rmlMoveToPosition, moveToJointPositions, moveToPosition, moveToObject
+-- spec: motion 1; rml names of the Ruckig functions; rmlMoveToJointPositions, rmlMoveToPosition, moveToJointPositions, moveToPosition, moveToObject
 -- tol: 1e-3
 -- topic: motion
 sim = require 'sim'

@@ -2,7 +2,7 @@
 -- as: sandbox
 -- passes: 0
 -- loops: 6
--- spec: SPEC-2.4, SPEC-2.5 (removal of scripts), SPEC-objects 4 and 5
+-- spec: callbacks 4, objects 4, objects 5
 -- note: who is told of objects that come and go, in which order, with what
 sim = require 'sim'
 local watcher = [[

@@ -1,7 +1,7 @@
 -- topic: objects
 -- as: customization
 -- passes: 10
--- spec: SPEC-objects 8
+-- spec: objects 8
 -- note: objects made during a run that are not removed at its end go back to the state they came with
 sim = require 'sim'
 sim.createScript(sim.scripttype_simulation, [[

@@ -1,7 +1,7 @@
 -- topic: functions of the time of V-REP
 -- as: customization
 -- passes: 0
--- spec: FORMAT 7.3, api README 0
+-- spec: scene-files 7.3
 -- note: what scripts of old scenes call
 function sysCall_init()
     print(sim.getObjectHandle(sim.handle_self) == sim.getScript(sim.handle_self))

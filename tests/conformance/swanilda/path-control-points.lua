@@ -1,7 +1,7 @@
 -- as: customization
 -- passes: 0
 -- loops: 30
--- spec: SPEC-motion-ik 4: the path object: its control points, what follows when they are moved, copied and removed; options 1 and 4
+-- spec: paths 2; the path object: its control points, what follows when they are moved, copied and removed; options 1 and 4
 -- tol: 1e-6
 -- topic: motion
 sim = require 'sim'

@@ -1,6 +1,6 @@
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-motion-ik 4: functions on flat tables: what does not fit, ends, callbacks, closed paths
+-- spec: paths 1; functions on flat tables: what does not fit, ends, callbacks, closed paths
 -- tol: 1e-7
 -- topic: motion
 sim = require 'sim'

@@ -1,6 +1,6 @@
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-motion-ik 4: createPath and its data, options, errors; following it; getConfigDistance with types and metric
+-- spec: paths 2; createPath and its data, options, errors; following it; getConfigDistance with types and metric
 -- tol: 1e-6
 -- topic: motion
 sim = require 'sim'

@@ -1,6 +1,6 @@
 -- as: sandbox
 -- passes: 0
--- spec: control points and sampled path of a path object in a scene saved by CoppeliaSim 4.3 (closed, orientation computed, 240 points)
+-- spec: paths 2; a path saved by CoppeliaSim 4.3 (closed, orientation computed, 240 points)
 -- tol: 1e-7
 -- topic: motion
 sim = require 'sim'

@@ -1,7 +1,7 @@
 -- topic: properties
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-5b, SPEC-5 5.6
+-- spec: properties 1, properties 6
 -- note: properties of the application and the scene, and the numbered parameters that are the same values
 sim = require 'sim'
 local app, scene = sim.handle_app, sim.handle_scene

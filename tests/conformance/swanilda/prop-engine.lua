@@ -1,7 +1,7 @@
 -- topic: properties
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-5b, SPEC-dynamics 5 and 6
+-- spec: properties 6, dynamics 5, dynamics 6
 -- note: parameters of physics engines by their property, by their old number and as JSON are one value
 sim = require 'sim'
 local scene = sim.handle_scene

@@ -1,7 +1,7 @@
 -- topic: properties
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-5b (mesh, shape), SPEC-6.8
+-- spec: properties 6, events 8
 sim = require 'sim'
 local a = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.2, 0.3})
 local b = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.1, 0.1})

@@ -1,7 +1,7 @@
 -- topic: properties
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-5b (common), SPEC-objects 1 and 5, SPEC-8.4
+-- spec: properties 6, objects 1, objects 5, addressing 4
 sim = require 'sim'
 local d = sim.createDummy(0.2)
 local s = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {0.1, 0.2, 0.4})

@@ -1,7 +1,7 @@
 -- topic: properties
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-5b (proximity and vision sensor, force sensor, camera), SPEC-sensors 1.1 and 3
+-- spec: properties 6, sensors 1.1, sensors 3
 sim = require 'sim'
 local function e(f, ...) local ok, m = pcall(f, ...) print(ok, ok and m or (m:gsub('^%-?%d+: ', ''))) end
 local p = sim.createProximitySensor(sim.proximitysensor_pyramid, 16, 1 + 8)

@@ -1,7 +1,7 @@
 -- topic: properties
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-5b (octree, point cloud)
+-- spec: properties 6, sensors 4
 sim = require 'sim'
 local o, p = sim.createOctree(0.05, 0, 1), sim.createPointCloud(0.02, 20, 0, 4)
 print(sim.getProperty(o, 'objectType'), sim.getProperty(o, 'voxelSize'), #sim.getProperty(o, 'voxels'), #sim.getProperty(o, 'colors'))

@@ -1,6 +1,6 @@
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-motion-ik 1: Ruckig: lists, flags, selection, codes, the end inside a cycle, the old names
+-- spec: motion 1; Ruckig: lists, flags, selection, codes, the end inside a cycle, the old names
 -- tol: 1e-6
 -- topic: motion
 sim = require 'sim'

@@ -2,7 +2,7 @@
 -- as: sandbox
 -- passes: 0
 -- loops: 9
--- spec: SPEC-2.2, SPEC-2.4, SPEC-objects 9
+-- spec: callbacks 2, callbacks 4, objects 9
 sim = require 'sim'
 local a, b = sim.createDummy(0.01), sim.createDummy(0.01)
 local code = string.format([[

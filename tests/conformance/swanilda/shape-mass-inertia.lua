@@ -1,7 +1,7 @@
 -- as: simulation
 -- passes: 8
 -- engine: bullet278
--- spec: SPEC-shapes 6: inertia is kept per kilogram: another mass scales it; setShapeInertia in its own frame; what a torque makes of it
+-- spec: shapes 6; inertia is kept per kilogram: another mass scales it; setShapeInertia in its own frame; what a torque makes of it
 -- tol: 1e-6
 -- topic: shapes
 sim = require 'sim'

@@ -1,6 +1,6 @@
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-shapes 5 and 6: what groups and merges keep, islands, mass and inertia against closed forms, hulls, refusals
+-- spec: shapes 5, shapes 6; what groups and merges keep, islands, mass and inertia against closed forms, hulls, refusals
 -- tol: 1e-6
 -- topic: shapes
 sim = require 'sim'

@@ -1,7 +1,7 @@
 -- topic: textures
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-shapes 2.2, 3, 8; FORMAT 7.1 (Textures)
+-- spec: shapes 2.2, shapes 3, shapes 8, scene-files 7.1
 sim = require 'sim'
 local function fails(...)
     return (select(2, pcall(...)):gsub('^%-?%d+: ', ''))

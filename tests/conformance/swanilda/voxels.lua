@@ -1,7 +1,7 @@
 -- topic: sensors
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-sensors 4
+-- spec: sensors 4
 -- note: voxels of octrees, points of point clouds, objects as a whole
 sim = require 'sim'
 local function numbers(list)

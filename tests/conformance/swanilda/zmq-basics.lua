@@ -1,7 +1,7 @@
 -- topic: simZMQ
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-simZMQ 1, 4, 7, 8
+-- spec: simzmq 1, simzmq 4, simzmq 7, simzmq 8
 -- note: handles, errors as results and as errors, options, parts of messages, poll
 sim = require 'sim'
 local z = require 'simZMQ'

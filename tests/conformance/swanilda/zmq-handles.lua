@@ -1,7 +1,7 @@
 -- topic: simZMQ
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-simZMQ 1, 4, 8
+-- spec: simzmq 1, simzmq 4, simzmq 8
 -- note: arguments and handles that are none; objects used after their end
 sim = require 'sim'
 local z = require 'simZMQ'

@@ -1,7 +1,7 @@
 -- topic: simZMQ
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-simZMQ 3
+-- spec: simzmq 3
 -- note: a wait outside of threads ends: nothing can hold a run for ever
 sim = require 'sim'
 local z = require 'simZMQ'

@@ -1,7 +1,7 @@
 -- topic: simZMQ
 -- as: simulation
 -- passes: 300
--- spec: SPEC-simZMQ 4
+-- spec: simzmq 4
 -- note: a steered proxy in a thread, and a monitor
 sim = require 'sim'
 local z = require 'simZMQ'

@@ -1,7 +1,7 @@
 -- topic: simZMQ
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-simZMQ 4
+-- spec: simzmq 4
 -- note: random calls, most of them with wrong arguments: each is answered, and the program goes on
 sim = require 'sim'
 local z = require 'simZMQ'

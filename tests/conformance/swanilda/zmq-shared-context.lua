@@ -1,7 +1,7 @@
 -- topic: simZMQ
 -- as: sandbox
 -- passes: 0
--- spec: SPEC-simZMQ 1, 8
+-- spec: simzmq 1, simzmq 8
 -- note: the context of all scripts; handles of another script; what a script leaves behind ends with it
 sim = require 'sim'
 local z = require 'simZMQ'

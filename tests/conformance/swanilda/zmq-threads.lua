@@ -1,7 +1,7 @@
 -- topic: simZMQ
 -- as: simulation
 -- passes: 40
--- spec: SPEC-simZMQ 3, 8
+-- spec: simzmq 3, simzmq 8
 -- note: who waits in a thread lets the simulation go on; messages between threads and scripts
 sim = require 'sim'
 local z = require 'simZMQ'
