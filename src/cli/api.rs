@@ -6,15 +6,15 @@ use std::process::ExitCode;
 use super::{refuse, say};
 use crate::docs::{self, Function};
 
-/// How many letters a name may be off to be suggested.
+/// Largest edit distance of a suggested name.
 const NEAR: usize = 3;
-/// How many names are suggested.
+/// Largest number of suggestions.
 const SUGGESTIONS: usize = 5;
 
-/// Print the documentation of a function, or list all
+/// Print the documentation of a function, or list all functions
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// E.g. sim.getObjectPosition; the prefix may be left out
+    /// Function name, such as sim.getObjectPosition; the prefix is optional
     name: Option<String>,
 }
 
@@ -42,7 +42,7 @@ fn list(functions: &[Function]) -> String {
     categories.iter().map(|(category, lines)| format!("{category}\n{lines}")).collect::<Vec<_>>().join("\n")
 }
 
-/// What to say about a name that is not there.
+/// The message for an unknown name.
 fn unknown(name: &str, functions: &[Function]) -> String {
     if let Some(signature) = docs::reference_signature(name) {
         return format!("{name} is not implemented in Swanilda. CoppeliaSim's reference: {signature}");
@@ -62,7 +62,7 @@ fn unknown(name: &str, functions: &[Function]) -> String {
     }
 }
 
-/// Letters to insert, remove or replace to make one word the other (Levenshtein).
+/// Edit distance (Levenshtein).
 fn edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

@@ -22,38 +22,38 @@ const INTERRUPTED: u8 = 130;
 /// Seeds of one batch.
 const MOST_SEEDS: u32 = 10_000_000;
 
-/// Run a scene many times, with other seeds and parameters
+/// Run a scene many times with different seeds and parameters
 ///
-/// A script reads its parameters and tells its results through the module swanilda.batch. A batch that was interrupted goes on where it was.
+/// Scripts read parameters and report results with the module swanilda.batch. An interrupted batch resumes where it stopped.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// The scene: a Lua file, one of CoppeliaSim, or a folder made by unpack
+    /// Scene: a Lua file, a CoppeliaSim file, or a folder made by unpack
     scene: PathBuf,
-    /// The seeds: 0..99 with both ends, or 1,2,3
+    /// Seeds: a range such as 0..99 (both ends included), or a list such as 1,2,3
     #[arg(long, value_name = "SEEDS", value_parser = seeds)]
     seeds: Option<Seeds>,
-    /// A parameter and its values, such as kp=1,2,5; may be repeated, and every combination is run
+    /// Parameter and its values, such as kp=1,2,5; may be repeated to run every combination
     #[arg(long, value_name = "NAME=V1,V2,...", value_parser = sweep)]
     sweep: Vec<(String, Vec<String>)>,
-    /// A parameter that is the same in all runs; may be repeated
+    /// Parameter with the same value in all runs; may be repeated
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = named_param)]
     define: Vec<(String, String)>,
-    /// Runs at a time [default: as many as there are processors]
+    /// Number of runs in parallel [default: number of processors]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
-    /// Where the results go
+    /// Folder for the results
     #[arg(long, value_name = "FOLDER", default_value = "results")]
     out: PathBuf,
-    /// Ask each run for its end after that much simulated time
+    /// Stop each run after this much simulated time
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time: Option<f64>,
-    /// Wall-clock time a run may take
+    /// Wall-clock time limit per run
     #[arg(long, value_name = "SECONDS", default_value = "3600", value_parser = seconds)]
     timeout: f64,
-    /// Memory the Lua code of a run may take, MiB
+    /// Memory limit for the Lua code of a run, MiB
     #[arg(long, value_name = "MIB", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
     memory: u32,
-    /// Begin anew, whatever the folder holds
+    /// Start over and overwrite existing results
     #[arg(long)]
     force: bool,
 }
@@ -62,7 +62,7 @@ pub(super) struct Args {
 #[derive(Debug, Clone)]
 struct Seeds(Vec<u32>);
 
-/// Runs the batch; the exit code tells how it went.
+/// Runs the batch; the exit code reports the outcome.
 pub(super) fn batch(args: &Args) -> ExitCode {
     let interrupt = Interrupt::install(INTERRUPTED);
     match run(args, &interrupt) {

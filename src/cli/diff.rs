@@ -9,7 +9,7 @@ use crate::format::scene_outline::{Outline, differences};
 /// Exit code when the scenes differ.
 const DIFFERENT: u8 = 1;
 
-/// Tell what is different between two scenes or models: objects added, removed, moved, changed, and scripts line by line
+/// Compare two scenes or models: objects added, removed, moved and changed, and scripts line by line
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// A .ttt or .ttm file, or a folder made by unpack
@@ -17,7 +17,7 @@ pub(super) struct Args {
     new: PathBuf,
 }
 
-/// As `diff` does: 0 when they are the same, 1 when they differ.
+/// Exit codes as for `diff`: 0 if equal, 1 if different.
 pub(super) fn diff(args: &Args) -> ExitCode {
     let both = outline(&args.old).and_then(|old| Ok((old, outline(&args.new)?)));
     let (old, new) = match both {

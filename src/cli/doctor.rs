@@ -11,24 +11,24 @@ use crate::format::scene_file;
 /// Exit code when something a script calls is approximated or missing.
 const NOT_ALL_WORKS: u8 = 1;
 
-/// How the names of files end that are looked at in folders.
+/// File name endings to look for in folders.
 const ENDINGS: [&str; 5] = [".lua", ".ttt", ".ttm", ".simscene.xml", ".simmodel.xml"];
 
-/// Tell which calls of scripts, scenes or whole folders work, are approximated, or are missing
+/// Report which API calls in scripts and scenes are supported, approximated or missing
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Lua files, scenes and models of CoppeliaSim, folders with any of them
+    /// Lua files, CoppeliaSim scenes and models, or folders of them
     #[arg(required = true)]
     paths: Vec<PathBuf>,
-    /// Look at Lua files as --compat of run and serve makes them
+    /// Check Lua files as converted by --compat
     #[arg(long)]
     compat: bool,
-    /// One JSON object on standard output
+    /// Print one JSON object
     #[arg(long)]
     json: bool,
 }
 
-/// Looks at everything; the exit code tells whether all of it works.
+/// Checks everything; the exit code reports whether all of it is supported.
 pub(super) fn doctor(args: &Args) -> ExitCode {
     let mut report = Report::default();
     for path in &args.paths {

@@ -12,13 +12,13 @@ use crate::docs;
 /// Where the stubs go, seen from the folder.
 const STUBS: &str = ".swanilda/stubs";
 
-/// Set up a folder so that an editor completes `sim`
+/// Write editor settings and stubs so that `sim` is completed
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// The folder; the current one when left out
+    /// Folder to set up [default: the current one]
     #[arg(default_value = ".")]
     folder: PathBuf,
-    /// Overwrite what is there
+    /// Overwrite existing files
     #[arg(long)]
     force: bool,
 }

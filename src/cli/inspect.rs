@@ -9,23 +9,23 @@ use crate::docs::{self, Support};
 use crate::format::scene_file::{SceneFile, ScriptCode};
 use crate::format::scene_outline::{Item, Outline};
 
-/// Exit code when a script needs what is approximated or missing.
+/// Exit code when a script uses something approximated or missing.
 const NOT_ALL_WORKS: u8 = 1;
 
-/// Tell what is in a scene or model: its tree, sizes, scripts, and what they need
+/// Show the contents of a scene or model: object tree, sizes, scripts and what they require
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// A .ttt or .ttm file, or a folder made by unpack
     file: PathBuf,
-    /// One JSON object on standard output
+    /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// All facts as lines of text, for git's textconv; nothing is judged
+    /// Print everything as lines of text, for git's textconv
     #[arg(long, conflicts_with = "json")]
     textconv: bool,
 }
 
-/// The exit code tells whether all that scripts need works.
+/// The exit code reports whether everything the scripts use is supported.
 pub(super) fn inspect(args: &Args) -> ExitCode {
     let report = match Report::new(args) {
         Ok(report) => report,

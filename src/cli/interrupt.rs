@@ -3,13 +3,13 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whether the user wants the program to end.
+/// Set when the user interrupts the program.
 pub(super) struct Interrupt {
     requested: Arc<AtomicBool>,
 }
 
 impl Interrupt {
-    /// Listens from now on; `code` is the exit code of an end at once.
+    /// Installs the handler; `code` is the exit code after a second interrupt.
     pub(super) fn install(code: u8) -> Self {
         let requested = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&requested);
@@ -25,7 +25,7 @@ impl Interrupt {
         Self { requested }
     }
 
-    /// Becomes true when the end is asked for.
+    /// Becomes true on the first interrupt.
     pub(super) fn flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.requested)
     }

@@ -32,7 +32,7 @@ const USAGE: u8 = 2;
 /// Exit code for a failure of the simulator itself (`EX_SOFTWARE`).
 const INTERNAL: u8 = 70;
 
-/// Runs CoppeliaSim's Lua scripts and scenes without a display.
+/// Headless robot simulator that runs CoppeliaSim's Lua scripts and scenes.
 #[derive(Parser)]
 #[command(name = "swanilda", version, propagate_version = true)]
 struct Cli {
@@ -70,7 +70,7 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// The command line; what is wrong with it has been said, and help been given.
+/// The parsed command line; errors and help have been printed.
 fn parse() -> Result<Cli, ExitCode> {
     Cli::try_parse().map_err(|error| {
         let _ = error.print();
@@ -109,13 +109,13 @@ impl Command {
     }
 }
 
-/// Says what is wrong with the request; the exit code for it.
+/// Prints an error about the request; returns its exit code.
 fn refuse(reason: &str) -> ExitCode {
     eprintln!("swanilda: {reason}");
     ExitCode::from(USAGE)
 }
 
-/// Writes to standard output. A reader that closes the pipe has seen enough, which is no error.
+/// Writes to standard output. A closed pipe is not an error.
 fn say(text: &[u8]) {
     let _ = std::io::stdout().write_all(text);
 }

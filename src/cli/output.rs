@@ -10,11 +10,11 @@ use serde_json::{Value, json};
 use crate::script::log::verbosity;
 use crate::{Console, LogLine, RunTotals};
 
-/// How lines are written.
+/// Output format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Format {
     Text,
-    /// One object per line, told apart by its `type`.
+    /// One object per line, distinguished by its `type`.
     Json,
 }
 
@@ -22,7 +22,7 @@ pub(super) enum Format {
 #[derive(Clone)]
 pub(super) struct Output {
     format: Format,
-    /// Leave out what the simulator says about itself.
+    /// Suppress the simulator's own messages.
     quiet: bool,
     /// Stands on the terminal between lines.
     bar: ProgressBar,
@@ -33,12 +33,12 @@ impl Output {
         Self { format, quiet, bar }
     }
 
-    /// A word of the command line itself, in the name the simulator has in the log.
+    /// A message of the command line itself, under the simulator's name in the log.
     pub(super) fn note(&self, text: &str, time: f64) {
         self.write_log(&LogLine { origin: "CoppeliaSim", level: verbosity::SCRIPT_INFOS, text, time, status: true });
     }
 
-    /// Tells where a server listens.
+    /// Reports the address of a server.
     pub(super) fn listening(&self, api: &str, address: SocketAddr) {
         match self.format {
             Format::Text => write_stdout(format!("{api} remote API at {address}").as_bytes()),
@@ -48,7 +48,7 @@ impl Output {
         }
     }
 
-    /// The last line: what the run did and how long it took.
+    /// The last line: steps, times and errors of the run.
     pub(super) fn summary(&self, totals: RunTotals, wall: Duration, errors: u64, exit_code: u8) {
         if self.quiet {
             return;

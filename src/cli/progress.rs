@@ -28,7 +28,7 @@ impl Progress {
         Self { bar, limits, begun: Instant::now(), waiting }
     }
 
-    /// For whoever writes to the terminal in between.
+    /// The bar, for callers that write to the terminal while it shows.
     pub(super) fn bar(&self) -> ProgressBar {
         self.bar.clone()
     }

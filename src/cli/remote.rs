@@ -7,7 +7,7 @@ use super::output::Output;
 use super::setup::Setup;
 use crate::{Options, Simulator};
 
-/// How many ports are tried.
+/// Number of ports to try.
 const TRIED_PORTS: u16 = 100;
 
 /// A remote API and its port.
@@ -32,25 +32,25 @@ impl Api {
     }
 }
 
-/// Which programs outside may drive the simulator
+/// Remote API options
 #[derive(clap::Args)]
 pub(super) struct Remote {
-    /// Serve the ZeroMQ remote API, at a port of one's choice (0: any) [default port: the first free one from 23000]
+    /// Serve the ZeroMQ remote API, optionally at PORT (0: any free port) [default: first free port from 23000]
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
     remote_api: Option<Option<u16>>,
-    /// Serve the WebSocket remote API as well; its default port is the first free one from 23050
+    /// Serve the WebSocket remote API as well [default: first free port from 23050]
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
     ws_remote_api: Option<Option<u16>>,
-    /// Origin of web pages that may use the WebSocket remote API, besides those of this machine (`*`: all); may be repeated
+    /// Additional web origin that may use the WebSocket remote API (`*`: all); may be repeated
     #[arg(long, value_name = "ORIGIN")]
     allow_origin: Vec<String>,
-    /// Address to listen at, for remote APIs and servers of scripts; who connects there can do whatever a script can. Another than this machine's own implies --no-unsafe
+    /// Address to listen on, for remote APIs and servers of scripts. Clients can do anything a script can; a non-local address implies --no-unsafe
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
-    /// Nobody starts programs or loads native libraries, and remote clients get no files
+    /// Forbid starting programs and loading native libraries, and file access by remote clients
     #[arg(long)]
     no_unsafe: bool,
-    /// Trust those who connect from other machines: they may start programs and use files
+    /// Allow clients on other machines to start programs and access files
     #[arg(long = "unsafe", conflicts_with = "no_unsafe")]
     allow_unsafe: bool,
 }
@@ -61,7 +61,7 @@ impl Remote {
         self.remote_api.is_some()
     }
 
-    /// The options as those who can connect make necessary.
+    /// The options, restricted by who can connect.
     pub(super) fn guard(&self, options: Options) -> Options {
         let allowed = !self.no_unsafe && (self.bind.is_loopback() || self.allow_unsafe);
         Options {

@@ -22,21 +22,21 @@ const INTERRUPTED: u8 = 130;
 /// Run a scene
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// The scene: a Lua file, one of CoppeliaSim, or a folder made by unpack
+    /// Scene: a Lua file, a CoppeliaSim file, or a folder made by unpack
     scene: PathBuf,
-    /// What the file becomes
+    /// Script type to load the file as
     #[arg(long = "as", value_name = "KIND", default_value = "customization")]
     kind: Kind,
-    /// Ask for the end after that many simulation steps
+    /// Stop after N simulation steps
     #[arg(long, value_name = "N", conflicts_with = "time")]
     steps: Option<u64>,
-    /// Ask for the end after that much simulated time
+    /// Stop after this much simulated time
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time: Option<f64>,
-    /// Leave it to the scripts to start the simulation
+    /// Do not start the simulation; scripts may do so
     #[arg(long)]
     no_start: bool,
-    /// Passes before the end with --no-start; idle passes before a paused simulation is ended
+    /// Loop iterations before exiting with --no-start, or before a paused simulation is stopped
     #[arg(long, value_name = "L", default_value_t = 20)]
     loops: u64,
     #[command(flatten)]
@@ -66,7 +66,7 @@ impl From<Kind> for ScriptKind {
     }
 }
 
-/// Runs the scene; the exit code tells how it went.
+/// Runs the scene; the exit code reports the outcome.
 pub(super) fn run(args: &Args) -> ExitCode {
     let sources = match args.setup.sources(Some(&args.scene)) {
         Ok(sources) => sources,

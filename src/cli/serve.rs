@@ -11,19 +11,19 @@ use super::remote::Remote;
 use super::setup::Setup;
 use crate::{RunLimits, ScriptKind, Simulator};
 
-/// How long to wait for a request before looking after everything else.
+/// Longest wait for a request before an idle loop iteration.
 const NAP: Duration = Duration::from_millis(50);
-/// The same while a step is soon due in real-time mode, or scripts look for messages at their own sockets.
+/// The same while a real-time step is due soon, or while scripts poll their own sockets.
 const SHORT_NAP: Duration = Duration::from_millis(1);
 /// Exit code after a second ctrl-c.
 const INTERRUPTED: u8 = 130;
 
-/// Serve programs that drive the simulator: an idle simulator with the ZeroMQ remote API
+/// Start a simulator that remote API clients control
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// The scene: a Lua file, one of CoppeliaSim, or a folder made by unpack [default: the default scene]
+    /// Scene: a Lua file, a CoppeliaSim file, or a folder made by unpack [default: the default scene]
     scene: Option<PathBuf>,
-    /// Leave out the ZeroMQ remote API
+    /// Do not start the ZeroMQ remote API
     #[arg(long, conflicts_with = "remote_api")]
     no_remote_api: bool,
     #[command(flatten)]
@@ -61,7 +61,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Rests until there is something to do.
+/// Sleeps until there is something to do.
 fn nap(sim: &Simulator, longest: Duration) {
     if !sim.wait_for_request(longest) {
         std::thread::sleep(longest);

@@ -7,10 +7,10 @@ use super::output::Output;
 use super::progress::Progress;
 use crate::{Onlooker, Simulator};
 
-/// How long to sleep between two looks at the wall clock in real-time mode.
+/// Sleep between polls of the wall clock in real-time mode.
 const REAL_TIME_NAP: Duration = Duration::from_millis(1);
 
-/// The command line as it looks on.
+/// The command line as an observer of the run.
 pub(super) struct Session<'a> {
     pub interrupt: &'a Interrupt,
     pub progress: Progress,
@@ -34,7 +34,7 @@ impl Onlooker for Session<'_> {
     }
 }
 
-/// Rests after a pass without a step: the next one is not due yet, or somebody outside holds it up.
+/// Sleeps after a loop iteration without a step: the next step is not due yet, or a remote client delays it.
 fn rest(sim: &Simulator) {
     if !sim.wait_for_request(REAL_TIME_NAP) && sim.scene().settings().real_time {
         std::thread::sleep(REAL_TIME_NAP);

@@ -11,45 +11,44 @@ use crate::format::ttt::FileError;
 use crate::script::log::verbosity;
 use crate::{Options, ScriptKind, Simulator};
 
-/// How the simulator is set up
+/// Simulator options
 #[derive(clap::Args)]
 pub(super) struct Setup {
-    /// Start from nothing instead of the default scene
+    /// Start with an empty scene instead of the default scene
     #[arg(long)]
     pub empty: bool,
     /// Length of a simulation step
     #[arg(long, value_name = "SECONDS", value_parser = step_length)]
     dt: Option<f64>,
-    /// Keep pace with the wall clock
+    /// Run in real time
     #[arg(long)]
     realtime: bool,
-    /// Seed of the scripts' random numbers
+    /// Seed for the scripts' random numbers
     #[arg(long)]
     seed: Option<u32>,
-    /// Lua instructions that stand for a millisecond of a thread's time slice
+    /// Lua instructions per millisecond of a thread's time slice
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     instructions_per_ms: Option<u64>,
-    /// A named parameter scripts can read (sim.getNamedStringParam); may be repeated
+    /// Named parameter for scripts (sim.getNamedStringParam); may be repeated
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = named_param)]
     define: Vec<(String, String)>,
-    /// Folder of the data scripts keep beyond a run [default: where the system keeps the user's]
+    /// Folder for persistent data of scripts [default: the user's data folder]
     #[arg(long, value_name = "FOLDER")]
     data_dir: Option<PathBuf>,
-    /// A Lua file to load as an add-on first; may be repeated
+    /// Lua file to load as an add-on; may be repeated
     #[arg(long, value_name = "FILE")]
     addon: Vec<PathBuf>,
-    /// Bring Lua files of the time of V-REP and early CoppeliaSim up to date, as those in scenes are: old names, threads, what changed its
-    /// meaning
+    /// Convert Lua files written for V-REP or early CoppeliaSim, as scripts in old scenes are: old names, threads, changed meanings
     #[arg(long)]
     compat: bool,
-    /// Highest level of log lines to show: none, errors, warnings, loadinfos, scripterrors, scriptwarnings, scriptinfos, infos,
+    /// Log level: none, errors, warnings, loadinfos, scripterrors, scriptwarnings, scriptinfos, infos,
     /// debug or trace
     #[arg(long, value_name = "LEVEL", value_parser = level)]
     verbosity: Option<i64>,
-    /// One JSON object per line printed or logged, then a summary, all on standard output
+    /// Print JSON lines (output, log and summary) on standard output
     #[arg(long)]
     pub json: bool,
-    /// No status lines of the simulator and no summary
+    /// Suppress status messages and the summary
     #[arg(long, short)]
     pub quiet: bool,
 }
@@ -57,7 +56,7 @@ pub(super) struct Setup {
 /// A script file: its name without extension, and its text.
 type Source = (String, Vec<u8>);
 
-/// What the scene is made of.
+/// Parts of the scene.
 enum Scene {
     Script(Source),
     File(Box<SceneFile>),
@@ -166,7 +165,7 @@ fn read(path: impl AsRef<Path>) -> Result<Source, String> {
     Ok((name_of(path), code))
 }
 
-/// What a script is called that is read from a file.
+/// Name of a script that is read from a file.
 fn name_of(path: &Path) -> String {
     path.file_stem().map_or_else(|| "Script".into(), |stem| stem.to_string_lossy().into_owned())
 }

@@ -21,7 +21,7 @@ mod watch;
 use reports::ReportArgs;
 use watch::Watch;
 
-/// Exit codes as pytest has them.
+/// Exit codes, the same as pytest's.
 const FAILED: u8 = 1;
 const INTERRUPTED: u8 = 2;
 /// Exit code for a wrong command line.
@@ -33,59 +33,59 @@ const NO_TESTS: u8 = 5;
 /// Exit codes: 0 all passed, 1 some failed, 2 interrupted, 4 wrong usage, 5 no tests found.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Test files, and folders with files named *_test.lua or test_*.lua
+    /// Test files, or folders to search for *_test.lua and test_*.lua
     #[arg(default_value = ".")]
     paths: Vec<PathBuf>,
-    /// Tests at a time [default: as many as there are processors]
+    /// Number of tests to run in parallel [default: number of processors]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
-    /// Only tests whose `file::name` contains the text; may be repeated
+    /// Run only tests whose `file::name` contains TEXT; may be repeated
     #[arg(long, value_name = "TEXT")]
     filter: Vec<String>,
-    /// Show the tests instead of running them
+    /// List the tests without running them
     #[arg(long)]
     list: bool,
-    /// Begin no further test after one has failed
+    /// Stop after the first failure
     #[arg(long)]
     fail_fast: bool,
-    /// Only the i-th of n shares of the tests, for machines that divide the work
+    /// Run only share I of N, to split the tests among machines
     #[arg(long, value_name = "I/N", value_parser = shard)]
     shard: Option<(usize, usize)>,
-    /// Run each test that often; the seed rises by one each time
+    /// Run each test N times, increasing the seed by one each time
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     repeat: u32,
-    /// Seed of random numbers and faults
+    /// Seed for random numbers and injected faults
     #[arg(long)]
     seed: Option<u32>,
-    /// Wall-clock time a test may take
+    /// Wall-clock time limit per test
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
     timeout: f64,
-    /// Simulated time a test may take
+    /// Simulated time limit per test
     #[arg(long, value_name = "SECONDS", default_value = "3600", value_parser = seconds)]
     sim_timeout: f64,
-    /// Memory the Lua code of a test may take, MiB
+    /// Memory limit for the Lua code of a test, MiB
     #[arg(long, value_name = "MIB", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..))]
     memory: u32,
     /// Record golden traces instead of comparing with them
     #[arg(long)]
     update_golden: bool,
-    /// Where plots of golden traces go that differ
+    /// Folder for plots of golden traces that differ
     #[arg(long, value_name = "FOLDER", default_value = "test-results")]
     artifacts: PathBuf,
-    /// Count the lines of scripts and Lua files that run, and write them in the format of LCOV [default FILE: lcov.info]
+    /// Measure line coverage of scripts and Lua files and write it in LCOV format [default FILE: lcov.info]
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "lcov.info")]
     coverage: Option<PathBuf>,
-    /// Run the tests again whenever a file beside or below them changes
+    /// Run the tests again whenever a file next to or below them changes
     #[arg(long)]
     watch: bool,
-    /// Write a first test and a workflow that runs it into the current folder
+    /// Create an example test and a CI workflow in the current folder
     #[arg(long)]
     init: bool,
     #[command(flatten)]
     reports: ReportArgs,
 }
 
-/// Runs the tests; the exit code tells how it went.
+/// Runs the tests; the exit code reports the outcome.
 pub(super) fn test(args: &Args) -> ExitCode {
     if args.init {
         return init();

@@ -10,21 +10,21 @@ use crate::format::ttt::File;
 use crate::format::xml::{self, Variant};
 use crate::scene::Scene;
 
-/// Write a scene or model as a folder: a tree in JSON, scripts as Lua files, meshes as OBJ files
+/// Unpack a scene or model into a folder: tree as JSON, scripts as Lua files, meshes as OBJ files
 #[derive(clap::Args)]
 pub(super) struct UnpackArgs {
     /// A .ttt or .ttm file, or XML
     file: PathBuf,
-    /// A new or empty folder, or one that was unpacked before
+    /// New or empty folder, or one that was unpacked before
     folder: PathBuf,
 }
 
-/// Write the scene or model that a folder says
+/// Create a scene or model file from a folder made by unpack
 #[derive(clap::Args)]
 pub(super) struct PackArgs {
     /// A folder made by unpack, or a file
     folder: PathBuf,
-    /// A .ttt or .ttm file, or XML: .simscene.xml or .simmodel.xml, with @simpleXml behind it for the simple variant
+    /// Output file: .ttt, .ttm, .simscene.xml or .simmodel.xml; append @simpleXml for the simple XML variant
     file: PathBuf,
 }
 
@@ -44,7 +44,7 @@ pub(super) fn pack(args: &PackArgs) -> ExitCode {
     done(written)
 }
 
-/// XML has elements for what the savers write, not for what only older programs knew.
+/// XML has elements for what CoppeliaSim saves today, not for data of older versions.
 fn as_saved(file: File) -> Result<File, String> {
     let damaged = |error: &dyn std::fmt::Display| format!("cannot write XML: {error}");
     let file = SceneFile::new(file).map_err(|error| damaged(&error))?;
