@@ -47,7 +47,20 @@ pub(crate) use report::Trigger;
 use world::World;
 
 use crate::scene::joint::{Joint, JointMode};
-use crate::scene::{Handle, Scene};
+use crate::scene::{Field, Handle, Mark, Scene, Topics};
+
+/// Changes that can alter what takes part, and how.
+const PLANNED: Topics = Topics::TREE.with_fields(&[
+    Field::Layer,
+    Field::ObjectProperty,
+    Field::SpecialProperty,
+    Field::ModelProperty,
+    Field::Dynamics,
+    Field::Geometry,
+    Field::Joint,
+    Field::Sensor,
+    Field::Other,
+]);
 
 /// The physics world that belongs to a scene.
 #[derive(Default)]
@@ -61,8 +74,8 @@ pub(crate) struct Dynamics {
     frozen: Frozen,
     /// Roots too far away to be simulated.
     far: Vec<Handle>,
-    /// The state of the scene the plan was made for.
-    revision: Option<u64>,
+    /// What the plan was made for.
+    known: Option<Mark>,
     call: Option<Call>,
     /// Whether the engine asks about every pair that may touch.
     asks: bool,
@@ -152,9 +165,9 @@ impl Dynamics {
 
     /// Makes a new plan when something it depends on has changed.
     fn follow(&mut self, scene: &mut Scene) {
-        let revision = scene.changes().dynamics_revision();
+        let changed = self.has_new_changes(scene);
         let released = self.frozen.release(scene);
-        if self.revision == Some(revision)
+        if !changed
             && !released
             && !self.bodies.were_touched(scene)
             && !links::were_touched(&self.links, scene)
@@ -173,7 +186,13 @@ impl Dynamics {
         let_sleep(&self.bodies, &self.links, world, self.asks);
         self.contacts.forget_resting();
         self.articulation.follow(&mut self.links, &scene.all_breadth_first(), &self.bodies, world);
-        self.revision = Some(scene.changes().dynamics_revision());
+        // What was just written into the scene asks for no other plan.
+        self.has_new_changes(scene);
+    }
+
+    /// Whether the scene changed since the last call in a way that can ask for another plan.
+    fn has_new_changes(&mut self, scene: &Scene) -> bool {
+        scene.journal().changed_since(self.known.get_or_insert(Mark::new(PLANNED)))
     }
 
     /// Before pass number `pass` (from 1): moves the static bodies and sets the motors. Returns the joints only a script can drive.

@@ -85,7 +85,7 @@ impl Dynamics {
             self.frozen.hold(shape, scene);
         }
         if !shapes.is_empty() {
-            self.revision = None;
+            self.known = None;
             self.follow(scene);
         }
     }

@@ -1,13 +1,13 @@
 //! The scene: objects, handles, poses, names. Pure data and maths: no Lua, no physics, no I/O, no clock.
 //!
 //! [`Scene`] owns every object in one store indexed by [`Handle`]. Reading gives `&Object`; every mutation is a method of `Scene` and
-//! ends in [`Changes`], so that events, caches and the physics learn of it in one place.
+//! is noted in the [`Journal`], so that events, caches and the physics learn of it in one place.
 
 pub mod appearance;
-pub mod change;
 pub mod error;
 pub mod graph;
 pub mod joint;
+pub mod journal;
 pub mod parameters;
 pub mod pose;
 pub mod sensor;
@@ -20,8 +20,8 @@ pub mod voxels;
 
 pub use geometry::Pose;
 
-pub use change::{Change, Changes, Counters, Field};
 pub use error::{SceneError, SceneResult};
+pub use journal::{Change, Counters, Cursor, Field, Journal, Mark, Topic, Topics, Unread};
 pub use pose::placement::{Frame, Placement};
 pub use simulation::settings::{DynamicsSettings, Settings};
 pub use store::{FIRST_MESH_UID, Scene};

@@ -2,11 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::pose::world::Moves;
 use super::shape::Part;
 use super::shape::Shape;
 use super::tree::identity;
 use super::tree::object::{Kind, Object};
-use super::{Change, Changes, CustomData, Field, Handle, Kept, SceneError, SceneResult, Settings, Uid};
+use super::{Change, CustomData, Field, Handle, Journal, Kept, SceneError, SceneResult, Settings, Uid};
 
 /// Identifiers of meshes begin above all handles and their flags: both name targets of properties.
 pub const FIRST_MESH_UID: Uid = 100_000_000;
@@ -33,7 +34,8 @@ pub struct Scene {
     /// A simulation runs: new objects remember their state.
     pub(super) in_run: bool,
     settings: Settings,
-    changes: Changes,
+    pub(super) journal: Journal,
+    pub(super) moves: Moves,
     /// Custom data of the scene itself (`sim.handle_scene`).
     pub custom_data: CustomData,
     /// Signals of the scene itself; they are not saved.
@@ -72,10 +74,11 @@ impl Scene {
             self.referrers.insert(handle);
         }
         self.by_uid.insert(object.uid, handle);
+        self.moves.note(&mut object);
         self.slots[index] = Some(Box::new(object));
         self.live += 1;
         self.roots.push(handle);
-        self.changes.note(Change::Added(handle));
+        self.note(Change::Added(handle));
         self.store_state_of_new(handle)?;
         Ok(handle)
     }
@@ -135,7 +138,7 @@ impl Scene {
     /// Changes one mesh of a shape as `field` says; None when there is no such mesh.
     pub fn modify_mesh<R>(&mut self, uid: Uid, field: Field, change: impl FnOnce(&mut Part) -> R) -> Option<R> {
         let (handle, index) = self.mesh(uid)?;
-        let Kind::Shape(shape) = &mut self.object_mut(handle).ok()?.kind else { return None };
+        let Kind::Shape(shape) = &mut self.object_changing(handle, field).ok()?.kind else { return None };
         let result = change(shape.parts.get_mut(index)?);
         self.note_modified(handle, field);
         Some(result)
@@ -155,6 +158,12 @@ impl Scene {
         }
     }
 
+    /// The next new object gets this handle, if it is free.
+    #[cfg(test)]
+    pub(super) fn start_handles_at(&mut self, handle: Handle) {
+        self.next_handle = handle.0;
+    }
+
     /// A fresh unique identifier; meshes and scripts draw from the same counter.
     pub fn new_uid(&mut self) -> Uid {
         self.next_uid += 1;
@@ -171,9 +180,7 @@ impl Scene {
 
     /// Changes one aspect of an object: the one gate for everything that is not a change of the tree.
     pub fn modify<R>(&mut self, handle: Handle, field: Field, change: impl FnOnce(&mut Object) -> R) -> SceneResult<R> {
-        let result = change(self.object_mut(handle)?);
-        self.note_modified(handle, field);
-        Ok(result)
+        self.try_modify(handle, field, |object| Ok(change(object)))
     }
 
     /// Like [`modify`](Self::modify) for changes that may be refused; a refused one is not recorded.
@@ -183,7 +190,10 @@ impl Scene {
         field: Field,
         change: impl FnOnce(&mut Object) -> SceneResult<R>,
     ) -> SceneResult<R> {
-        let result = change(self.object_mut(handle)?)?;
+        let object = self.object_changing(handle, field)?;
+        let frames = cfg!(debug_assertions).then(|| object.frames());
+        let result = change(object)?;
+        debug_assert!(field.can_move() || frames == Some(object.frames()), "a change of {field:?} moved an object");
         self.note_modified(handle, field);
         Ok(result)
     }
@@ -193,12 +203,29 @@ impl Scene {
         if !moves_only && self.object(handle).is_ok_and(Object::refers) {
             self.referrers.insert(handle);
         }
-        self.changes.note(Change::Modified(handle, field));
+        self.note(Change::Modified(handle, field));
     }
 
     /// Unrecorded access, for the operations of this module that note their change themselves.
     pub(super) fn object_mut(&mut self, handle: Handle) -> SceneResult<&mut Object> {
-        self.slots.get_mut(handle.index()).and_then(Option::as_deref_mut).ok_or(SceneError::NoSuchObject)
+        let object = slot_mut(&mut self.slots, handle)?;
+        self.moves.note(object);
+        Ok(object)
+    }
+
+    /// The same for what cannot move the object or what hangs on it.
+    pub(super) fn object_in_place(&mut self, handle: Handle) -> SceneResult<&mut Object> {
+        slot_mut(&mut self.slots, handle)
+    }
+
+    /// The object, of which `field` is about to change.
+    fn object_changing(&mut self, handle: Handle, field: Field) -> SceneResult<&mut Object> {
+        if field.can_move() { self.object_mut(handle) } else { self.object_in_place(handle) }
+    }
+
+    /// Notes a change in the journal.
+    pub(super) fn note(&mut self, change: Change) {
+        self.journal.note(change);
     }
 
     /// Forgets an object that is in no list any more.
@@ -213,7 +240,7 @@ impl Scene {
                 }
                 self.forget_unused_textures(&shape.texture_ids().collect::<Vec<_>>());
             }
-            self.changes.note(Change::Removed(handle, object.uid()));
+            self.note(Change::Removed(handle, object.uid()));
         }
     }
 
@@ -246,17 +273,22 @@ impl Scene {
 
     pub fn modify_settings<R>(&mut self, change: impl FnOnce(&mut Settings) -> R) -> R {
         let result = change(&mut self.settings);
-        self.changes.note(Change::Settings);
+        self.note(Change::Settings);
         result
     }
 
-    pub fn changes(&self) -> &Changes {
-        &self.changes
+    /// What changed, for those who follow the scene.
+    pub fn journal(&self) -> &Journal {
+        &self.journal
     }
 
-    pub fn changes_mut(&mut self) -> &mut Changes {
-        &mut self.changes
+    pub(crate) fn journal_mut(&mut self) -> &mut Journal {
+        &mut self.journal
     }
+}
+
+fn slot_mut(slots: &mut [Option<Box<Object>>], handle: Handle) -> SceneResult<&mut Object> {
+    slots.get_mut(handle.index()).and_then(Option::as_deref_mut).ok_or(SceneError::NoSuchObject)
 }
 
 fn is_sensor(kind: &Kind) -> bool {

@@ -3,15 +3,18 @@
 use std::collections::BTreeMap;
 
 use super::{Dependency, JointMode, JointType};
-use crate::scene::{Field, Handle, Scene, SceneResult};
+use crate::scene::{Field, Handle, Mark, Scene, SceneResult, Topic, Topics};
 
 /// Largest offset and coefficient.
 const BOUND: f64 = 1e4;
+/// Changes that can make joints follow other ones, or by another law.
+const LAWS: Topics =
+    Topics::NONE.with(Topic::Added).with(Topic::Removed).with_fields(&[Field::Joint, Field::Geometry, Field::Other]);
 
 /// Who follows whom, kept until a joint changes.
 #[derive(Debug, Default)]
 pub(in crate::scene) struct Followers {
-    revision: Option<u64>,
+    known: Option<Mark>,
     by_master: BTreeMap<Handle, Vec<(Handle, Dependency)>>,
 }
 
@@ -89,8 +92,7 @@ impl Scene {
 
     /// Collects anew who follows whom, when a joint may have changed that.
     fn refresh_followers(&mut self) {
-        let revision = self.changes().dynamics_revision();
-        if self.followers.revision == Some(revision) {
+        if !self.journal.changed_since(self.followers.known.get_or_insert(Mark::new(LAWS))) {
             return;
         }
         let mut by_master: BTreeMap<Handle, Vec<(Handle, Dependency)>> = BTreeMap::new();
@@ -100,7 +102,7 @@ impl Scene {
                 by_master.entry(law.master).or_default().push((object.handle(), law));
             }
         }
-        self.followers = Followers { revision: Some(revision), by_master };
+        self.followers.by_master = by_master;
     }
 
     /// Moves a dependent joint to where its master wants it.

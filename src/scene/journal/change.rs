@@ -1,12 +1,6 @@
-//! The record of what changed in the scene since it was last read.
-//!
-//! Every mutation of [`Scene`](super::Scene) goes through `Scene::modify` or one of the structural operations, and each of those
-//! notes its change here. Nothing is stored while nobody listens.
+//! What can change in a scene, and sorts of changes.
 
-use std::collections::BTreeMap;
-
-use super::values::custom_data::Edited;
-use super::{Handle, Holder, Namespace, Uid};
+use crate::scene::{Handle, Holder, Namespace, Uid};
 
 /// What changed about an object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -14,7 +8,8 @@ pub enum Field {
     Alias,
     Parent,
     Pose,
-    /// What was measured or what the physics reports: velocities, readings, flags.
+    /// What was measured or what the physics reports: velocities, readings, flags. Measured velocities are noted only for those
+    /// who follow them.
     Measured,
     Layer,
     ObjectProperty,
@@ -38,6 +33,14 @@ pub enum Field {
     Other,
 }
 
+impl Field {
+    /// Whether such a change can move the object in its parent's frame, or the frame its children live in.
+    pub(in crate::scene) fn can_move(self) -> bool {
+        use Field::*;
+        matches!(self, Parent | Pose | Geometry | Joint | JointPosition | Other)
+    }
+}
+
 /// One change, in the order it happened.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Change {
@@ -54,114 +57,107 @@ pub enum Change {
     },
 }
 
-/// Names of the data of one object that were written (true) or removed.
-pub type ChangedNames = BTreeMap<String, bool>;
-
-/// Collects changes for whoever listens, and counts changes of the tree for caches.
-#[derive(Debug, Default)]
-pub struct Changes {
-    listening: bool,
-    pending: Vec<Change>,
-    tree_revision: u64,
-    dynamics_revision: u64,
-    changed_data: BTreeMap<(Handle, Namespace), ChangedNames>,
-    counters: Counters,
+impl Change {
+    /// What the change is about.
+    pub fn topic(&self) -> Topic {
+        match self {
+            Self::Added(_) => Topic::Added,
+            Self::Removed(..) => Topic::Removed,
+            Self::Modified(_, field) => Topic::Field(*field),
+            Self::Selection => Topic::Selection,
+            Self::Settings => Topic::Settings,
+            Self::Stored { .. } => Topic::Stored,
+        }
+    }
 }
 
-/// How often the tree changed, ever.
+/// What a change is about, whichever object it concerns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Topic {
+    Added,
+    Removed,
+    Field(Field),
+    Selection,
+    Settings,
+    Stored,
+}
+
+impl Topic {
+    const FIELDS: usize = Field::Other as usize + 1;
+    /// How many topics there are.
+    pub(super) const COUNT: usize = Self::FIELDS + 5;
+
+    /// Its number, below [`COUNT`](Self::COUNT).
+    pub(super) const fn index(self) -> usize {
+        match self {
+            Self::Field(field) => field as usize,
+            Self::Added => Self::FIELDS,
+            Self::Removed => Self::FIELDS + 1,
+            Self::Selection => Self::FIELDS + 2,
+            Self::Settings => Self::FIELDS + 3,
+            Self::Stored => Self::FIELDS + 4,
+        }
+    }
+}
+
+/// A set of topics.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Counters {
-    pub creations: i64,
-    pub destructions: i64,
-    /// Objects that came, went, or got another parent or place.
-    pub hierarchy: i64,
+pub struct Topics(u32);
+
+impl Topics {
+    pub const NONE: Self = Self(0);
+    pub const ALL: Self = Self((1 << Topic::COUNT) - 1);
+    /// Objects come, go, and get another parent or another place among their siblings.
+    pub const TREE: Self = Self::NONE.with(Topic::Added).with(Topic::Removed).with_fields(&[Field::Parent]);
+
+    pub const fn with(self, topic: Topic) -> Self {
+        Self(self.0 | 1 << topic.index())
+    }
+
+    /// These topics and changes of any of `fields`.
+    pub const fn with_fields(mut self, fields: &[Field]) -> Self {
+        let mut index = 0;
+        while index < fields.len() {
+            self = self.with(Topic::Field(fields[index]));
+            index += 1;
+        }
+        self
+    }
+
+    pub const fn and(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    pub const fn contains(self, topic: Topic) -> bool {
+        self.0 & 1 << topic.index() != 0
+    }
+
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// The numbers of its topics, rising.
+    pub(super) fn indices(self) -> impl Iterator<Item = usize> {
+        let rest = |bits: &u32| Some(bits & (bits - 1)).filter(|rest| *rest != 0);
+        std::iter::successors(Some(self.0).filter(|bits| *bits != 0), rest).map(|bits| bits.trailing_zeros() as usize)
+    }
 }
 
-impl Counters {
-    fn count(&mut self, change: &Change) {
-        self.creations += i64::from(matches!(change, Change::Added(_)));
-        self.destructions += i64::from(matches!(change, Change::Removed(..)));
-        let of_tree = matches!(change, Change::Added(_) | Change::Removed(..) | Change::Modified(_, Field::Parent));
-        self.hierarchy += i64::from(of_tree);
-    }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl Changes {
-    pub(super) fn note(&mut self, change: Change) {
-        self.counters.count(&change);
-        match change {
-            Change::Modified(_, Field::Pose | Field::Measured | Field::JointPosition | Field::JointControl) => {}
-            Change::Modified(_, Field::Alias | Field::Appearance | Field::Texture | Field::Kept) => {}
-            Change::Selection | Change::Settings | Change::Stored { .. } => {}
-            Change::Modified(_, Field::Script | Field::Priority) => self.tree_revision += 1,
-            Change::Added(_) | Change::Removed(..) | Change::Modified(_, Field::Parent | Field::ModelProperty) => {
-                self.tree_revision += 1;
-                self.dynamics_revision += 1;
-            }
-            Change::Modified(..) => self.dynamics_revision += 1,
+    #[test]
+    fn topics_have_numbers_of_their_own() {
+        let topics = [Topic::Added, Topic::Removed, Topic::Selection, Topic::Settings, Topic::Stored];
+        let fields = [Field::Alias, Field::Pose, Field::Kept, Field::Other].map(Topic::Field);
+        let mut seen = Topics::NONE;
+        for topic in topics.into_iter().chain(fields) {
+            assert!(!seen.contains(topic), "{topic:?}");
+            seen = seen.with(topic);
         }
-        if self.listening {
-            self.pending.push(change);
-        }
-    }
-
-    /// Notes what an edit of named values did. Scripts attached to objects are told in any case, see `take_changed_data`.
-    pub fn note_stored(&mut self, holder: Holder, namespace: Namespace, edited: &Edited<'_>) {
-        match edited {
-            Edited::Nothing => {}
-            Edited::Written(name) => self.note_name(holder, namespace, name, true),
-            Edited::Removed(name) => self.note_name(holder, namespace, name, false),
-            Edited::Cleared(names) => names.iter().for_each(|name| self.note_name(holder, namespace, name, false)),
-        }
-    }
-
-    fn note_name(&mut self, holder: Holder, namespace: Namespace, name: &str, written: bool) {
-        if let Holder::Object(handle) = holder {
-            let names = self.changed_data.entry((handle, namespace)).or_default();
-            match names.get_mut(name) {
-                Some(last) => *last = written,
-                None => drop(names.insert(name.to_owned(), written)),
-            }
-        }
-        if self.listening {
-            self.pending.push(Change::Stored { holder, namespace, name: name.to_owned() });
-        }
-    }
-
-    /// Which data of which objects was changed since the last call.
-    pub fn take_changed_data(&mut self) -> BTreeMap<(Handle, Namespace), ChangedNames> {
-        std::mem::take(&mut self.changed_data)
-    }
-
-    /// Starts or stops collecting.
-    pub fn listen(&mut self, listening: bool) {
-        self.listening = listening;
-        if !listening {
-            self.pending.clear();
-        }
-    }
-
-    /// Whether changes are being collected.
-    pub fn is_listening(&self) -> bool {
-        self.listening
-    }
-
-    /// The changes since the last call.
-    pub fn take(&mut self) -> Vec<Change> {
-        std::mem::take(&mut self.pending)
-    }
-
-    pub fn counters(&self) -> Counters {
-        self.counters
-    }
-
-    /// Grows with every change that can alter the order of scripts.
-    pub fn tree_revision(&self) -> u64 {
-        self.tree_revision
-    }
-
-    /// Grows with every change that can alter what takes part in the dynamics.
-    pub fn dynamics_revision(&self) -> u64 {
-        self.dynamics_revision
+        assert_eq!(seen.indices().count(), 9);
+        assert_eq!(Topics::ALL.indices().collect::<Vec<_>>(), (0..Topic::COUNT).collect::<Vec<_>>());
+        assert_eq!(Topics::NONE.indices().count(), 0);
     }
 }

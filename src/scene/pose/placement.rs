@@ -1,10 +1,10 @@
-//! Where objects are: local and world poses, relative frames.
+//! Where objects are: local poses, relative frames, placing. World poses are next door, in `world`.
 
 use geometry::pose::velocity;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use crate::scene::joint::JointType;
-use crate::scene::{Change, Field, Handle, Kind, Measured, Pose, Scene, SceneError, SceneResult, special};
+use crate::scene::{Change, Field, Handle, Kind, Measured, Pose, Scene, SceneError, SceneResult, Topic, special};
 
 /// The frame a pose is expressed in, as scripts name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,22 +37,6 @@ pub enum Placement {
 }
 
 impl Scene {
-    /// Pose in the world.
-    pub fn world_pose(&self, handle: Handle) -> SceneResult<Pose> {
-        let object = self.object(handle)?;
-        let mut pose = object.pose();
-        let mut above = object.parent();
-        while let Some(parent) = above {
-            let parent = self.object(parent)?;
-            if let Some(intrinsic) = parent.intrinsic_pose() {
-                pose = intrinsic * pose;
-            }
-            pose = parent.pose() * pose;
-            above = parent.parent();
-        }
-        Ok(pose)
-    }
-
     /// World pose of the frame the children of `handle` live in: the moving side of joints.
     pub fn full_world_pose(&self, handle: Handle) -> SceneResult<Pose> {
         let world = self.world_pose(handle)?;
@@ -182,13 +166,13 @@ impl Scene {
             .objects()
             .filter_map(|object| Some((object.handle(), self.world_pose(object.handle()).ok()?)))
             .collect();
-        let listening = self.changes().is_listening();
+        let followed = self.journal().is_followed(Topic::Field(Field::Measured));
         for (handle, now) in poses {
-            let Ok(object) = self.object_mut(handle) else { continue };
+            let Ok(object) = self.object_in_place(handle) else { continue };
             let now = measured(object.measured.previous, now, dt);
             let before = std::mem::replace(&mut object.measured, now);
-            if listening && !object.measured.same_velocity(&before) {
-                self.changes_mut().note(Change::Modified(handle, Field::Measured));
+            if followed && !object.measured.same_velocity(&before) {
+                self.note(Change::Modified(handle, Field::Measured));
             }
         }
     }

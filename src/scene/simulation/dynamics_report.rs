@@ -32,9 +32,7 @@ impl Scene {
             object.shape_mut()?.velocity = velocity;
             Ok(())
         })?;
-        if self.changes().is_listening() {
-            self.changes_mut().note(Change::Modified(shape, Field::Measured));
-        }
+        self.note(Change::Modified(shape, Field::Measured));
         Ok(local)
     }
 

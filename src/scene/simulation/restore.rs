@@ -40,7 +40,7 @@ impl Scene {
         for handle in objects {
             let Ok(world) = self.world_pose(handle) else { continue };
             let parent = self.uid_of_parent(handle);
-            if let Ok(object) = self.object_mut(handle) {
+            if let Ok(object) = self.object_in_place(handle) {
                 if object.is_model() {
                     object.model_property &= !NOT_RESET;
                 }
@@ -58,7 +58,7 @@ impl Scene {
             return Ok(());
         }
         let (world, parent) = (self.world_pose(handle)?, self.uid_of_parent(handle));
-        let object = self.object_mut(handle)?;
+        let object = self.object_in_place(handle)?;
         object.initial = Some(Box::new(InitialState::of(object, parent, world)));
         Ok(())
     }
@@ -92,7 +92,7 @@ impl Scene {
         let kept = self.not_reset(&objects);
         let mut restored = Vec::with_capacity(objects.len());
         for handle in objects {
-            let Ok(object) = self.object_mut(handle) else { continue };
+            let Ok(object) = self.object_in_place(handle) else { continue };
             object.measured = crate::scene::Measured::default();
             (object.dynamic_flag, object.dynamics_reset) = (0, false);
             end_suspension(object);

@@ -17,7 +17,7 @@ impl Scene {
         let selection = handles.iter().copied().filter(|&handle| self.exists(handle) && seen.insert(handle)).collect();
         if self.selection != selection {
             self.selection = selection;
-            self.changes_mut().note(Change::Selection);
+            self.note(Change::Selection);
         }
     }
 
@@ -107,7 +107,7 @@ impl Scene {
             let local = self.parent_frame(handle)?.inverse() * world;
             self.object_mut(handle)?.pose = normalized(local);
         }
-        self.changes_mut().note(Change::Modified(handle, Field::Parent));
+        self.note(Change::Modified(handle, Field::Parent));
         Ok(())
     }
 
@@ -148,7 +148,7 @@ impl Scene {
         }
         take_out(siblings, handle);
         siblings.insert(target as usize, handle);
-        self.changes_mut().note(Change::Modified(handle, Field::Parent));
+        self.note(Change::Modified(handle, Field::Parent));
         Ok(())
     }
 

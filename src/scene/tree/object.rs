@@ -6,6 +6,7 @@ use super::script_object::ScriptObject;
 use crate::scene::appearance::colour::Colour;
 use crate::scene::graph::Graph;
 use crate::scene::joint::Joint;
+use crate::scene::pose::world::PlaceInWorld;
 use crate::scene::sensor::force_sensor::ForceSensor;
 use crate::scene::sensor::{Camera, Light, ProximitySensor, VisionSensor};
 use crate::scene::shape::Shape;
@@ -32,6 +33,7 @@ pub struct Object {
     pub(in crate::scene) children: Vec<Handle>,
     /// In the parent's full frame (its moving side, for joints and force sensors).
     pub(in crate::scene) pose: Pose,
+    pub(in crate::scene) place: PlaceInWorld,
     /// `sim.objectproperty_*` bits.
     pub object_property: i64,
     /// `sim.objectspecialproperty_*` bits.
@@ -166,6 +168,7 @@ impl Object {
             parent: None,
             children: Vec::new(),
             pose: Pose::identity(),
+            place: PlaceInWorld::default(),
             object_property: 0x20,
             special_property: kind.default_special_property(),
             model_property: NOT_MODEL,

@@ -87,13 +87,13 @@ impl Scene {
         let selected = self.selection.len();
         self.selection.retain(|h| !doomed.contains(h));
         if self.selection.len() < selected {
-            self.changes_mut().note(Change::Selection);
+            self.note(Change::Selection);
         }
         for collection in self.collections.values_mut() {
             collection.items.retain(|item| item.base.is_none_or(|base| !doomed.contains(&base)));
         }
         for handle in self.referrers.clone() {
-            match self.object_mut(handle) {
+            match self.object_in_place(handle) {
                 Ok(object) => object.forget(doomed),
                 Err(_) => {
                     self.referrers.remove(&handle);

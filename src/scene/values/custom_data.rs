@@ -167,11 +167,11 @@ impl Scene {
         let values = match (owner, namespace) {
             (None, Namespace::CustomData) => &mut self.custom_data,
             (None, Namespace::Signal) => &mut self.signals,
-            (Some(handle), Namespace::CustomData) => &mut self.object_mut(handle)?.custom_data,
-            (Some(handle), Namespace::Signal) => &mut self.object_mut(handle)?.signals,
+            (Some(handle), Namespace::CustomData) => &mut self.object_in_place(handle)?.custom_data,
+            (Some(handle), Namespace::Signal) => &mut self.object_in_place(handle)?.signals,
         };
         let edited = values.edit(edit);
-        self.changes_mut().note_stored(owner.map_or(Holder::Scene, Holder::Object), namespace, &edited);
+        self.journal_mut().note_stored(owner.map_or(Holder::Scene, Holder::Object), namespace, &edited);
         Ok(edited.any())
     }
 }

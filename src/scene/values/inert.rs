@@ -45,11 +45,11 @@ impl Scene {
     pub fn keep(&mut self, owner: Option<Handle>, name: &'static str, value: Data) -> SceneResult<()> {
         let kept = match owner {
             None => &mut self.kept,
-            Some(handle) => &mut self.object_mut(handle)?.kept,
+            Some(handle) => &mut self.object_in_place(handle)?.kept,
         };
         if kept.set(name, value) {
             let change = owner.map_or(Change::Settings, |handle| Change::Modified(handle, Field::Kept));
-            self.changes_mut().note(change);
+            self.note(change);
         }
         Ok(())
     }
@@ -58,6 +58,7 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::{Change, Data, Field, Scene};
+    use crate::scene::journal::{Topics, Unread};
     use crate::scene::tree::dummy::Dummy;
     use crate::scene::{CopyOptions, Kind};
 
@@ -65,11 +66,13 @@ mod tests {
     fn only_new_values_are_changes_and_copies_inherit_them() {
         let mut scene = Scene::new();
         let dummy = scene.add("dummy", Kind::Dummy(Dummy::new(0.1))).expect("there is room");
-        scene.changes_mut().listen(true);
+        let mut cursor = scene.journal().follow(Topics::ALL);
+        scene.journal().skip(&mut cursor);
         for _ in 0..2 {
             scene.keep(Some(dummy), "assemblyTag", Data::text("a")).expect("the dummy exists");
         }
-        assert_eq!(scene.changes_mut().take(), [Change::Modified(dummy, Field::Kept)]);
+        let Unread::Changes(changes) = scene.journal().read(&mut cursor) else { panic!("nothing was lost") };
+        assert!(changes.eq(&[Change::Modified(dummy, Field::Kept)]));
         let copies = scene.copy_objects(&[dummy], CopyOptions(0)).expect("there is room");
         assert_eq!(scene.kept(Some(copies[&dummy]), "assemblyTag"), Ok(Some(&Data::text("a"))));
         assert_eq!(scene.kept(None, "assemblyTag"), Ok(None));

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::callback::SysCall;
-use crate::scene::change::ChangedNames;
+use crate::scene::journal::ChangedNames;
 use crate::scene::tree::script_object::ScriptType;
 use crate::scene::{Data, Handle, Key, Namespace};
 use crate::script::lifecycle::instance::Script;
@@ -12,7 +12,7 @@ use crate::script::sim::Sim;
 impl Sim {
     /// Tells scripts about the custom data and signals that were written or removed since the last pass: one call per object and kind.
     pub(crate) fn notify_changed_data(self: &Rc<Self>) {
-        let changed = self.scene.borrow_mut().changes_mut().take_changed_data();
+        let changed = self.scene.borrow_mut().journal_mut().take_changed_data();
         if self.scripts.nobody_responds(SysCall::Data) {
             return;
         }

@@ -1,4 +1,4 @@
-//! From the scene's record of changes to events.
+//! From the scene's journal to events.
 
 use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
@@ -7,7 +7,8 @@ use super::encode;
 use super::protocol::{Protocol, renamed};
 use super::queue::{Entry, Event, Source};
 use super::watch::{Watch, Watched, stored_entry, stored_key};
-use crate::scene::{Change, Data, Field, Handle, Holder, Namespace, Uid, ValueType};
+use crate::scene::journal::Changes;
+use crate::scene::{Change, Data, Field, Handle, Holder, Namespace, Uid, Unread, ValueType};
 use crate::script::property::Target;
 use crate::script::sim::Sim;
 
@@ -24,14 +25,24 @@ impl Sim {
             return;
         }
         self.collect_clock();
-        let changes = self.scene.borrow_mut().changes_mut().take();
+        let Some(changes) = self.new_changes() else { return self.begin_anew() };
         if changes.is_empty() {
             return;
         }
         let mut guard = self.events.watch.borrow_mut();
         let Some(watch) = guard.as_mut() else { return };
-        for change in latest_of_each(changes) {
+        for change in changes {
             self.collect(watch, change);
+        }
+    }
+
+    /// What changed in the scene since the last call; None when that is more than is known.
+    fn new_changes(&self) -> Option<Vec<Change>> {
+        let mut guard = self.events.cursor.borrow_mut();
+        let Some(cursor) = guard.as_mut() else { return Some(Vec::new()) };
+        match self.scene.borrow().journal().read(cursor) {
+            Unread::Everything => None,
+            Unread::Changes(changes) => Some(latest_of_each(changes)),
         }
     }
 
@@ -322,13 +333,12 @@ impl Sim {
 }
 
 /// Leaves out changes of a field of an object that are followed by another one: the physics reports after every sub-step.
-fn latest_of_each(mut changes: Vec<Change>) -> Vec<Change> {
-    if changes.len() > 1 {
-        let mut seen = HashSet::new();
-        let mut latest: Vec<bool> = changes.iter().rev().map(|change| is_first(&mut seen, change)).collect();
-        changes.retain(|_| latest.pop().expect("one flag per change"));
-    }
-    changes
+fn latest_of_each(changes: Changes<'_>) -> Vec<Change> {
+    let mut seen = HashSet::new();
+    let one = changes.size_hint().1 == Some(1);
+    let mut latest: Vec<Change> = changes.rev().filter(|change| one || is_first(&mut seen, change)).cloned().collect();
+    latest.reverse();
+    latest
 }
 
 fn is_first(seen: &mut HashSet<(Handle, Field)>, change: &Change) -> bool {

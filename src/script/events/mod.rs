@@ -1,7 +1,7 @@
 //! The stream of events: everything that changes, told to the scripts that have `sysCall_event` (spec: events).
 //!
 //! Nothing is collected while nobody listens. While somebody does, every call that changed the scene is followed by
-//! [`Sim::collect_events`], which turns the scene's record of changes into events: what a property is now is compared with what was
+//! [`Sim::collect_events`], which turns the scene's journal into events: what a property is now is compared with what was
 //! last told. One dispatch per pass merges, numbers and delivers them.
 
 mod collect;
@@ -21,7 +21,7 @@ use super::lifecycle::instance::{Script, state};
 use super::log::verbosity;
 use super::sim::Sim;
 use super::step::wall_clock;
-use crate::scene::{Data, Handle, Key, special};
+use crate::scene::{Cursor, Data, Handle, Key, Topics, special};
 use crate::wire::cbor;
 use queue::{Class, Content, Entry, Event, Queue, Source};
 use watch::{Audience, Watch};
@@ -38,6 +38,8 @@ pub(crate) struct EventStream {
     pub listening: Rc<Cell<bool>>,
     queue: RefCell<Queue>,
     watch: RefCell<Option<Watch>>,
+    /// Where the journal of the scene was read last, while somebody listens.
+    cursor: RefCell<Option<Cursor>>,
     next_seq: Cell<i64>,
     /// A scene nobody was told about yet.
     scene_is_new: Cell<bool>,
@@ -53,6 +55,7 @@ impl EventStream {
             listening: Rc::default(),
             queue: RefCell::default(),
             watch: RefCell::default(),
+            cursor: RefCell::default(),
             next_seq: Cell::new(0),
             scene_is_new: Cell::new(true),
             clock: Cell::default(),
@@ -89,13 +92,26 @@ impl Sim {
     fn watch_for(self: &Rc<Self>, audience: Audience) {
         let listening = !audience.filters.is_empty();
         self.events.listening.set(listening);
-        self.scene.borrow_mut().changes_mut().listen(listening);
+        self.follow_scene(listening);
         let watch = listening.then(|| Watch::new(self, audience));
         if !listening {
             self.events.queue.take();
         }
         self.events.clock.set(self.clock_values());
         self.events.watch.replace(watch);
+    }
+
+    /// Begins to read the journal of the scene as it is now, goes on, or stops.
+    fn follow_scene(&self, listening: bool) {
+        let mut cursor = self.events.cursor.borrow_mut();
+        if !listening {
+            *cursor = None;
+        } else if cursor.is_none() {
+            let scene = self.scene.borrow();
+            let mut new = scene.journal().follow(Topics::ALL);
+            scene.journal().skip(&mut new);
+            *cursor = Some(new);
+        }
     }
 
     /// An audience without listeners.
@@ -188,6 +204,13 @@ impl Sim {
         } else {
             self.events.scene_is_new.set(true);
         }
+    }
+
+    /// More changed than the journal holds: listeners are told everything anew.
+    fn begin_anew(self: &Rc<Self>) {
+        let Some(watch) = self.events.watch.take() else { return };
+        self.watch_for(watch.audience);
+        self.push_genesis();
     }
 
     fn push_genesis(self: &Rc<Self>) {

@@ -4,11 +4,13 @@ use std::rc::Rc;
 
 use super::instance::Script;
 use crate::scene::tree::script_object::ScriptType;
-use crate::scene::{Handle, Object, Scene};
+use crate::scene::{Field, Handle, Mark, Object, Scene, Topics};
 use crate::script::sim::Sim;
 
 /// A model flag: no script below runs.
 const SCRIPTS_INACTIVE: i64 = 0x200;
+/// Changes that can alter the order of scripts.
+const ORDER: Topics = Topics::TREE.with_fields(&[Field::ModelProperty, Field::Script, Field::Priority]);
 
 /// Scripts in the order they are called.
 pub(crate) type ScriptList = Rc<[Rc<Script>]>;
@@ -16,7 +18,7 @@ pub(crate) type ScriptList = Rc<[Rc<Script>]>;
 /// Script lists, kept until the tree changes.
 #[derive(Default)]
 pub(crate) struct OrderCache {
-    revision: Option<u64>,
+    known: Option<Mark>,
     simulation: ScriptList,
     customization: ScriptList,
     add_ons: ScriptList,
@@ -28,7 +30,7 @@ pub(crate) struct OrderCache {
 
 impl OrderCache {
     pub(crate) fn forget(&mut self) {
-        self.revision = None;
+        self.known = None;
     }
 }
 
@@ -66,10 +68,11 @@ impl Sim {
     }
 
     fn refresh_order(&self) {
-        let revision = self.scene.borrow().changes().tree_revision();
-        if self.scripts.order.borrow().revision == Some(revision) {
+        let mut order = self.scripts.order.borrow_mut();
+        if !self.scene.borrow().journal().changed_since(order.known.get_or_insert(Mark::new(ORDER))) {
             return;
         }
+        drop(order);
         let (old, scripts) = (self.attached_by_depth(), self.objects_by_depth());
         let of_type = |scripts: &[Rc<Script>], t: ScriptType| -> ScriptList {
             scripts.iter().filter(|s| s.script_type == t).cloned().collect()
@@ -77,7 +80,6 @@ impl Sim {
         let [old_simulation, simulation] = [&old, &scripts].map(|list| of_type(list, ScriptType::Simulation));
         let [old_customization, customization] = [&old, &scripts].map(|list| of_type(list, ScriptType::Customization));
         let mut cache = self.scripts.order.borrow_mut();
-        cache.revision = Some(revision);
         cache.simulation = joined(&[&old_simulation, &simulation]);
         cache.customization = joined(&[&old_customization, &customization]);
         cache.add_ons = self.detached_of(ScriptType::AddOn);

@@ -51,7 +51,7 @@ impl Sim {
     }
 
     fn counters(&self) -> Counters {
-        self.scene.borrow().changes().counters()
+        self.scene.borrow().journal().counters()
     }
 
     /// Tells this scene from those there were before.

@@ -97,7 +97,7 @@ impl Sim {
             Namespace::CustomData => self.with_app_storage(|storage| storage.edit_custom_data(edit)),
             Namespace::Signal => self.app.borrow_mut().signals.edit(edit),
         };
-        self.scene.borrow_mut().changes_mut().note_stored(holder, namespace, &edited);
+        self.scene.borrow_mut().journal_mut().note_stored(holder, namespace, &edited);
         Ok(edited.any())
     }
 

@@ -1,0 +1,163 @@
+//! The stored changes, and who has read how far.
+
+use std::cell::{Cell, RefCell};
+use std::collections::{VecDeque, vec_deque};
+use std::rc::{Rc, Weak};
+
+use super::{Change, Topic, Topics};
+
+/// Changes that are stored at most: some ten megabytes.
+const LIMIT: usize = 1 << 18;
+/// No fewer changes are worth looking for those that everybody has read.
+const WORTH_TRIMMING: usize = 64;
+/// Where a cursor is that has not read yet.
+const NOWHERE: u64 = u64::MAX;
+
+/// A reader's place in the journal of a scene.
+#[derive(Debug)]
+pub struct Cursor {
+    journal: Rc<()>,
+    topics: Topics,
+    /// Number of the next change to read; the journal looks at it to see what nobody needs any more.
+    next: Rc<Cell<u64>>,
+}
+
+/// What a cursor has not read yet.
+#[derive(Debug)]
+pub enum Unread<'a> {
+    /// The reader is new or too far behind, or the scene is another one: all it knows may be wrong.
+    Everything,
+    Changes(Changes<'a>),
+}
+
+/// Changes in the order they were made.
+#[derive(Debug, Clone)]
+pub struct Changes<'a> {
+    stored: vec_deque::Iter<'a, Change>,
+    topics: Topics,
+}
+
+impl<'a> Iterator for Changes<'a> {
+    type Item = &'a Change;
+
+    fn next(&mut self) -> Option<&'a Change> {
+        let topics = self.topics;
+        self.stored.find(|change| topics.contains(change.topic()))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (0, self.stored.size_hint().1)
+    }
+}
+
+impl<'a> DoubleEndedIterator for Changes<'a> {
+    fn next_back(&mut self) -> Option<&'a Change> {
+        let topics = self.topics;
+        self.stored.rfind(|change| topics.contains(change.topic()))
+    }
+}
+
+#[derive(Debug)]
+struct Reader {
+    /// Gone with its cursor.
+    next: Weak<Cell<u64>>,
+    topics: Topics,
+}
+
+/// Changes that some cursor wants and has not read, and some that all have read.
+#[derive(Debug)]
+pub(super) struct Log {
+    /// Tells the cursors and marks of this journal from those of another.
+    identity: Rc<()>,
+    stored: VecDeque<Change>,
+    /// Number of the first change stored.
+    first: u64,
+    wanted: Cell<Topics>,
+    readers: RefCell<Vec<Reader>>,
+    /// At this length it is looked for changes that everybody has read.
+    trim_at: usize,
+    limit: usize,
+}
+
+impl Default for Log {
+    fn default() -> Self {
+        Self {
+            identity: Rc::default(),
+            stored: VecDeque::new(),
+            first: 0,
+            wanted: Cell::default(),
+            readers: RefCell::default(),
+            trim_at: WORTH_TRIMMING,
+            limit: LIMIT,
+        }
+    }
+}
+
+impl Log {
+    pub(super) fn identity(&self) -> &Rc<()> {
+        &self.identity
+    }
+
+    pub(super) fn stores(&self, topic: Topic) -> bool {
+        self.wanted.get().contains(topic)
+    }
+
+    /// Stores a change if anybody wants it.
+    pub(super) fn push(&mut self, topic: Topic, change: Change) {
+        if self.stores(topic) {
+            self.stored.push_back(change);
+            if self.stored.len() >= self.trim_at {
+                self.trim();
+            }
+        }
+    }
+
+    pub(super) fn follow(&self, topics: Topics) -> Cursor {
+        let cursor = Cursor { journal: Rc::clone(&self.identity), topics, next: Rc::new(Cell::new(NOWHERE)) };
+        self.readers.borrow_mut().push(Reader { next: Rc::downgrade(&cursor.next), topics });
+        self.wanted.set(self.wanted.get().and(topics));
+        cursor
+    }
+
+    pub(super) fn read(&self, cursor: &mut Cursor) -> Unread<'_> {
+        if !Rc::ptr_eq(&cursor.journal, &self.identity) {
+            *cursor = self.follow(cursor.topics);
+        }
+        let next = cursor.next.replace(self.first + self.stored.len() as u64);
+        if next == NOWHERE || next < self.first {
+            return Unread::Everything;
+        }
+        let stored = self.stored.range((next - self.first) as usize..);
+        Unread::Changes(Changes { stored, topics: cursor.topics })
+    }
+
+    /// Drops what nobody needs any more: readers that are gone, changes everybody has read, and the older half of a full log.
+    fn trim(&mut self) {
+        let readers = self.readers.get_mut();
+        readers.retain(|reader| reader.next.strong_count() > 0);
+        self.wanted.set(readers.iter().fold(Topics::NONE, |wanted, reader| wanted.and(reader.topics)));
+        let end = self.first + self.stored.len() as u64;
+        let places = readers.iter().filter_map(|reader| reader.next.upgrade()).map(|next| next.get());
+        // Who is too far behind already will be told that everything changed, and needs none of this.
+        let slowest = places.filter(|next| (self.first..end).contains(next)).min().unwrap_or(end);
+        let read = (slowest - self.first) as usize;
+        let unread = self.stored.len() - read;
+        self.drop_oldest(if unread >= self.limit { read + unread.div_ceil(2) } else { read });
+        self.trim_at = (2 * self.stored.len()).clamp(WORTH_TRIMMING.min(self.limit), self.limit);
+    }
+
+    fn drop_oldest(&mut self, count: usize) {
+        self.stored.drain(..count);
+        self.first += count as u64;
+    }
+
+    #[cfg(test)]
+    pub(super) fn with_limit(limit: usize) -> Self {
+        Self { limit, trim_at: WORTH_TRIMMING.min(limit), ..Self::default() }
+    }
+
+    #[cfg(test)]
+    pub(super) fn len(&self) -> usize {
+        self.stored.len()
+    }
+}

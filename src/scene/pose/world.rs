@@ -1,0 +1,134 @@
+//! World poses at hand: each object remembers where it is until it, or something above it, moves.
+//!
+//! Changes of place are numbered. A change costs one number, written into the object that moved, however much hangs below it; a
+//! pose is checked when it is asked for, by the largest number from the object up to its root. That walk ends at the first object
+//! that was looked at since the last change, so that reading all poses after a change looks at each object once.
+
+#[cfg(test)]
+mod tests;
+
+use std::cell::{Cell, RefCell};
+
+use geometry::pose::pose_to_array;
+
+use crate::scene::{Handle, Object, Pose, Scene, SceneResult};
+
+/// The changes of place of a scene.
+#[derive(Debug, Default)]
+pub(in crate::scene) struct Moves {
+    /// Number of the last one.
+    last: u64,
+    /// Reused by each walk.
+    walk: RefCell<Vec<Handle>>,
+}
+
+impl Moves {
+    /// Notes that `object` may have moved in its parent's frame, or its children in its own.
+    pub(in crate::scene) fn note(&mut self, object: &mut Object) {
+        self.last += 1;
+        object.place.moved = self.last;
+    }
+}
+
+/// What an object remembers of its place in the world.
+#[derive(Clone)]
+pub(in crate::scene) struct PlaceInWorld {
+    /// The last change of its own place.
+    moved: u64,
+    /// The last change of its place or of one above, as it was found after change `checked`.
+    latest: Cell<u64>,
+    checked: Cell<u64>,
+    /// The pose after change `posed`.
+    pose: Cell<Pose>,
+    posed: Cell<u64>,
+}
+
+impl Default for PlaceInWorld {
+    /// As of an object of which nothing is known: changes are numbered from 1.
+    fn default() -> Self {
+        Self {
+            moved: 0,
+            latest: Cell::new(0),
+            checked: Cell::new(0),
+            pose: Cell::new(Pose::identity()),
+            posed: Cell::new(0),
+        }
+    }
+}
+
+impl std::fmt::Debug for PlaceInWorld {
+    /// All of it follows from the scene, and none of it is a property of the object.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("PlaceInWorld")
+    }
+}
+
+impl Scene {
+    /// Pose in the world.
+    pub fn world_pose(&self, handle: Handle) -> SceneResult<Pose> {
+        let object = self.object(handle)?;
+        if object.parent().is_none() {
+            return Ok(object.pose());
+        }
+        let latest = self.latest_move(handle, object)?;
+        let place = &object.place;
+        if place.posed.get() != latest {
+            place.pose.set(self.composed_pose(object)?);
+            place.posed.set(latest);
+        }
+        Ok(place.pose.get())
+    }
+
+    /// The last change that moved an object in the world.
+    fn latest_move(&self, handle: Handle, object: &Object) -> SceneResult<u64> {
+        let now = self.moves.last;
+        if object.place.checked.get() == now {
+            return Ok(object.place.latest.get());
+        }
+        let mut walk = self.moves.walk.borrow_mut();
+        walk.clear();
+        let (mut latest, mut next) = (0, Some(handle));
+        while let Some(handle) = next {
+            let object = self.object(handle)?;
+            if object.place.checked.get() == now {
+                latest = object.place.latest.get();
+                break;
+            }
+            walk.push(handle);
+            next = object.parent();
+        }
+        for &handle in walk.iter().rev() {
+            let place = &self.object(handle)?.place;
+            latest = latest.max(place.moved);
+            place.latest.set(latest);
+            place.checked.set(now);
+        }
+        Ok(latest)
+    }
+
+    /// The pose from the poses of the object and all above it, from the object upwards: rounding depends on the order.
+    fn composed_pose(&self, object: &Object) -> SceneResult<Pose> {
+        let mut pose = object.pose();
+        let mut above = object.parent();
+        while let Some(parent) = above {
+            let parent = self.object(parent)?;
+            if let Some(intrinsic) = parent.intrinsic_pose() {
+                pose = intrinsic * pose;
+            }
+            pose = parent.pose() * pose;
+            above = parent.parent();
+        }
+        Ok(pose)
+    }
+}
+
+impl Object {
+    /// What decides where the object and those below it are, as bits.
+    pub(in crate::scene) fn frames(&self) -> impl PartialEq + use<> {
+        (self.parent, bits(&self.pose), self.intrinsic_pose().as_ref().map(bits))
+    }
+}
+
+fn bits(pose: &Pose) -> [u64; 7] {
+    pose_to_array(pose).map(f64::to_bits)
+}
