@@ -8,7 +8,7 @@ readme_command() {
     sed -n "/^# $1\$/{n;p;q}" README.md
 }
 
-run=$(readme_command "build, and run a scene")
+run=$(readme_command "build and run a scene")
 test=$(readme_command "run the tests")
 [ -n "$run" ] && [ -n "$test" ] || { echo "check.sh: README.md has lost its set-up commands" >&2; exit 1; }
 

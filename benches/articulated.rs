@@ -82,7 +82,7 @@ impl Chain {
 
 #[derive(Clone, Copy)]
 enum Kind {
-    Impulse { sweeps: usize },
+    Impulse { iterations: usize },
     Multibody,
 }
 
@@ -98,11 +98,11 @@ struct Raw<'a> {
 
 impl<'a> Raw<'a> {
     fn new(chain: &'a Chain, kind: Kind) -> Self {
-        let sweeps = if let Kind::Impulse { sweeps } = kind { sweeps } else { 4 };
+        let iterations = if let Kind::Impulse { iterations } = kind { iterations } else { 4 };
         let parameters = IntegrationParameters {
             dt: STEP,
             num_solver_iterations: 1,
-            num_internal_pgs_iterations: sweeps,
+            num_internal_pgs_iterations: iterations,
             normalized_max_linear_velocity: f64::MAX,
             ..IntegrationParameters::default()
         };
@@ -281,8 +281,8 @@ fn main() {
         let outcomes = [
             ("Swanilda", here(&chain, "exact")),
             ("Swanilda, `impulse`", here(&chain, "impulse")),
-            ("impulse joints, 4 sweeps", raw(Kind::Impulse { sweeps: 4 })),
-            ("impulse joints, 50 sweeps", raw(Kind::Impulse { sweeps: 50 })),
+            ("impulse joints, 4 iterations", raw(Kind::Impulse { iterations: 4 })),
+            ("impulse joints, 50 iterations", raw(Kind::Impulse { iterations: 50 })),
             ("multibody", raw(Kind::Multibody)),
         ];
         for (solver, it) in outcomes {
