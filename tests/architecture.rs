@@ -19,7 +19,7 @@ const LAYERS: &[&[&str]] = &[
 /// Who may name what comes from outside the crate.
 const OWNERS: &[(&str, &str)] = &[
     ("rapier3d", "src/dynamics"),
-    ("mlua_sys", "src/script/lua"),
+    ("mlua", "src/script"),
     ("directories", "src/script/files/app_storage"),
     ("fs4", "src/script"),
     ("image", "src/format/picture.rs"),

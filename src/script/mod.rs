@@ -48,14 +48,6 @@ pub(crate) use lifecycle::env::Hook;
 pub(crate) use lifecycle::instance::Detached;
 pub(crate) use lifecycle::order::Group;
 pub(crate) use log::auxiliary_consoles::AuxiliaryConsole;
-pub(crate) use lua::{FileLock, Object, Stack, Type as LuaType};
+pub(crate) use lua::{FileLock, Object, Stack, Type as LuaType, compile};
 pub(crate) use property::{Target, table as property_table};
 pub(crate) use sim::Sim;
-
-/// Compiles Lua text to bytecode.
-pub(crate) fn compile(code: &[u8], chunk_name: &str) -> Result<Vec<u8>, String> {
-    let state = lua::State::new(std::ptr::null(), std::rc::Rc::default());
-    let stack = state.stack();
-    stack.load(code, chunk_name, false).map_err(|error| error.text)?;
-    Ok(stack.dump())
-}

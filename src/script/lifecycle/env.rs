@@ -11,7 +11,7 @@ use crate::script::calls::callback::SysCall;
 use crate::script::coverage::Coverage;
 use crate::script::events::Filters;
 use crate::script::log::verbosity;
-use crate::script::lua::{FunctionRef, Stack, State};
+use crate::script::lua::{Budget, FunctionRef, Stack, State};
 use crate::script::sim::Sim;
 
 /// The host's side of one Lua state.
@@ -31,6 +31,8 @@ pub(crate) struct Env {
     pub events_wanted: Rc<Cell<bool>>,
     /// What a library keeps for the state, by the library's own type; it goes with the state.
     pub library_data: RefCell<HashMap<TypeId, Rc<dyn Any>>>,
+    /// The memory of the state.
+    pub budget: Rc<Budget>,
     warned: RefCell<HashSet<&'static str>>,
     watched: bool,
     /// What counts the lines that run, if they are counted.
@@ -79,6 +81,7 @@ impl Env {
             event_filters: RefCell::default(),
             events_wanted: Rc::clone(&sim.events.listening),
             library_data: RefCell::default(),
+            budget: Rc::clone(&sim.scripts.budget),
             warned: RefCell::default(),
             watched: sim.options.limits.is_some(),
             coverage: sim.options.count_lines.then(Coverage::default),
@@ -145,15 +148,14 @@ impl Env {
 pub(crate) struct Runtime {
     // Dropped first: finalizers may still call API functions, which look at the environment.
     pub lua: State,
-    pub env: Box<Env>,
+    pub env: Rc<Env>,
 }
 
 impl Runtime {
     /// A state with the standard libraries only; `startup` fills it.
     pub(crate) fn new(sim: &Rc<Sim>, script: &Rc<Script>) -> Self {
-        let env = Box::new(Env::new(sim, script));
-        let lua = State::new(&raw const *env, Rc::clone(&sim.scripts.budget));
-        Self { lua, env }
+        let env = Rc::new(Env::new(sim, script));
+        Self { lua: State::new(Rc::clone(&env)), env }
     }
 
     pub(crate) fn stack(&self) -> Stack<'_> {

@@ -3,6 +3,8 @@
 use std::ffi::{CStr, c_int, c_void};
 use std::rc::Rc;
 
+use mlua::{Function, Lua, Table};
+
 use super::env::{Env, Runtime};
 use super::shared_process;
 use crate::script::binding::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE};
@@ -24,7 +26,7 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
     install_package(sim, stack);
     install_globals(sim, stack);
     install_sim(stack);
-    seed_random(stack, sim.options.seed);
+    seed_random(runtime.lua.lua(), sim.options.seed)?;
     stack.push_int(runtime.env.script.id);
     stack.set_global("sim_script_handle");
     load_module(stack, sim, "base").and_then(|()| stack.protected_call(0, 0))?;
@@ -53,12 +55,9 @@ fn count(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
 
 /// `math.random` starts from the simulator's seed: Lua's own start is different in every state. From seeds that follow each other its generator
 /// begins with numbers that do as well, so the seed is scrambled first (the finalizer of SplitMix64).
-fn seed_random(stack: Stack<'_>, seed: u32) {
-    stack.push_global("math");
-    stack.raw_get_field(-1, "randomseed");
-    stack.push_int(scrambled(seed));
-    stack.protected_call(1, 0).expect("randomseed takes an integer");
-    stack.pop(1);
+fn seed_random(lua: &Lua, seed: u32) -> mlua::Result<()> {
+    let math: Table = lua.globals().get("math")?;
+    math.get::<Function>("randomseed")?.call(scrambled(seed))
 }
 
 fn scrambled(seed: u32) -> i64 {

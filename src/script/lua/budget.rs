@@ -19,6 +19,16 @@ impl Budget {
         Self { used: Cell::new(0), limit, in_host: Cell::new(true) }
     }
 
+    /// Whether anything can be refused.
+    pub(super) fn is_limited(&self) -> bool {
+        self.limit != usize::MAX
+    }
+
+    #[cfg(test)]
+    pub(super) fn used(&self) -> usize {
+        self.used.get()
+    }
+
     /// Accounts for a block that changes its size; false when that is refused.
     pub(super) fn resize(&self, old_size: usize, size: usize) -> bool {
         let used = self.used.get() - old_size + size;

@@ -3,7 +3,7 @@
 use std::ffi::{c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use mlua_sys as ffi;
+use mlua::ffi;
 
 use super::Stack;
 

@@ -2,10 +2,10 @@
 
 use std::ffi::{c_int, c_void};
 
-use mlua_sys as ffi;
+use mlua::chunk::ChunkMode;
+use mlua::{Error, Lua, LuaOptions, StdLib, ffi};
 
 use super::stack::Stack;
-use crate::script::lifecycle::env::Env;
 
 /// "All results", for [`Stack::protected_call`].
 pub(crate) const MULTIPLE: c_int = ffi::LUA_MULTRET;
@@ -17,7 +17,24 @@ pub(crate) struct LuaError {
     pub text: String,
 }
 
-impl<'a> Stack<'a> {
+impl From<Error> for LuaError {
+    fn from(error: Error) -> Self {
+        Self { text: error.to_string() }
+    }
+}
+
+/// Compiles Lua text to bytecode, in a state of its own.
+pub(crate) fn compile(code: &[u8], chunk_name: &str) -> Result<Vec<u8>, String> {
+    let lua = Lua::new_with(StdLib::NONE, LuaOptions::default()).map_err(|error| error.to_string())?;
+    let chunk = lua.load(code).set_name(chunk_name.replace('\0', " ")).set_mode(ChunkMode::Text);
+    match chunk.into_function() {
+        Ok(function) => Ok(function.dump(false)),
+        Err(Error::SyntaxError { message, .. }) => Err(message),
+        Err(other) => Err(other.to_string()),
+    }
+}
+
+impl Stack<'_> {
     /// Compiles `code` (text or bytecode made by this binary) and pushes the chunk. Lua shows positions as `[string "name"]:line:`
     /// unless the name starts with `=` or `@`.
     pub(crate) fn load(self, code: &[u8], name: &str, bytecode: bool) -> Result<(), LuaError> {
@@ -134,12 +151,6 @@ impl<'a> Stack<'a> {
         unsafe { ffi::lua_dump(self.raw(), write, (&raw mut out).cast(), 0) };
         self.pop(1);
         out
-    }
-
-    /// What `State::new` was given.
-    pub(crate) fn owner(self) -> &'a Env {
-        // SAFETY: `State::new` wrote it, coroutines inherit it, and it outlives the state.
-        unsafe { &**ffi::lua_getextraspace(self.raw()).cast::<*const Env>() }
     }
 
     pub(crate) fn is_main_coroutine(self) -> bool {

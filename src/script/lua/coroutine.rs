@@ -3,7 +3,7 @@
 use std::ffi::c_int;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use mlua_sys as ffi;
+use mlua::ffi;
 
 use super::Stack;
 use super::callback::panic_message;
@@ -157,17 +157,17 @@ fn follow(stack: Stack<'_>, verdict: impl FnOnce() -> Verdict) -> Step {
 
 #[cfg(test)]
 mod tests {
-    use super::super::State;
     use super::{Step, Verdict, follow};
+    use crate::script::lua::tests::with_state;
 
     #[test]
     fn a_panic_of_the_host_is_an_error_of_the_script() {
-        // Nothing here asks for the owner of the state.
-        let state = State::new(std::ptr::null(), std::rc::Rc::default());
-        assert_eq!(follow(state.stack(), || Verdict::Yield), Step::Yield);
-        assert_eq!(follow(state.stack(), || Verdict::GoOn), Step::GoOn);
-        assert_eq!(follow(state.stack(), || panic!("out of order")), Step::Raise);
-        let text = String::from_utf8_lossy(state.stack().bytes(-1).unwrap_or_default());
-        assert!(text.ends_with("out of order"), "{text}");
+        with_state(|state| {
+            assert_eq!(follow(state.stack(), || Verdict::Yield), Step::Yield);
+            assert_eq!(follow(state.stack(), || Verdict::GoOn), Step::GoOn);
+            assert_eq!(follow(state.stack(), || panic!("out of order")), Step::Raise);
+            let text = String::from_utf8_lossy(state.stack().bytes(-1).unwrap_or_default());
+            assert!(text.ends_with("out of order"), "{text}");
+        });
     }
 }

@@ -3,7 +3,7 @@
 use std::ffi::c_int;
 use std::io;
 
-use mlua_sys as ffi;
+use mlua::ffi;
 
 use super::stack::Stack;
 

@@ -2,7 +2,7 @@
 
 use std::ffi::c_int;
 
-use mlua_sys as ffi;
+use mlua::ffi;
 
 use super::Stack;
 

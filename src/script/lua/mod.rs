@@ -1,15 +1,14 @@
-//! The edge to Lua's C interface: the only place in `script` with `unsafe` code.
+//! The edge to Lua: mlua owns the virtual machine, and what is hot speaks to Lua's C interface through `mlua::ffi`.
 //!
-//! Why not a higher wrapper: scripts must catch error *strings* with the caller's line, as CoppeliaSim raises them; threads are
-//! pre-empted from a count hook; and a call must cost tens of nanoseconds. All three are one step away from the C interface and three
-//! steps away from any wrapper of it.
+//! Why not mlua's own functions for everything: scripts must catch error *strings* with the caller's line, as CoppeliaSim raises them;
+//! threads are pre-empted from a count hook; and a call must cost tens of nanoseconds.
 //!
 //! The discipline that makes it hold:
-//! - A [`State`] is used from one thread and closed once, by its owner.
+//! - A [`State`] is used from one thread and closed once, by mlua, when nobody holds it any more.
 //! - A [`Stack`] is a view of one coroutine of a living state. It checks indices and types before it follows them, so that a mistake
 //!   is a wrong answer and not a wild pointer.
 //! - Lua raises errors by `longjmp`. Only [`Stack::protected_call`] runs code that may raise; callbacks raise as their very last
-//!   act, from a frame that owns nothing ([`callback`]). Allocation failure aborts (see `allocate`), so that pushing never raises
+//!   act, from a frame that owns nothing ([`callback`]). Allocation failure aborts (see `Pool`), so that pushing never raises
 //!   as long as what is pushed fits Lua's largest block: strings are cut to it, longer lists are refused before they are pushed
 //!   ([`LONGEST_LIST`], `Data::MAX_ITEMS`).
 
@@ -27,10 +26,26 @@ mod tables;
 
 pub(crate) use budget::Budget;
 pub(crate) use callback::{Callback, push_callback};
-pub(crate) use calls::{LuaError, MULTIPLE};
+pub(crate) use calls::{LuaError, MULTIPLE, compile};
 pub(crate) use coroutine::{HOOK_INTERVAL, Verdict, hasten_count_hook, install_coroutine_hooks, set_count_hook};
 pub(crate) use file::FileLock;
 pub(crate) use object::Object;
 pub(crate) use stack::{Stack, Type};
 pub(crate) use state::State;
 pub(crate) use tables::{FunctionRef, LONGEST_LIST};
+
+#[cfg(test)]
+mod tests {
+    use super::State;
+    use crate::scene::tree::script_object::ScriptType;
+    use crate::script::lifecycle::env::Runtime;
+    use crate::script::{Detached, Options, Registry, Silent, Sim};
+
+    /// Calls `test` with a state that has the standard libraries only.
+    pub(super) fn with_state<T>(test: impl FnOnce(&State) -> T) -> T {
+        let registry: &'static Registry = Box::leak(Box::default());
+        let sim = Sim::new(Options::default(), registry, Box::new(Silent));
+        let script = sim.scripts.add_detached(ScriptType::Sandbox, Detached::default());
+        test(&Runtime::new(&sim, &script).lua)
+    }
+}

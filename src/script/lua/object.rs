@@ -5,7 +5,7 @@
 
 use std::ffi::{CStr, c_int};
 
-use mlua_sys as ffi;
+use mlua::ffi;
 
 use super::stack::{Stack, Type};
 

@@ -3,11 +3,13 @@
 use std::ffi::{c_int, c_void};
 use std::marker::PhantomData;
 
-use mlua_sys as ffi;
+use mlua::ffi;
 
 use super::Budget;
-use super::pool::Pool;
-use super::state::MAX_BLOCK;
+use crate::script::lifecycle::env::Env;
+
+/// Longer strings are cut: Lua would raise where it cannot have the memory.
+const LONGEST_STRING: usize = 1 << 29;
 
 /// The stack of one coroutine of a living state. Indices are Lua's: 1 is the bottom, -1 the top.
 #[derive(Clone, Copy)]
@@ -43,14 +45,15 @@ impl<'a> Stack<'a> {
         self.raw
     }
 
+    /// The host's side of the state.
+    pub(crate) fn owner(self) -> &'a Env {
+        // SAFETY: `State::new` wrote it, coroutines inherit it, and it outlives the state.
+        unsafe { &**ffi::lua_getextraspace(self.raw).cast::<*const Env>() }
+    }
+
     /// The memory the state belongs to.
     pub(super) fn budget(self) -> &'a Budget {
-        let mut pool = std::ptr::null_mut();
-        // SAFETY: `State::new` gave the allocator its pool, which outlives the state.
-        unsafe {
-            ffi::lua_getallocf(self.raw, &raw mut pool);
-            &(*pool.cast::<Pool>().cast_const()).budget
-        }
+        &self.owner().budget
     }
 
     pub(crate) fn top(self) -> c_int {
@@ -170,7 +173,7 @@ impl<'a> Stack<'a> {
 
     /// Pushes a string; one that is too long for Lua's allocator is cut.
     pub(crate) fn push_bytes(self, bytes: &[u8]) {
-        let bytes = &bytes[..bytes.len().min(MAX_BLOCK / 2)];
+        let bytes = &bytes[..bytes.len().min(LONGEST_STRING)];
         unsafe { ffi::lua_pushlstring(self.raw, bytes.as_ptr().cast(), bytes.len()) };
     }
 

@@ -2,10 +2,9 @@
 
 use std::ffi::{CStr, c_int};
 
-use mlua_sys as ffi;
+use mlua::ffi;
 
 use super::stack::{Stack, Type};
-use super::state::MAX_BLOCK;
 
 /// A Lua function kept alive in the registry of its state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,8 +13,8 @@ pub(crate) struct FunctionRef(c_int);
 /// Size hints beyond this are not worth their memory: tables grow by themselves.
 const MAX_HINT: usize = 1 << 16;
 
-/// Items of the longest list that fits one block (16 bytes each): for one more, Lua would raise.
-pub(crate) const LONGEST_LIST: usize = MAX_BLOCK / 16;
+/// Items of the longest list Rust pushes; where the items, of 16 bytes each, do not fit one block, Lua raises.
+pub(crate) const LONGEST_LIST: usize = 1 << 26;
 
 impl Stack<'_> {
     /// Replaces the key on top by `table[key]`.
