@@ -197,3 +197,39 @@ fn follow(page: &Path, (target, behind): &(String, String), pages: &Pages) -> Re
     let behind = behind.trim_start_matches([',', ' ']).trim_start_matches("sections ").trim_start_matches("section ");
     section(&name, sections, behind)
 }
+
+/// Rows `` | `Type::function` | `file` | `` of the map: the function is defined in that file.
+#[test]
+fn functions_named_in_the_architecture_exist() {
+    let text = fs::read_to_string(root().join("docs/ARCHITECTURE.md")).expect("the map is readable");
+    let mut count = 0;
+    for line in text.lines() {
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        let [_, function, file, ..] = cells[..] else { continue };
+        let (Some(function), Some(file)) = (quoted(function), quoted(file)) else { continue };
+        let name = function.rsplit("::").next().unwrap_or(function);
+        let code = fs::read_to_string(root().join(file)).unwrap_or_else(|_| panic!("no file {file}"));
+        let defined = ["fn ", "function ", "function M."].iter().any(|word| {
+            let start = format!("{word}{name}");
+            code.match_indices(&start).any(|(at, _)| code[at + start.len()..].starts_with(['(', '<']))
+        });
+        assert!(defined, "{function} is not defined in {file}");
+        count += 1;
+    }
+    assert!(count > 10, "only {count} functions were found");
+}
+
+#[test]
+fn paths_named_in_the_architecture_exist() {
+    let text = fs::read_to_string(root().join("docs/ARCHITECTURE.md")).expect("the map is readable");
+    let words = text.split('`').skip(1).step_by(2);
+    let is_path = |word: &&str| ["src/", "lua/", "tests/", "crates/"].iter().any(|start| word.starts_with(start));
+    let missing: Vec<&str> =
+        words.filter(is_path).filter(|word| !root().join(word.trim_end_matches('*')).exists()).collect();
+    assert!(missing.is_empty(), "docs/ARCHITECTURE.md names what is not there: {missing:?}");
+}
+
+/// The text of a cell that is all in backticks.
+fn quoted(cell: &str) -> Option<&str> {
+    cell.strip_prefix('`')?.strip_suffix('`')
+}
