@@ -225,7 +225,7 @@ fn scene(chain: &Chain, solver: &str) -> (Simulator, ScriptRef) {
     let mut sim = Simulator::new(Options::default());
     let script = sim.add_script(ScriptKind::Customization, "chain", code.as_bytes()).expect("the scene loads");
     sim.start();
-    sim.pass();
+    sim.iterate();
     (sim, script)
 }
 
@@ -235,7 +235,7 @@ fn here(chain: &Chain, solver: &str) -> Outcome {
     let mut start = None;
     for _ in 0..chain.sub_steps() / PASS {
         let began = Instant::now();
-        sim.pass();
+        sim.iterate();
         time = time.min(began.elapsed() / PASS as u32);
         let report = sim.call(&script, "report", &[]).expect("the scene reports");
         let [now_gap, now_energy, now_error] =

@@ -1,4 +1,4 @@
-//! What the scene costs beside the engine: the same boxes on the same floor, in raw rapier and in a simulator. A pass is ten sub-steps
+//! What the scene costs beside the engine: the same boxes on the same floor, in raw rapier and in a simulator. An iteration is ten sub-steps
 //! of 5 ms in both. The boxes slide without friction, so slowly that they get nowhere: else the simulator's would fall asleep. Those
 //! that may sleep are measured as well.
 
@@ -68,11 +68,11 @@ fn raw_rapier(count: usize) -> RawWorld {
         let activation = raw.bodies[body].activation_mut();
         (activation.normalized_linear_threshold, activation.angular_threshold) = (RESTING, RESTING);
     }
-    pass(&mut raw);
+    iterate(&mut raw);
     raw
 }
 
-fn pass(raw: &mut RawWorld) {
+fn iterate(raw: &mut RawWorld) {
     (0..SUB_STEPS).for_each(|_| raw.step());
 }
 
@@ -81,11 +81,11 @@ fn overhead(criterion: &mut Criterion) {
     group.sample_size(20);
     for count in [100, 1000] {
         let (mut raw, mut sim) = (raw_rapier(count), simulator(count, SLIDING));
-        group.bench_function(format!("raw rapier, {count} boxes"), |bencher| bencher.iter(|| pass(&mut raw)));
-        group.bench_function(format!("simulator, {count} boxes"), |bencher| bencher.iter(|| sim.pass()));
+        group.bench_function(format!("raw rapier, {count} boxes"), |bencher| bencher.iter(|| iterate(&mut raw)));
+        group.bench_function(format!("simulator, {count} boxes"), |bencher| bencher.iter(|| sim.iterate()));
     }
     let mut sim = simulator(1000, 0.0);
-    group.bench_function("simulator, 1000 sleeping boxes", |bencher| bencher.iter(|| sim.pass()));
+    group.bench_function("simulator, 1000 sleeping boxes", |bencher| bencher.iter(|| sim.iterate()));
     group.finish();
 }
 

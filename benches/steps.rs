@@ -79,7 +79,7 @@ fn child_scripts(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
     for count in [0, 1, 100, 1000] {
         let mut sim = running(ScriptKind::Sandbox, &CHILDREN.replace("COUNT", &count.to_string()));
-        group.bench_function(count.to_string(), |bencher| bencher.iter(|| sim.pass()));
+        group.bench_function(count.to_string(), |bencher| bencher.iter(|| sim.iterate()));
     }
     group.finish();
 }
@@ -106,7 +106,7 @@ fn arm(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
     let mut sim = running(ScriptKind::Customization, ARM);
     sim.step(20);
-    group.bench_function("seven joints", |bencher| bencher.iter(|| sim.pass()));
+    group.bench_function("seven joints", |bencher| bencher.iter(|| sim.iterate()));
     group.finish();
 }
 
@@ -115,7 +115,7 @@ fn events(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
     for (name, listener) in [("no listener", ""), ("filtered listener", FILTERED), ("listener", LISTENER)] {
         let mut sim = running(ScriptKind::Customization, &format!("{MOVING}{listener}"));
-        group.bench_function(name, |bencher| bencher.iter(|| sim.pass()));
+        group.bench_function(name, |bencher| bencher.iter(|| sim.iterate()));
     }
     group.finish();
 }

@@ -98,7 +98,7 @@ impl Simulator {
     }
 
     /// Lets the clients that connect to `listener` by ZeroMQ call functions: the remote API. Returns the address it listens at.
-    /// A client may make a pass last as long as it likes; set `stop` to end such a pass.
+    /// A client may make a loop iteration last as long as it likes; set `stop` to end such an iteration.
     ///
     /// # Errors
     /// When the server cannot start.
@@ -198,7 +198,7 @@ impl Simulator {
         self.sim.code_shown_as(name)
     }
 
-    /// Starts the simulation, or resumes a paused one. Its first step runs with the next [`pass`](Self::pass).
+    /// Starts the simulation, or resumes a paused one. Its first step runs with the next [`iterate`](Self::iterate).
     pub fn start(&mut self) {
         self.sim.start();
     }
@@ -213,8 +213,8 @@ impl Simulator {
         self.sim.stop();
     }
 
-    /// One pass of the loop: a simulation step when running, an idle pass when stopped or paused.
-    pub fn pass(&mut self) {
+    /// One iteration of the loop: a simulation step when running, an idle iteration when stopped or paused.
+    pub fn iterate(&mut self) {
         self.sim.loop_iteration();
     }
 
@@ -247,7 +247,7 @@ impl Simulator {
             if !self.state().is_advancing() {
                 return;
             }
-            self.pass();
+            self.iterate();
         }
     }
 
@@ -255,7 +255,7 @@ impl Simulator {
     pub fn stop(&mut self) {
         self.request_stop();
         while self.state() != SimulationState::Stopped {
-            self.pass();
+            self.iterate();
         }
     }
 

@@ -119,7 +119,7 @@ fn record(scene: PathBuf) -> String {
             sim.request_stop();
         }
         poses = poses_of(&sim);
-        sim.pass();
+        sim.iterate();
     }
     sim.stop();
     assert_eq!(sim.errors(), 0, "{}: {}", scene.display(), transcript.text.borrow());

@@ -85,7 +85,7 @@ impl Bench {
     /// Passes until `code` gives something else than nil.
     fn pass_until(&mut self, code: &str) -> Vec<Data> {
         for _ in 0..100_000 {
-            self.sim.pass();
+            self.sim.iterate();
             let answer = self.run(code);
             if answer != [Data::Nil] {
                 return answer;
@@ -170,7 +170,7 @@ fn a_thread_reads_exactly_so_many_bytes() {
     bench.run(&read_in_thread("4, true"));
     for part in [b"ab".as_slice(), b"cdef"] {
         assert_eq!(bench.run("return done"), [Data::Nil]);
-        bench.sim.pass();
+        bench.sim.iterate();
         bench.device_sends(part);
     }
     assert_eq!(bench.pass_until("return done"), [Data::text("abcd")]);
@@ -273,7 +273,7 @@ fn two_scripts_talk_over_a_line() {
     bench.sim.start();
     let mut passes = 0;
     while bench.run("return #got") != [Data::Int(20)] {
-        bench.sim.pass();
+        bench.sim.iterate();
         carry(&mut bench.device, &mut far);
         carry(&mut far, &mut bench.device);
         passes += 1;
@@ -294,7 +294,7 @@ fn the_bridge_scene_obeys_its_device() {
     device.write_all(b"speed 2\nnonsense\n").expect("the line takes it");
     let (mut said, mut passes) = (String::new(), 0);
     while !said.lines().any(|line| line.strip_prefix("angle ").is_some_and(|angle| angle != "0.000")) {
-        sim.pass();
+        sim.iterate();
         let mut bytes = vec![0; device.bytes_to_read().expect("the device is there") as usize];
         device.read_exact(&mut bytes).expect("they are there");
         said += &String::from_utf8_lossy(&bytes);
@@ -303,7 +303,7 @@ fn the_bridge_scene_obeys_its_device() {
     }
     device.write_all(b"stop\n").expect("the line takes it");
     while sim.state() != SimulationState::Stopped {
-        sim.pass();
+        sim.iterate();
         passes += 1;
         assert!(passes < 200_000, "the simulation does not stop");
     }

@@ -29,7 +29,7 @@ function getYieldAllowed() end
 ---@param name string the plugin
 function loadPlugin(name) end
 
---- Ends the program after the current pass.
+--- Ends the program after the current loop iteration.
 function quitSimulator() end
 
 --- Accepted for scripts that describe themselves to the original's editor.
@@ -2249,7 +2249,7 @@ function sim.poseToMatrix(pose) end
 ---@param options? integer bit 0: a later event of the same name and uid in the same batch takes its place
 function sim.pushUserEvent(event, handle, uid, eventData, options) end
 
---- Ends the program after the current pass.
+--- Ends the program after the current loop iteration.
 function sim.quitSimulator() end
 
 --- Reads custom data as a buffer.

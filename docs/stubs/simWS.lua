@@ -18,7 +18,7 @@
 ---     setHTTPHandler(server, f)        f(server, connection, resource, data) returns status and data; the content type follows the name of the
 ---                                      resource
 ---
---- A handler is a function, or the name of a global one of the script that called start or connect. Handlers are called once per pass, before
+--- A handler is a function, or the name of a global one of the script that called start or connect. Handlers are called once per loop iteration, before
 --- the step. A script that is busy lets senders wait: an endpoint keeps 4096 events and 64 000 000 bytes. Messages and HTTP requests have up
 --- to 32 000 000 bytes. A server has up to 1000 connections; it listens at 127.0.0.1 unless the program runs with --bind. Endpoints go with the
 --- script that made them.

@@ -1,7 +1,7 @@
 sim = require 'sim'
 
 --[[
-The main script used when a scene has none of its own: one pass of it is one simulation step.
+The main script used when a scene has none of its own: one run through its callbacks is one simulation step.
 
 Does not hold what happens inside a stage; each line below is one, and their order is the order of 4.10.
 ]]

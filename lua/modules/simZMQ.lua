@@ -249,7 +249,7 @@ end)
 
 declare('socket_monitor', 'socket:string endpoint:string events:int')
 
--- In a thread, sockets are looked at once per pass.
+-- In a thread, sockets are looked at once per loop iteration.
 local function pollYielding(sockets, events, timeout)
     local deadline = clock(timeout)
     while true do

@@ -49,7 +49,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     }
     while !interrupt.is_requested() && !sim.quit_requested() {
         let steps = sim.steps();
-        sim.pass();
+        sim.iterate();
         if !sim.state().is_advancing() {
             nap(&sim, if sim.has_zmq_sockets() { SHORT_NAP } else { NAP });
         } else if sim.steps() == steps {

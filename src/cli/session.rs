@@ -22,7 +22,7 @@ impl Onlooker for Session<'_> {
         self.interrupt.is_requested()
     }
 
-    fn passed(&mut self, sim: &Simulator, stepped: bool) {
+    fn iterated(&mut self, sim: &Simulator, stepped: bool) {
         if !stepped {
             rest(sim);
         }

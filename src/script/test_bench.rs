@@ -90,7 +90,7 @@ pub struct RunRequest {
     pub empty: bool,
     /// Whether the simulation is started from outside.
     pub start: bool,
-    /// Passes without a start, and of a paused simulation.
+    /// Loop iterations without a start, and of a paused simulation.
     pub loops: u64,
     /// What ends the simulation: steps, and simulated time in seconds.
     pub steps: Option<u64>,

@@ -1,4 +1,4 @@
-//! A whole run: passes until scripts, a limit or somebody outside ends it.
+//! A whole run: loop iterations until scripts, a limit or the caller ends it.
 
 use super::Simulator;
 use crate::script::SimulationState;
@@ -6,11 +6,11 @@ use crate::script::SimulationState;
 /// How a run comes to its end, unless a script ends it.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct RunLimits {
-    /// Passes of the main script.
+    /// Simulation steps.
     pub steps: Option<u64>,
     /// Simulated time, seconds.
     pub time: Option<f64>,
-    /// Passes of a paused simulation, which nobody resumes.
+    /// Loop iterations of a paused simulation, which nobody resumes.
     pub idle: u64,
     /// A simulation that a script starts anew is another run, and this one is over.
     pub once: bool,
@@ -29,8 +29,8 @@ pub trait Onlooker {
     /// Whether the run is to end now.
     fn wants_end(&self, sim: &Simulator) -> bool;
 
-    /// A pass of an advancing simulation was made, which may have been too early for a step.
-    fn passed(&mut self, sim: &Simulator, stepped: bool) {
+    /// A loop iteration of an advancing simulation is over; it may have been too early for a step.
+    fn iterated(&mut self, sim: &Simulator, stepped: bool) {
         let _ = (sim, stepped);
     }
 
@@ -49,7 +49,7 @@ impl RunLimits {
 }
 
 impl Simulator {
-    /// Starts the simulation and runs it to its end; one more pass follows, as in CoppeliaSim when it is closed.
+    /// Starts the simulation and runs it to its end; one more loop iteration follows, as in CoppeliaSim when it is closed.
     pub fn run(&mut self, limits: RunLimits, onlooker: &mut dyn Onlooker) -> RunTotals {
         let mut totals = RunTotals::default();
         self.start();
@@ -66,7 +66,7 @@ impl Simulator {
                 idle = 0;
             }
             let steps = self.steps();
-            self.pass_watched(&mut totals, onlooker);
+            self.iterate_watched(&mut totals, onlooker);
             if self.steps() < steps {
                 // A script has started the next run.
                 if limits.once {
@@ -76,29 +76,29 @@ impl Simulator {
                 }
             }
         }
-        self.pass_watched(&mut totals, onlooker);
+        self.iterate_watched(&mut totals, onlooker);
         totals
     }
 
-    /// So many passes, in whatever state the scripts bring the simulation into.
-    pub fn loop_freely(&mut self, passes: u64, onlooker: &mut dyn Onlooker) -> RunTotals {
+    /// That many loop iterations, in whatever state the scripts bring the simulation into.
+    pub fn loop_freely(&mut self, iterations: u64, onlooker: &mut dyn Onlooker) -> RunTotals {
         let mut totals = RunTotals::default();
-        for _ in 0..passes {
+        for _ in 0..iterations {
             if self.quit_requested() || onlooker.wants_end(self) {
                 break;
             }
-            self.pass_watched(&mut totals, onlooker);
+            self.iterate_watched(&mut totals, onlooker);
         }
         totals
     }
 
-    fn pass_watched(&mut self, totals: &mut RunTotals, onlooker: &mut dyn Onlooker) {
+    fn iterate_watched(&mut self, totals: &mut RunTotals, onlooker: &mut dyn Onlooker) {
         let (state, steps, time) = (self.state(), self.steps(), self.time());
-        self.pass();
+        self.iterate();
         if state.is_advancing() {
             totals.steps += self.steps().saturating_sub(steps);
             totals.time += (self.time() - time).max(0.0);
-            onlooker.passed(self, self.steps() != steps);
+            onlooker.iterated(self, self.steps() != steps);
         }
     }
 }

@@ -100,7 +100,7 @@ impl Onlooker for Patience {
         self.options.stop.load(std::sync::atomic::Ordering::Relaxed) || self.time > self.time_limit
     }
 
-    fn passed(&mut self, sim: &Simulator, stepped: bool) {
+    fn iterated(&mut self, sim: &Simulator, stepped: bool) {
         if stepped {
             self.time += sim.scene().settings().time_step;
         }

@@ -123,7 +123,7 @@ function t.start()
     hasRun = true
     if sim.getSimulationState() == sim.simulation_stopped then
         sim.startSimulation()
-        native.pass()
+        native.iterate()
         t._checkErrors()
     end
 end
@@ -133,7 +133,7 @@ function t.stop()
     if sim.getSimulationState() == sim.simulation_stopped then return end
     sim.stopSimulation()
     while sim.getSimulationState() ~= sim.simulation_stopped do
-        native.pass()
+        native.iterate()
         t._checkErrors()
     end
 end
@@ -159,7 +159,7 @@ local function step()
         error(('the test has simulated for more than %g s (--sim-timeout).'):format(native.timeLimit()), 0)
     end
     runScheduled()
-    native.pass()
+    native.iterate()
     t._checkErrors()
     sample()
     return true

@@ -167,7 +167,7 @@ fn aux_func(cx: &Cx, cmd: String, _arguments: Rest) -> Result<Results> {
     }))
 }
 
-/// Ends the program after the current pass.
+/// Ends the program after the current loop iteration.
 #[api("quitSimulator")]
 fn quit_simulator(cx: &mut Cx) -> Result<()> {
     cx.request_quit(true);

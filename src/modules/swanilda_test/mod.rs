@@ -12,7 +12,7 @@ use crate::script::test_bench::{ConsoleLine, Golden, TestBench, Tolerances, Trac
 
 pub(crate) use run::FUNCTIONS as RUN;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![is_test, pass, errors, lines, kill, file, time_limit, golden];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![is_test, iterate, errors, lines, kill, file, time_limit, golden];
 
 fn bench(cx: &Cx) -> Result<Rc<TestBench>> {
     let bench = cx.test_bench().cloned();
@@ -27,15 +27,15 @@ fn is_test(cx: &Cx) -> Result<bool> {
     Ok(cx.test_bench().is_some())
 }
 
-/// One pass of the simulator's loop: a step when a simulation runs.
-#[api("swanilda.test.pass")]
-fn pass(cx: &mut Cx) -> Result<()> {
+/// One iteration of the loop: a step when a simulation runs.
+#[api("swanilda.test.iterate")]
+fn iterate(cx: &mut Cx) -> Result<()> {
     bench(cx)?;
     if cx.call_depth() > 1 {
         return Err(ApiError::Other("a step cannot be made from within a step.".into()));
     }
     cx.run_loop_iteration();
-    // Long passes make few Lua instructions, between which nobody would look.
+    // Long iterations run few Lua instructions, between which nobody would look.
     if cx.is_interrupted() { Err(ApiError::Other("interrupted.".into())) } else { Ok(()) }
 }
 

@@ -75,7 +75,7 @@ pub struct Object {
     pub dynamic_flag: i64,
     /// Asks the physics to build this object anew.
     pub dynamics_reset: bool,
-    /// World poses at the last two sensing passes, for the measured velocity.
+    /// World poses at the last two sensing parts of a step, for the measured velocity.
     pub measured: Measured,
     /// The state to come back to when the simulation ends.
     pub initial: Option<Box<InitialState>>,

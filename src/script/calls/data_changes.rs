@@ -1,4 +1,4 @@
-//! Telling scripts that the data of their object changed (`sysCall_data`).
+//! Notifying scripts of changed data of their object (`sysCall_data`).
 
 use std::rc::Rc;
 
@@ -10,14 +10,15 @@ use crate::script::lifecycle::instance::Script;
 use crate::script::sim::Sim;
 
 impl Sim {
-    /// Tells scripts about the custom data and signals that were written or removed since the last pass: one call per object and kind.
+    /// Notifies scripts of custom data and signals that were written or removed since the last loop iteration: one call per object and
+    /// namespace.
     pub(crate) fn notify_changed_data(self: &Rc<Self>) {
         let changed = self.scene.borrow_mut().journal_mut().take_changed_data();
-        if self.scripts.nobody_responds(SysCall::Data) {
+        if !self.scripts.may_respond(SysCall::Data) {
             return;
         }
         for ((object, namespace), names) in changed {
-            let args = [written_or_removed(names), Data::text(word(namespace))];
+            let args = [written_or_removed(names), Data::text(name_of(namespace))];
             for script in self.scripts_of(object) {
                 self.deliver(&script, SysCall::Data, &args);
             }
@@ -40,7 +41,7 @@ fn written_or_removed(names: ChangedNames) -> Data {
     Data::Map(names.into_iter().map(|(name, written)| (Key::Text(name.into_bytes()), Data::Bool(written))).collect())
 }
 
-fn word(namespace: Namespace) -> &'static str {
+fn name_of(namespace: Namespace) -> &'static str {
     match namespace {
         Namespace::CustomData => "customData",
         Namespace::Signal => "signal",

@@ -31,21 +31,21 @@ impl Sim {
 
     /// Everyone, in regular order.
     pub(crate) fn broadcast(self: &Rc<Self>, call: SysCall, args: &[Data]) {
-        if self.scripts.nobody_responds(call) {
+        if !self.scripts.may_respond(call) {
             return;
         }
-        for script in self.everyone().iter() {
+        for script in self.active_scripts().iter() {
             self.deliver(script, call, args);
         }
     }
 
-    /// Asks scripts in turn until one answers with a value.
-    pub(crate) fn ask(self: &Rc<Self>, scripts: &[Rc<Script>], call: SysCall, args: &[Data]) -> Option<Data> {
+    /// Calls scripts in turn until one returns a value.
+    pub(crate) fn first_answer(self: &Rc<Self>, scripts: &[Rc<Script>], call: SysCall, args: &[Data]) -> Option<Data> {
         scripts.iter().find_map(|script| self.deliver(script, call, args).value)
     }
 
     /// Reverse order, for contacts: sandbox, add-ons, main, then script objects by increasing depth.
-    pub(crate) fn everyone_reversed(&self) -> Vec<Rc<Script>> {
+    pub(crate) fn active_scripts_reversed(&self) -> Vec<Rc<Script>> {
         let mut list: Vec<Rc<Script>> = Vec::new();
         for group in [Group::Sandbox, Group::AddOn, Group::Main] {
             list.extend(self.scripts_in(group).iter().cloned());
@@ -58,19 +58,19 @@ impl Sim {
 
     /// A message to all initialised scripts but the sender.
     pub(crate) fn broadcast_message(self: &Rc<Self>, sender: i64, args: &[Data]) {
-        if self.scripts.nobody_responds(SysCall::Msg) {
+        if !self.scripts.may_respond(SysCall::Msg) {
             return;
         }
-        for script in self.everyone().iter() {
+        for script in self.active_scripts().iter() {
             if script.id != sender && script.base_state() == state::INITIALIZED {
                 self.deliver(script, SysCall::Msg, args);
             }
         }
     }
 
-    /// Tells all others that a script has run one of the callbacks that concern them.
-    pub(crate) fn announce(self: &Rc<Self>, script: &Script, call: SysCall) {
-        if self.scripts.nobody_responds(SysCall::Msg) {
+    /// Notifies all others that a script has run one of the callbacks that concern them.
+    pub(crate) fn broadcast_system_call(self: &Rc<Self>, script: &Script, call: SysCall) {
+        if !self.scripts.may_respond(SysCall::Msg) {
             return;
         }
         let data = Data::map([("callType", Data::Int(call as i64)), ("script", Data::Int(script.id))]);
@@ -78,13 +78,13 @@ impl Sim {
         self.broadcast_message(script.id, &[message]);
     }
 
-    /// Polls every script before a pass of the main script; true when one forbids it.
-    pub(crate) fn main_script_vetoed(self: &Rc<Self>) -> bool {
-        if self.scripts.nobody_responds(SysCall::BeforeMainScript) {
+    /// Calls every script before a simulation step; true when one forbids it.
+    pub(crate) fn main_script_is_vetoed(self: &Rc<Self>) -> bool {
+        if !self.scripts.may_respond(SysCall::BeforeMainScript) {
             return false;
         }
         let mut vetoed = false;
-        for script in self.everyone().iter() {
+        for script in self.active_scripts().iter() {
             let is_main = script.script_type == crate::scene::tree::script_object::ScriptType::Main;
             if !is_main && script.base_state() == state::INITIALIZED {
                 let Reply { value, .. } = self.deliver(script, SysCall::BeforeMainScript, &[]);

@@ -10,8 +10,9 @@ use crate::script::binding::cx::Cx;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::env::Runtime;
 use crate::script::lifecycle::instance::Script;
+use crate::script::lifecycle::level::Level;
+use crate::script::lifecycle::push_args;
 use crate::script::lifecycle::script_set::MAX_DEPTH;
-use crate::script::lifecycle::{Level, push_args};
 use crate::script::log::verbosity;
 use crate::script::sim::Sim;
 
@@ -88,7 +89,7 @@ impl Sim {
             runtime.filter(|runtime| runtime.env.script.is_running()).ok_or(ApiError::ScriptNotInitialized)?;
         let results = self.run_handler(&runtime, handler, args);
         if runtime.env.depth.get() == 0 {
-            self.settle(&runtime.env.script, SysCall::Ext, None);
+            self.complete_call(&runtime.env.script, SysCall::Ext, None);
         }
         results
     }

@@ -12,9 +12,10 @@ use super::binding::data;
 use super::error::{ApiError, ApiResult};
 use super::lifecycle::env::Runtime;
 use super::lifecycle::instance::{Script, state};
+use super::lifecycle::level::Level;
 use super::lifecycle::script_set::MAX_DEPTH;
 use super::lifecycle::startup;
-use super::lifecycle::{Level, push_args, push_dotted};
+use super::lifecycle::{push_args, push_dotted};
 use super::lua::{LuaError, MULTIPLE, Stack, Type};
 use super::sim::Sim;
 use crate::scene::Data;
@@ -52,7 +53,7 @@ impl Sim {
             ApiError::ErrorInCallee
         });
         if runtime.env.depth.get() == 0 {
-            self.settle(script, SysCall::Ext, None);
+            self.complete_call(script, SysCall::Ext, None);
         }
         results
     }
@@ -84,7 +85,7 @@ impl Sim {
         };
         outcome.map_err(|error| {
             self.fail(script, &error.text);
-            self.settle(script, SysCall::Ext, None);
+            self.complete_call(script, SysCall::Ext, None);
             error.text
         })
     }
@@ -142,7 +143,7 @@ impl Sim {
 
     /// Ends an add-on or the sandbox at application exit.
     pub(crate) fn end_detached(self: &Rc<Self>) {
-        for script in self.everyone().iter() {
+        for script in self.active_scripts().iter() {
             if matches!(script.script_type, ScriptType::AddOn | ScriptType::Sandbox)
                 && script.base_state() == state::INITIALIZED
             {

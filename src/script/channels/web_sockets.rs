@@ -1,4 +1,4 @@
-//! WebSocket endpoints of scripts: who owns them, and the calls of their handlers once per pass.
+//! WebSocket endpoints of scripts: who owns them, and the calls of their handlers once per loop iteration.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -138,7 +138,7 @@ impl Sim {
     }
 
     /// Lets the sockets move and calls the handlers of what has arrived: endpoint by endpoint in the order of their creation, at each in
-    /// the order of arrival. What arrives meanwhile waits for the next pass.
+    /// the order of arrival. What arrives meanwhile waits for the next iteration.
     pub(crate) fn deliver_web_sockets(self: &Rc<Self>) {
         let endpoints: Vec<Rc<Endpoint>> = self.web_sockets.borrow().endpoints.values().cloned().collect();
         let Some(event_loop) = (!endpoints.is_empty()).then(|| self.event_loop().ok()).flatten() else { return };
@@ -150,7 +150,7 @@ impl Sim {
             }
         }
         if batches.iter().any(|&count| count > 0) {
-            // Answers leave in the same pass.
+            // Answers leave in the same iteration.
             event_loop.turn();
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! Nothing is collected while nobody listens. While somebody does, every call that changed the scene is followed by
 //! [`Sim::collect_events`], which turns the scene's journal into events: what a property is now is compared with what was
-//! last told. One dispatch per pass merges, numbers and delivers them.
+//! last told. One dispatch per loop iteration merges, numbers and delivers them.
 
 mod collect;
 mod encode;
@@ -166,7 +166,7 @@ impl Sim {
     /// Delivers events numbered from `first` to everyone who listens, as much of them as each wants.
     fn deliver_events(self: &Rc<Self>, events: &[Event], first: i64) {
         let mut whole: Option<Data> = None;
-        for script in self.everyone().iter() {
+        for script in self.active_scripts().iter() {
             let Some(runtime) = script.current_runtime() else { continue };
             if script.base_state() != state::INITIALIZED || !runtime.env.responds_to(SysCall::Event) {
                 continue;

@@ -35,7 +35,7 @@ impl Sim {
         Ok(save::model(&self.scene.borrow(), base, &scripts)?)
     }
 
-    /// Writes the scene to a file of the kind its name tells, which becomes the scene's. Scripts are told before and after.
+    /// Writes the scene to a file of the kind its name tells, which becomes the scene's. Scripts are notified before and after.
     ///
     /// # Errors
     /// When the scene is locked, or the file cannot be written.

@@ -84,11 +84,11 @@ impl Sim {
             self.log(verbosity::INFOS, &text);
         }
         let loaded = file.add_to(&mut self.scene.borrow_mut(), is_scene)?;
-        loaded.scripts.iter().for_each(|script| self.take_script(script));
+        loaded.scripts.iter().for_each(|script| self.add_loaded_script(script));
         Ok(loaded)
     }
 
-    fn take_script(&self, script: &LoadedScript) {
+    fn add_loaded_script(&self, script: &LoadedScript) {
         match (script.script_type, script.owner) {
             (ScriptType::Main, _) => {
                 if let Some(main) = self.scripts.detached(ScriptType::Main) {

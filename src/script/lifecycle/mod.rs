@@ -1,9 +1,10 @@
-//! A script's life: loading, initialising, being called, dying (spec: scripts 3, scripts 4, scripts 5).
+//! The life of a script: loading, initialization, callbacks, cleanup (spec: scripts 3, scripts 4, scripts 5).
 
 pub(in crate::script) mod attached;
 pub(in crate::script) mod embedded;
 pub(in crate::script) mod env;
 pub(in crate::script) mod instance;
+pub(in crate::script) mod level;
 pub(in crate::script) mod lookup;
 pub(in crate::script) mod old_calls;
 pub(in crate::script) mod order;
@@ -23,11 +24,12 @@ use super::lua::{LuaError, MULTIPLE, Stack, Type};
 use super::sim::Sim;
 use crate::scene::Data;
 use crate::scene::tree::script_object::ScriptType;
-use env::{Env, Hook, Runtime};
+use env::{Hook, Runtime};
 use instance::{Script, state};
-use script_set::{MAX_DEPTH, ScriptSet};
+use level::Level;
+use script_set::MAX_DEPTH;
 
-/// What came back from a callback.
+/// The result of a callback.
 #[derive(Debug, Default)]
 pub(crate) struct Reply {
     /// The script's function or a hook was there and ran.
@@ -69,7 +71,7 @@ impl Sim {
             self.report_error(script, &error.text);
             script.set_state(state::ENDED | state::ERROR);
             self.close(script);
-            self.restart_if_asked(script);
+            self.restart_if_requested(script);
             return;
         }
         let defined = defined_callbacks(runtime.stack());
@@ -100,7 +102,7 @@ impl Sim {
     fn initialize(self: &Rc<Self>, script: &Rc<Script>) {
         script.set_state(state::INITIALIZED);
         self.run_callback(script, SysCall::Init, &[]);
-        // As in the original, a script that has begun is told the selection.
+        // As in the original, a script is notified of the selection once it is initialized.
         if script.is_running() {
             self.run_callback(script, SysCall::SelChange, &[self.selection_data()]);
         }
@@ -109,7 +111,7 @@ impl Sim {
     /// Runs hooks and function of a callback in an interpreter that is ready for it.
     fn run_callback(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, args: &[Data]) -> Reply {
         let Some(runtime) = script.current_runtime() else { return Reply::default() };
-        if !runtime.env.responds_to(call) && !call.always_delivered() && !is_late_cleanup(&runtime, call) {
+        if !runtime.env.responds_to(call) && !call.always_delivered() && !has_late_cleanup(&runtime, call) {
             return Reply::default();
         }
         if call == SysCall::Cleanup {
@@ -119,10 +121,10 @@ impl Sim {
         if !outcome.errors.is_empty() {
             self.fail(script, &outcome.errors.join("\n\n"));
         } else if call.is_announced() && outcome.function_ran {
-            self.announce(script, call);
+            self.broadcast_system_call(script, call);
         }
         if runtime.env.depth.get() == 0 {
-            self.settle(script, call, outcome.value.as_ref());
+            self.complete_call(script, call, outcome.value.as_ref());
         }
         Reply { ran: outcome.ran, value: outcome.value }
     }
@@ -152,11 +154,11 @@ impl Sim {
         outcome
     }
 
-    /// Logs an error of a script and marks it; it dies when its last call has returned.
+    /// Logs an error of a script and marks it; it ends when its last call has returned.
     pub(crate) fn fail(self: &Rc<Self>, script: &Rc<Script>, text: &str) {
         let from_yield = text.contains("attempt to yield across a C-call boundary")
             || text.contains("attempt to yield from outside a coroutine");
-        // The sandbox lives on, whatever happens in it.
+        // An error does not end the sandbox.
         if script.script_type != ScriptType::Sandbox {
             script.mark_error();
         }
@@ -173,10 +175,10 @@ impl Sim {
         }
     }
 
-    /// What follows the outermost call of a script: death after an error, or what the script asked for by `cmd`.
-    pub(crate) fn settle(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, value: Option<&Data>) {
+    /// Completes the outermost call of a script: ends it after an error, or does what it requested by `cmd`.
+    pub(crate) fn complete_call(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, value: Option<&Data>) {
         if script.state() & state::ERROR != 0 {
-            return self.kill(script);
+            return self.end_failed(script);
         }
         if call == SysCall::Info || script.base_state() != state::INITIALIZED {
             return;
@@ -189,14 +191,14 @@ impl Sim {
         }
     }
 
-    /// The end of a script with an error: cleanup if it was initialised, then no interpreter.
-    fn kill(self: &Rc<Self>, script: &Rc<Script>) {
+    /// Ends a script that has failed: cleanup if it was initialized, then no interpreter.
+    fn end_failed(self: &Rc<Self>, script: &Rc<Script>) {
         if script.base_state() == state::INITIALIZED {
             self.clean_up(script);
         }
         script.set_base_state(state::ENDED);
         self.close(script);
-        self.restart_if_asked(script);
+        self.restart_if_requested(script);
     }
 
     /// Ends a script for good: cleanup, then no interpreter.
@@ -220,11 +222,11 @@ impl Sim {
         script.set_state(state::UNLOADED);
     }
 
-    /// Runs `sysCall_cleanup` in a script that is ending. Errors are logged; they change nothing any more.
+    /// Runs `sysCall_cleanup` in a script that is ending. Errors are logged and have no other effect.
     fn clean_up(self: &Rc<Self>, script: &Rc<Script>) {
         let Some(runtime) = script.current_runtime() else { return };
         script.set_base_state(state::ENDED);
-        if !runtime.env.responds_to(SysCall::Cleanup) && !is_late_cleanup(&runtime, SysCall::Cleanup) {
+        if !runtime.env.responds_to(SysCall::Cleanup) && !has_late_cleanup(&runtime, SysCall::Cleanup) {
             return;
         }
         let outcome = self.call_with_hooks(&runtime, SysCall::Cleanup, &[]);
@@ -232,11 +234,11 @@ impl Sim {
             script.mark_error();
             self.report_error(script, &outcome.errors.join("\n\n"));
         } else if outcome.function_ran {
-            self.announce(script, SysCall::Cleanup);
+            self.broadcast_system_call(script, SysCall::Cleanup);
         }
     }
 
-    /// Gives the interpreter up; it is closed when its last call has returned. Its signals and tubes go with it.
+    /// Releases the interpreter, which is closed when its last call has returned, and what goes with it: signals and tubes.
     fn close(&self, script: &Script) {
         script.runtime.replace(None);
         self.drop_signals_of(script);
@@ -244,9 +246,9 @@ impl Sim {
     }
 
     /// `restartOnError` is a one-shot.
-    fn restart_if_asked(&self, script: &Script) {
+    fn restart_if_requested(&self, script: &Script) {
         let asked = match script.object {
-            Some(handle) => self.take_restart_flag(handle),
+            Some(handle) => self.clear_restart_flag(handle),
             None => std::mem::take(&mut script.detached.borrow_mut().restart_on_error),
         };
         if asked {
@@ -254,7 +256,7 @@ impl Sim {
         }
     }
 
-    fn take_restart_flag(&self, handle: crate::scene::Handle) -> bool {
+    fn clear_restart_flag(&self, handle: crate::scene::Handle) -> bool {
         let mut scene = self.scene.borrow_mut();
         let Ok(true) = scene.object(handle).and_then(|o| o.script()).map(|s| s.restart_on_error) else { return false };
         let cleared = scene
@@ -353,8 +355,8 @@ fn defined_callbacks(stack: Stack<'_>) -> u64 {
     defined.fold(0, |bits, call| bits | call.bit())
 }
 
-/// A cleanup defined after the chunk had run is found all the same.
-fn is_late_cleanup(runtime: &Runtime, call: SysCall) -> bool {
+/// Whether a cleanup was defined after the chunk had run.
+fn has_late_cleanup(runtime: &Runtime, call: SysCall) -> bool {
     if call != SysCall::Cleanup {
         return false;
     }
@@ -362,47 +364,4 @@ fn is_late_cleanup(runtime: &Runtime, call: SysCall) -> bool {
     let kind = stack.push_global(call.name());
     stack.pop(1);
     kind == Type::Function
-}
-
-/// One call into a state, from its beginning to its end.
-pub(crate) struct Level<'a> {
-    scripts: &'a ScriptSet,
-    env: &'a Env,
-    pub too_deep: bool,
-}
-
-impl<'a> Level<'a> {
-    /// A call that another script makes: nothing in it can yield.
-    pub(crate) fn enter_from_script(scripts: &'a ScriptSet, env: &'a Env) -> Self {
-        let level = Self::enter(scripts, env);
-        if env.depth.get() == 1 {
-            env.yields.overall.set(1);
-        }
-        level
-    }
-
-    /// A call the host makes. The outermost one begins a time slice and forgets locks; inner ones cannot yield.
-    pub(crate) fn enter(scripts: &'a ScriptSet, env: &'a Env) -> Self {
-        let too_deep = !scripts.enter();
-        let depth = env.depth.get();
-        env.depth.set(depth + 1);
-        if depth == 0 {
-            env.yields.overall.set(0);
-            env.yields.used.set(0);
-        } else {
-            env.yields.overall.set(env.yields.overall.get() + 1);
-        }
-        Self { scripts, env, too_deep }
-    }
-}
-
-impl Drop for Level<'_> {
-    fn drop(&mut self) {
-        self.scripts.leave();
-        let depth = self.env.depth.get() - 1;
-        self.env.depth.set(depth);
-        if depth > 0 {
-            self.env.yields.overall.set((self.env.yields.overall.get() - 1).max(0));
-        }
-    }
 }

@@ -60,7 +60,7 @@ impl Sim {
     }
 
     /// Everyone who takes part now, in regular order: while stopped, neither simulation scripts nor the main script do.
-    pub(crate) fn everyone(&self) -> ScriptList {
+    pub(crate) fn active_scripts(&self) -> ScriptList {
         self.refresh_order();
         let cache = self.scripts.order.borrow();
         let stopped = self.clock.is_stopped();

@@ -1,4 +1,4 @@
-//! Adding and removing objects with everything scripts are told about it.
+//! Adding, copying and removing objects, of which scripts are notified.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashSet};
@@ -86,27 +86,27 @@ impl Sim {
         Ok(copies)
     }
 
-    /// Removes objects: their scripts are cleaned up first, then everyone is told before and after.
+    /// Removes objects: their scripts are cleaned up first, and scripts are notified before and after.
     ///
     /// # Errors
     /// When a handle is unknown or given twice; nothing happens then.
     pub(crate) fn remove_objects(self: &Rc<Self>, handles: &[Handle]) -> ApiResult<()> {
         self.check_removable(handles)?;
-        let doomed: Vec<Handle> = handles.iter().copied().filter(|&handle| self.end_scripts_of(handle)).collect();
-        if doomed.len() < handles.len() {
+        let removed: Vec<Handle> = handles.iter().copied().filter(|&handle| self.end_scripts_of(handle)).collect();
+        if removed.len() < handles.len() {
             let text =
                 "object removal can't be triggered from within the object itself: some objects were not removed.";
             self.log(verbosity::ERRORS, text);
         }
-        if doomed.is_empty() {
+        if removed.is_empty() {
             return Ok(());
         }
-        let data = self.removal_data(&doomed);
+        let data = self.removal_data(&removed);
         self.broadcast(SysCall::BeforeDelete, std::slice::from_ref(&data));
         // A callback may have removed some of them already.
-        let doomed: Vec<Handle> = doomed.into_iter().filter(|&h| self.scene.borrow().exists(h)).collect();
-        self.scene.borrow_mut().remove(&doomed)?;
-        for handle in &doomed {
+        let removed: Vec<Handle> = removed.into_iter().filter(|&h| self.scene.borrow().exists(h)).collect();
+        self.scene.borrow_mut().remove(&removed)?;
+        for handle in &removed {
             self.scripts.remove_those_of(*handle);
             self.signal_owners.borrow_mut().forget(Holder::Object(*handle));
         }

@@ -120,13 +120,13 @@ impl ScriptSet {
         self.callbacks_in_use.set(self.callbacks_in_use.get() | bits);
     }
 
-    /// Whether no script can respond to `call`: nobody has ever defined it, and it starts nobody.
-    pub(in crate::script) fn nobody_responds(&self, call: SysCall) -> bool {
-        !call.wakes() && self.callbacks_in_use.get() & call.bit() == 0
+    /// Whether a script can respond to `call`: one has or had the callback, or the call starts scripts.
+    pub(in crate::script) fn may_respond(&self, call: SysCall) -> bool {
+        call.wakes() || self.callbacks_in_use.get() & call.bit() != 0
     }
 
-    pub(in crate::script) fn anybody_responds(&self, calls: &[SysCall]) -> bool {
-        calls.iter().any(|&call| !self.nobody_responds(call))
+    pub(in crate::script) fn may_respond_to_any(&self, calls: &[SysCall]) -> bool {
+        calls.iter().any(|&call| self.may_respond(call))
     }
 
     /// Script calls in progress, over all states.

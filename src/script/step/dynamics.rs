@@ -1,5 +1,5 @@
-//! One dynamics call: sub-steps with the callbacks of scripts between them (spec: dynamics 2). Callbacks have old names, by which
-//! scripts of V-REP's time know them; both are called.
+//! One call of the dynamics: sub-steps, with callbacks of scripts between them (spec: dynamics 2). Callbacks have old names too, from
+//! the time of V-REP; both are called.
 
 use std::rc::Rc;
 
@@ -11,9 +11,9 @@ use crate::script::error::{ApiError, ApiResult};
 use crate::script::log::verbosity;
 use crate::script::sim::Sim;
 
-/// What scripts are asked by about contacts: the old name first.
+/// The callbacks that filter contacts: the old name first.
 const CONTACT: [SysCall; 2] = [SysCall::ContactCallback, SysCall::Contact];
-/// What scripts are told by before and after a sub-step: the old name first.
+/// The callbacks before and after a sub-step: the old name first.
 const DYN: [SysCall; 2] = [SysCall::DynCallback, SysCall::Dyn];
 
 impl Sim {
@@ -25,11 +25,11 @@ impl Sim {
         let begun = self.with_dynamics(|dynamics, scene| dynamics.begin(scene, time_step));
         let busy = || ApiError::Other("the dynamics are already being handled.".into());
         let Some(call) = begun.ok_or_else(busy)?.map_err(|_| busy())? else { return Ok(0) };
-        for pass in 1..=call.passes {
-            self.dynamics_callback(call, pass, false);
-            let asked = self.drive_joints(call, pass);
-            self.dynamics_pass(pass, asked);
-            self.dynamics_callback(call, pass, true);
+        for number in 1..=call.passes {
+            self.dynamics_callback(call, number, false);
+            let driven = self.drive_joints(call, number);
+            self.run_sub_step(number, driven);
+            self.dynamics_callback(call, number, true);
         }
         let triggers = self.with_dynamics(Dynamics::end).unwrap_or_default();
         triggers.iter().for_each(|trigger| self.force_sensor_triggered(trigger));
@@ -41,12 +41,12 @@ impl Sim {
         dynamics.as_mut().map(|dynamics| work(dynamics, &mut self.scene.borrow_mut()))
     }
 
-    fn dynamics_callback(self: &Rc<Self>, call: Call, pass: u32, after_step: bool) {
-        if !self.scripts.anybody_responds(&DYN) {
+    fn dynamics_callback(self: &Rc<Self>, call: Call, number: u32, after_step: bool) {
+        if !self.scripts.may_respond_to_any(&DYN) {
             return;
         }
         let data = Data::map([
-            ("passCnt", i64::from(pass).into()),
+            ("passCnt", i64::from(number).into()),
             ("totalPasses", i64::from(call.passes).into()),
             ("dt", call.step.into()),
             ("dynStepSize", call.step.into()),
@@ -57,14 +57,14 @@ impl Sim {
         }
     }
 
-    /// Sets the motors; joints in callback control are driven as a script answers. Returns whether there are any.
-    fn drive_joints(self: &Rc<Self>, call: Call, pass: u32) -> bool {
-        let requests = self.with_dynamics(|dynamics, scene| dynamics.prepare(scene, pass)).unwrap_or_default();
+    /// Sets the motors; a script's answer drives a joint in callback control. Returns whether there are such joints.
+    fn drive_joints(self: &Rc<Self>, call: Call, number: u32) -> bool {
+        let requests = self.with_dynamics(|dynamics, scene| dynamics.prepare(scene, number)).unwrap_or_default();
         for request in &requests {
-            let Some(data) = self.joint_data(request, call, pass) else { continue };
-            let answer = self.ask_about_joint(request.joint, &[data]);
-            let number = |names: [&str; 2]| names.into_iter().find_map(|name| answer.as_ref()?.field(name)?.as_f64());
-            let (velocity, force) = (number(["velocity", "vel"]), number(["force", "ctrl"]));
+            let Some(data) = self.joint_data(request, call, number) else { continue };
+            let answer = self.joint_callback(request.joint, &[data]);
+            let field = |names: [&str; 2]| names.into_iter().find_map(|name| answer.as_ref()?.field(name)?.as_f64());
+            let (velocity, force) = (field(["velocity", "vel"]), field(["force", "ctrl"]));
             if velocity.is_some() || force.is_some() {
                 self.with_dynamics(|dynamics, _| dynamics.drive(request.joint, velocity, force));
             }
@@ -72,39 +72,38 @@ impl Sim {
         !requests.is_empty()
     }
 
-    /// The scripts of the joint are asked by the old name first.
-    fn ask_about_joint(self: &Rc<Self>, joint: Handle, data: &[Data]) -> Option<Data> {
-        if self.scripts.anybody_responds(&[SysCall::JointCallback])
-            && let Some(answer) = self.ask(&self.scripts_of_object(joint), SysCall::JointCallback, data)
+    /// The scripts of the joint are called by the old name first.
+    fn joint_callback(self: &Rc<Self>, joint: Handle, data: &[Data]) -> Option<Data> {
+        if self.scripts.may_respond(SysCall::JointCallback)
+            && let Some(answer) = self.first_answer(&self.scripts_of_object(joint), SysCall::JointCallback, data)
         {
             return Some(answer);
         }
-        self.ask(&self.joint_chain(joint), SysCall::Joint, data)
+        self.first_answer(&self.joint_chain(joint), SysCall::Joint, data)
     }
 
-    fn joint_data(&self, request: &JointRequest, call: Call, pass: u32) -> Option<Data> {
+    fn joint_data(&self, request: &JointRequest, call: Call, number: u32) -> Option<Data> {
         let scene = self.scene.borrow();
         let joint = scene.object(request.joint).and_then(|object| object.joint()).ok()?;
-        Some(joint_data(joint, request, call, pass))
+        Some(joint_data(joint, request, call, number))
     }
 
-    /// One sub-step. The scene is nobody's while the engine works, because it may ask scripts about contacts. `asked`: whether scripts
-    /// drive joints.
-    fn dynamics_pass(self: &Rc<Self>, number: u32, asked: bool) {
-        let judged = self.scripts.anybody_responds(&CONTACT);
-        let attention = Attention { judged, watched: asked || judged || self.scripts.anybody_responds(&DYN) };
+    /// One sub-step. Nothing is borrowed while the engine works, because scripts may filter contacts. `driven`: scripts drive joints.
+    fn run_sub_step(self: &Rc<Self>, number: u32, driven: bool) {
+        let judged = self.scripts.may_respond_to_any(&CONTACT);
+        let attention = Attention { judged, watched: driven || judged || self.scripts.may_respond_to_any(&DYN) };
         let started = self.with_dynamics(|dynamics, scene| dynamics.start_pass(scene, number, attention));
-        let Some(mut pass) = started.flatten() else { return };
-        let judge = |first: Handle, second: Handle| self.judge_contact(first, second);
-        pass.run(judged.then_some(&judge));
+        let Some(mut sub_step) = started.flatten() else { return };
+        let filter = |first: Handle, second: Handle| self.contact_callback(first, second);
+        sub_step.run(judged.then_some(&filter));
         let stopped = self.with_dynamics(|dynamics, scene| {
-            dynamics.finish_pass(pass, scene);
+            dynamics.finish_pass(sub_step, scene);
             dynamics.take_frozen()
         });
-        stopped.into_iter().flatten().for_each(|shape| self.warn_of_stop(shape));
+        stopped.into_iter().flatten().for_each(|shape| self.warn_of_infinite_motion(shape));
     }
 
-    fn warn_of_stop(&self, shape: Handle) {
+    fn warn_of_infinite_motion(&self, shape: Handle) {
         let path = self.scene.borrow().full_path(shape).unwrap_or_default();
         self.log(
             verbosity::WARNINGS,
@@ -112,12 +111,13 @@ impl Sim {
         );
     }
 
-    fn judge_contact(self: &Rc<Self>, first: Handle, second: Handle) -> Verdict {
+    fn contact_callback(self: &Rc<Self>, first: Handle, second: Handle) -> Verdict {
         let engine = self.scene.borrow().settings().dynamics.engine[0];
         let data =
             Data::map([("handle1", first.raw().into()), ("handle2", second.raw().into()), ("engine", engine.into())]);
-        let everyone = self.everyone_reversed();
-        let answer = CONTACT.iter().find_map(|&callback| self.ask(&everyone, callback, std::slice::from_ref(&data)));
+        let everyone = self.active_scripts_reversed();
+        let answer =
+            CONTACT.iter().find_map(|&callback| self.first_answer(&everyone, callback, std::slice::from_ref(&data)));
         answer.map_or(Verdict::Default, |answer| verdict(&answer, engine))
     }
 
@@ -136,7 +136,7 @@ impl Sim {
 }
 
 /// The keys of `sysCall_joint` in callback control, as Bullet's.
-fn joint_data(joint: &Joint, request: &JointRequest, call: Call, pass: u32) -> Data {
+fn joint_data(joint: &Joint, request: &JointRequest, call: Call, number: u32) -> Data {
     let limits = (joint.min, joint.min + joint.range);
     Data::map([
         ("mode", (joint.mode as i64).into()),
@@ -146,7 +146,7 @@ fn joint_data(joint: &Joint, request: &JointRequest, call: Call, pass: u32) -> D
         ("handle", request.joint.raw().into()),
         ("lowLimit", limits.0.into()),
         ("highLimit", limits.1.into()),
-        ("passCnt", i64::from(pass).into()),
+        ("passCnt", i64::from(number).into()),
         ("totalPasses", i64::from(call.passes).into()),
         ("pos", request.position.into()),
         ("currentPos", request.position.into()),

@@ -1,4 +1,4 @@
-//! Kinematic motion of joints: scripts are asked for every step (`sysCall_joint`, spec: callbacks 5).
+//! Kinematic motion of joints: scripts compute every step (`sysCall_joint`, spec: callbacks 5).
 
 use std::rc::Rc;
 
@@ -17,17 +17,17 @@ impl Sim {
         }
     }
 
-    /// Asks the scripts above a joint, then those without an object, for its next step.
+    /// Calls the scripts above a joint, then those without an object, for its next step.
     fn move_joint(self: &Rc<Self>, handle: Handle) {
-        let Some(question) = self.motion_question(handle) else { return };
-        if let Some(answer) = self.ask(&self.joint_chain(handle), SysCall::Joint, &[question]) {
+        let Some(data) = self.motion_data(handle) else { return };
+        if let Some(answer) = self.first_answer(&self.joint_chain(handle), SysCall::Joint, &[data]) {
             // A script may have removed the joint: then there is nothing to move.
             let _ = self.scene.borrow_mut().step_joint(handle, read_step(&answer));
         }
     }
 
-    /// What scripts are told about a joint in motion; None when it is not any more.
-    fn motion_question(&self, handle: Handle) -> Option<Data> {
+    /// The argument of `sysCall_joint` for a joint in motion; None when it does not move any more.
+    fn motion_data(&self, handle: Handle) -> Option<Data> {
         let scene = self.scene.borrow();
         let joint = scene.object(handle).ok()?.joint().ok()?;
         let motion = joint.motion?;

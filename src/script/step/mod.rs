@@ -1,4 +1,4 @@
-//! The loop: idle passes, main-script passes, start, pause and stop (spec: callbacks 2, spec: simulation).
+//! The application's loop: idle iterations, simulation steps, start, pause and stop (spec: callbacks 2, spec: simulation).
 
 pub(in crate::script) mod clock;
 pub(in crate::script) mod dynamics;
@@ -18,7 +18,7 @@ use crate::scene::tree::script_object::ScriptType;
 use clock::SimulationState;
 
 impl Sim {
-    /// One pass of the application's loop: idle, paused or advancing.
+    /// One iteration of the application's loop: idle, paused or advancing.
     pub(crate) fn loop_iteration(self: &Rc<Self>) {
         self.deliver_web_sockets();
         if !self.clock.state().is_advancing() {
@@ -34,8 +34,8 @@ impl Sim {
         if self.clock.state().is_advancing() {
             if !self.step_is_due() {
                 self.broadcast(SysCall::RealTimeIdle, &[]);
-            } else if !self.main_script_vetoed() {
-                self.main_script_pass();
+            } else if !self.main_script_is_vetoed() {
+                self.simulation_step();
                 self.advance();
             }
         }
@@ -65,7 +65,7 @@ impl Sim {
     }
 
     /// One simulation step as the main script defines it.
-    fn main_script_pass(self: &Rc<Self>) {
+    fn simulation_step(self: &Rc<Self>) {
         let Some(main) = self.scripts.detached(ScriptType::Main) else { return };
         if self.clock.state() == SimulationState::FirstAfterStop {
             self.deliver(&main, SysCall::Init, &[]);
@@ -81,7 +81,7 @@ impl Sim {
         }
     }
 
-    /// What follows a pass: time goes on and the state changes.
+    /// Completes a simulation step: time goes on and the state changes.
     fn advance(self: &Rc<Self>) {
         self.request_pause_at_time();
         let clock = &self.clock;
@@ -187,7 +187,7 @@ impl Sim {
         }
     }
 
-    /// Asks for the end of the run; a paused one resumes for its last passes.
+    /// Asks for the end of the run; a paused one resumes for its last steps.
     pub(crate) fn stop(self: &Rc<Self>) {
         match self.clock.state() {
             SimulationState::Stopped => {}

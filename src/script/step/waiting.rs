@@ -1,4 +1,4 @@
-//! Waiting for what does not come from scripts: another program, a device. Every wait ends when the user wants the program to end.
+//! Waiting for another program or a device. Every wait ends when the user wants the program to end.
 
 use std::sync::atomic::Ordering;
 use std::time::Duration;

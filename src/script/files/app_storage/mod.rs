@@ -1,7 +1,7 @@
 //! Data that scripts keep beyond the life of the program: `sim.handle_appstorage`, custom data of `sim.handle_app`, persistent data.
 //!
 //! All of it lies in one file, which is neither read nor written before a script uses it. Changes are visible at once and reach the file
-//! at the end of the pass: what was changed here goes into what the file holds by then, so that simulators side by side lose nothing.
+//! at the end of the loop iteration: what was changed here goes into what the file holds by then, so that simulators side by side lose nothing.
 
 mod file;
 
@@ -143,7 +143,7 @@ impl AppStorage {
         }
     }
 
-    /// What is wrong with the file is told; a corrupt one has been set aside by then, and an empty one takes its place.
+    /// Notes what is wrong with the file; a corrupt one has been set aside by then, and an empty one takes its place.
     fn report(&mut self, failure: Failure) {
         let level = if matches!(failure, Failure::Corrupt { .. }) { verbosity::WARNINGS } else { verbosity::ERRORS };
         self.notices.push((level, failure.to_string()));
@@ -175,7 +175,7 @@ impl AppStorage {
 }
 
 impl Sim {
-    /// Reads or changes the storage, and tells what went wrong with its file.
+    /// Reads or changes the storage, and logs what went wrong with its file.
     pub(crate) fn with_app_storage<R>(&self, use_it: impl FnOnce(&mut AppStorage) -> R) -> R {
         let (result, notices) = {
             let mut app = self.app.borrow_mut();
