@@ -81,7 +81,7 @@ impl Simulator {
     /// A simulator with an empty scene whose prints and log lines go to `console`.
     pub fn with_console(options: Options, console: Box<dyn Console>) -> Self {
         let sim = Sim::new(options, modules::registry(), console);
-        let main_text = modules::registry().modules["main"].source;
+        let main_text = sim.modules.registry.main_script();
         sim.scripts.add_detached(ScriptType::Main, detached("mainScript", main_text.as_bytes()));
         let sandbox = sim.scripts.add_detached(ScriptType::Sandbox, detached("sandboxScript", b"sim = require 'sim'"));
         sim.deliver(&sandbox, SysCall::Init, &[]);
@@ -105,7 +105,7 @@ impl Simulator {
     pub fn serve_zmq(&mut self, listener: TcpListener, stop: Arc<AtomicBool>) -> std::io::Result<SocketAddr> {
         let address = listener.local_addr()?;
         let server = ZmqServer::start(self.sim.event_loop()?, listener, stop)?;
-        self.sim.zmq_server.replace(Some(Rc::new(server)));
+        modules::remote::set_zmq_server(&self.sim.modules.states, server);
         let port = address.port().to_string().into_bytes();
         self.sim.app.borrow_mut().named_params.insert("zmqRemoteApi.rpcPort".to_owned(), port);
         let add_on =
@@ -120,7 +120,7 @@ impl Simulator {
     /// When the listener cannot be used.
     pub fn serve_ws(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
         let address = listener.local_addr()?;
-        self.sim.remote_listener.replace(Some(listener));
+        modules::remote::set_web_socket_listener(&self.sim.modules.states, listener);
         let port = address.port().to_string().into_bytes();
         self.sim.app.borrow_mut().named_params.insert("wsRemoteApi.port".to_owned(), port);
         let add_on = self
@@ -138,7 +138,7 @@ impl Simulator {
 
     /// Whether scripts have ZeroMQ sockets, whose messages `wait_for_request` does not notice.
     pub fn has_zmq_sockets(&self) -> bool {
-        self.sim.has_zmq_users()
+        modules::sim_zmq::has_sockets(&self.sim.modules.states)
     }
 
     /// Adds a script. Customization scripts, add-ons and the sandbox start at once; a simulation script starts with the simulation.

@@ -14,15 +14,13 @@ mod scripts;
 mod sensors;
 mod shapes;
 
-use std::collections::HashMap;
-
-use crate::script::{Bound, FILES, Member, Registry};
+use crate::script::Module;
 
 pub(crate) use crate::script::{ApiError, ApiResult as Result, functions};
 pub use crate::script::{ApiFn, Args, Cx, FromScript, IntoScript, Param};
 
 /// All native functions, file by file.
-pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
+const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Globals", scripts::global::FUNCTIONS),
     ("Scripts", scripts::script::FUNCTIONS),
     ("Older script functions", old::script::FUNCTIONS),
@@ -73,114 +71,17 @@ pub const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Display", display::drawing::FUNCTIONS),
 ];
 
-/// `name<TAB>value` of every constant of `sim`.
-pub(crate) const CONSTANTS: &str = include_str!("tables/constants.tsv");
-/// `old<TAB>new`: names that do exactly what another does.
-pub(crate) const ALIASES: &str = include_str!("tables/aliases.tsv");
-/// `name<TAB>replacement`: names that log their deprecation at the first call.
-pub(crate) const DEPRECATED: &str = include_str!("tables/deprecated.tsv");
-/// `simName<TAB>name`: old global names that follow no rule.
-const OLD_NAMES: &str = include_str!("tables/old_names.tsv");
-/// `name<TAB>category<TAB>deprecated<TAB>signature` of every function CoppeliaSim's reference has.
-pub(crate) const REFERENCE: &str = include_str!("tables/reference.tsv");
+/// The module `sim`, with the global functions that come along with it.
+pub(crate) static SIM: Module = Module {
+    functions: CATEGORIES,
+    constants: include_str!("tables/constants.tsv"),
+    aliases: include_str!("tables/aliases.tsv"),
+    deprecated: include_str!("tables/deprecated.tsv"),
+    reference: include_str!("tables/reference.tsv"),
+    old_names: include_str!("tables/old_names.tsv"),
+    lua_members: Some("sim/"),
+    ..Module::new("sim")
+};
+
 /// `name<TAB>tier` of the reference's functions: T1 is what published code uses most.
 pub(crate) const TIERS: &str = include_str!("tables/tiers.tsv");
-
-/// Puts the members of `sim` and the global functions into `registry`.
-pub(crate) fn add_to(registry: &mut Registry) {
-    let notices = notices();
-    add_missing(registry);
-    add_constants(registry);
-    add_lua_functions(registry, &notices);
-    for function in CATEGORIES.iter().flat_map(|(_, functions)| *functions) {
-        match function.name.strip_prefix("sim.") {
-            Some(name) => {
-                registry.members.insert(name, native(function.name, function, &notices));
-            }
-            None => registry.globals.push(Bound { name: function.name, function, deprecation: None }),
-        }
-    }
-    add_aliases(registry, &notices);
-    registry.old_names = pairs(OLD_NAMES).collect();
-}
-
-type Notices = HashMap<&'static str, &'static str>;
-
-/// The line logged at the first call of a deprecated name. Made once per process and kept.
-fn notices() -> Notices {
-    pairs(DEPRECATED).map(|(name, replacement)| (name, notice(name, replacement))).collect()
-}
-
-fn notice(name: &str, replacement: &str) -> &'static str {
-    let advice = match replacement {
-        "" => " and the related functionality will disappear in a future release.".to_owned(),
-        _ => format!(". please use {replacement} instead."),
-    };
-    Box::leak(
-        format!("sim.{name} is deprecated{advice} (control verbosity via notifyDeprecated in usrset.txt)")
-            .into_boxed_str(),
-    )
-}
-
-fn native(name: &'static str, function: &'static ApiFn, notices: &Notices) -> Member {
-    let deprecation = name.strip_prefix("sim.").and_then(|member| notices.get(member)).copied();
-    Member::Native(Bound { name, function, deprecation })
-}
-
-fn add_missing(registry: &mut Registry) {
-    for (name, _) in REFERENCE.lines().filter_map(|line| line.split_once('\t')) {
-        registry.members.insert(name, Member::Missing { name });
-    }
-}
-
-fn add_constants(registry: &mut Registry) {
-    for (name, value) in pairs(CONSTANTS) {
-        let value = value.parse().expect("constants.tsv holds integers");
-        registry.members.insert(name, Member::Constant(value));
-    }
-}
-
-/// Module name and text of all embedded Lua files.
-pub(crate) fn embedded_files() -> impl Iterator<Item = (&'static str, &'static str)> {
-    FILES.iter().copied()
-}
-
-/// Module name and text of the files in `lua/library/sim`.
-pub(crate) fn lua_files() -> impl Iterator<Item = (&'static str, &'static str)> {
-    embedded_files().filter(|(module, _)| module.starts_with("sim/"))
-}
-
-/// Functions of the files in `lua/library/sim`: each is a line `function M.name(`.
-fn add_lua_functions(registry: &mut Registry, notices: &Notices) {
-    for (module, source) in lua_files() {
-        for name in
-            source.lines().filter_map(|line| line.strip_prefix("function M.")).filter_map(|l| l.split('(').next())
-        {
-            let deprecation = notices.get(name).copied();
-            registry.members.insert(name, Member::Lua { module, function: name, deprecation });
-        }
-    }
-}
-
-fn add_aliases(registry: &mut Registry, notices: &Notices) {
-    for (old, new) in pairs(ALIASES) {
-        let global = registry.globals.iter().find(|bound| bound.name == new).map(|bound| bound.function);
-        let member = match (registry.members.get(new).filter(|_| old != new), global) {
-            (Some(Member::Native(bound)), _) => native(full_name(old), bound.function, notices),
-            (None, Some(function)) => native(full_name(old), function, notices),
-            (Some(Member::Lua { module, function, .. }), _) => {
-                Member::Lua { module, function, deprecation: notices.get(old).copied() }
-            }
-            _ => continue,
-        };
-        registry.members.insert(old, member);
-    }
-}
-
-fn full_name(member: &str) -> &'static str {
-    Box::leak(format!("sim.{member}").into_boxed_str())
-}
-
-pub(crate) fn pairs(table: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
-    table.lines().filter_map(|line| line.split_once('\t'))
-}

@@ -3,12 +3,12 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use crate::api;
+use crate::script::pairs;
 
 /// `name<TAB>what is different`: functions as they are called (`sim.name`), or modules.
 const TABLE: &str = include_str!("approximated.tsv");
 
-static DIFFERENCES: LazyLock<HashMap<&str, &str>> = LazyLock::new(|| api::pairs(TABLE).collect());
+static DIFFERENCES: LazyLock<HashMap<&str, &str>> = LazyLock::new(|| pairs(TABLE).collect());
 
 /// What a function or module does not do, or does differently; None for those that work in full.
 pub fn difference(name: &str) -> Option<&'static str> {
@@ -24,8 +24,10 @@ mod tests {
     fn only_what_is_there_is_approximated() {
         let mut known: Vec<String> = functions().into_iter().map(|function| function.name).collect();
         known.extend(modules::names());
-        known.extend(crate::modules::registry().members.keys().map(|member| format!("sim.{member}")));
-        for (name, _) in api::pairs(TABLE) {
+        known.extend(
+            crate::modules::registry().members_of_sim().names().into_iter().map(|member| format!("sim.{member}")),
+        );
+        for (name, _) in pairs(TABLE) {
             assert!(known.iter().any(|known| known == name), "{name}");
         }
     }

@@ -7,6 +7,7 @@ use super::approximated::difference;
 use super::row::Function;
 use super::{Age, ReferenceRow, reference};
 use crate::api;
+use crate::script::pairs;
 
 /// The table.
 pub(super) fn text(functions: &[Function]) -> String {
@@ -49,7 +50,7 @@ fn tiers(rows: &[&ReferenceRow], built: &HashSet<&str>) -> String {
         ("T3", "called in one, or documented"),
         ("T4", "deprecated without use, graphical, or removed"),
     ];
-    let tier_of: BTreeMap<&str, &str> = api::pairs(api::TIERS).collect();
+    let tier_of: BTreeMap<&str, &str> = pairs(api::TIERS).collect();
     let mut out = String::from("| tier | what it is | works | approximated | of |\n|---|---|---|---|---|\n");
     let mut line = |tier: &str, meaning: &str, of: &[&&ReferenceRow]| {
         let count = |wanted: &str| of.iter().filter(|row| status(row.name, built) == wanted).count();

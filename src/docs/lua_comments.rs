@@ -2,6 +2,7 @@
 
 use super::row::{Doc, Function, Parameter, Returned};
 use crate::api;
+use crate::script::FILES;
 
 /// The category of each file of `lua/library/sim`.
 const CATEGORIES: &[(&str, &str)] = &[
@@ -22,7 +23,7 @@ const CATEGORIES: &[(&str, &str)] = &[
 
 /// The functions of the library's files.
 pub(super) fn functions() -> Vec<Function> {
-    api::lua_files().flat_map(|(module, source)| in_file(module, source)).collect()
+    api::SIM.member_files(FILES).flat_map(|(module, source)| in_file(module, source)).collect()
 }
 
 fn in_file(module: &str, source: &str) -> Vec<Function> {

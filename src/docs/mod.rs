@@ -18,6 +18,7 @@ mod usage;
 use std::collections::BTreeMap;
 
 use crate::api;
+use crate::script::pairs;
 
 pub use approximated::difference;
 pub use markdown::function_text;
@@ -34,17 +35,17 @@ pub fn functions() -> Vec<Function> {
     for function in lua_comments::functions() {
         all.insert(function.name.clone(), function);
     }
-    for (category, functions) in api::CATEGORIES {
+    for (category, functions) in api::SIM.functions {
         for function in functions.iter().map(|function| Function::native(category, function)) {
             all.insert(function.name.clone(), function);
         }
     }
-    for (old, new) in api::pairs(api::ALIASES) {
+    for (old, new) in pairs(api::SIM.aliases) {
         if let Some(alias) = all.get(&full(new)).or_else(|| all.get(new)).map(|known| known.renamed(&full(old))) {
             all.insert(alias.name.clone(), alias);
         }
     }
-    for (name, replacement) in api::pairs(api::DEPRECATED) {
+    for (name, replacement) in pairs(api::SIM.deprecated) {
         if let Some(function) = all.get_mut(&full(name)) {
             function.deprecated = Some(replacement.to_owned());
         }
@@ -103,7 +104,7 @@ struct ReferenceRow {
 }
 
 fn reference() -> impl Iterator<Item = ReferenceRow> {
-    api::REFERENCE.lines().map(|line| {
+    api::SIM.reference.lines().map(|line| {
         let mut columns = line.split('\t');
         let mut next = || columns.next().unwrap_or_default();
         ReferenceRow { name: next(), category: next(), age: Age::from_word(next()), signature: next() }

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use super::modules;
 use super::row::Function;
 use super::stubs::parameter_name;
-use crate::modules::LIBRARIES;
+use crate::modules::ALL;
 
 /// What a stub tells of a function.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -119,7 +119,7 @@ fn declared(source: &str, table: &str) -> Stubs {
 fn taken(module: &str, source: &str) -> Stubs {
     let all = source.contains("\nfor name, f in pairs(native)") || source.trim_end().ends_with("return native");
     let handed_on = |name: &str| all || source.contains(&format!("{name} = native.{name}"));
-    let rows = LIBRARIES.iter().filter(|(of, _)| *of == module).flat_map(|(_, functions)| *functions);
+    let rows = ALL.iter().filter(|of| of.name == module).flat_map(|of| of.native_functions());
     let functions = rows.map(|row| Function::native("", row));
     let stub = |function: Function| {
         let name = function.name.rsplit('.').next().unwrap_or_default().to_owned();

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::api;
+use crate::script::FILES;
 
 /// Files of the library for its own use.
 const INNER: &[&str] = &[
@@ -71,7 +71,7 @@ pub(super) fn names() -> impl Iterator<Item = String> {
 
 /// Path below `lua` and text of every module for scripts.
 pub(super) fn public() -> impl Iterator<Item = (&'static str, &'static str)> {
-    api::embedded_files().filter(|(name, _)| !name.starts_with("sim/") && !INNER.contains(name))
+    FILES.iter().copied().filter(|(name, _)| !name.starts_with("sim/") && !INNER.contains(name))
 }
 
 /// The comment a file begins with.

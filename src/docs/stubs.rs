@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::row::Function;
 use crate::api;
+use crate::script::pairs;
 
 /// Words that cannot name a parameter.
 const KEYWORDS: &[&str] = &["end", "function", "repeat", "until", "local", "and", "or", "not", "in", "goto", "break"];
@@ -17,7 +18,7 @@ pub(super) fn text(functions: &[Function]) -> String {
         declare(&mut out, function);
     }
     out.push('\n');
-    for (name, value) in api::pairs(api::CONSTANTS) {
+    for (name, value) in pairs(api::SIM.constants) {
         let _ = writeln!(out, "sim.{name} = {value}");
     }
     out.push_str("\nreturn sim\n");

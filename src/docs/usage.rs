@@ -151,17 +151,17 @@ fn current_name(written: &str) -> Option<String> {
             None if rest.starts_with(|c: char| c.is_ascii_uppercase()) => rest[..1].to_ascii_lowercase() + &rest[1..],
             None => return None,
         };
-        registry.members.contains_key(member.as_str()).then(|| format!("sim.{member}"))
+        registry.members_of_sim().contains(&member).then(|| format!("sim.{member}"))
     };
-    let kept = registry.old_names.get(written).map(|member| format!("sim.{member}"));
+    let kept = registry.members_of_sim().of_old_name(written).map(|member| format!("sim.{member}"));
     kept.or_else(by_rule).or_else(|| old_names::current(written).map(str::to_owned))
 }
 
 /// None for constants, which are no functions.
 fn of_sim(member: &str) -> Option<Support> {
-    match crate::modules::registry().members.get(member) {
+    match crate::modules::registry().members_of_sim().get(member) {
         Some(Member::Constant(_)) => None,
-        Some(Member::Missing { .. }) | None => Some(Support::Missing),
+        Some(Member::Missing(_)) | None => Some(Support::Missing),
         Some(_) => Some(of_function(&format!("sim.{member}"))),
     }
 }

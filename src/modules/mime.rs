@@ -4,7 +4,7 @@
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use super::{ApiFn, Cx, Module, Result, functions};
 use crate::scene::Data;
 use crate::script::{LuaNumber, LuaString, Results};
 use crate::wire::mime::{
@@ -12,7 +12,9 @@ use crate::wire::mime::{
     wrap_quoted_printable, wrap_text,
 };
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![b64, unb64, qp, unqp, wrp, qpwrp, eol, dot];
+pub(super) static MODULE: Module = Module { functions: &[("Filters", FUNCTIONS)], ..Module::new("mime.core") };
+
+const FUNCTIONS: &[ApiFn] = functions![b64, unb64, qp, unqp, wrp, qpwrp, eol, dot];
 
 /// Length of lines, unless another is given.
 const LINE: f64 = 76.0;

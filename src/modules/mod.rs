@@ -5,75 +5,44 @@
 mod cbor;
 mod lfs;
 mod mime;
-mod remote;
+pub(crate) mod remote;
 mod sim_convex;
 mod sim_subprocess;
 mod sim_ws;
-mod sim_zmq;
+pub(crate) mod sim_zmq;
 mod socket;
 mod swanilda_test;
 
-use std::collections::HashMap;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use crate::api;
-use crate::script::{Bound, Embedded, FILES, Registry};
+use crate::script::{
+    ApiError, ApiFn, ApiResult as Result, Args, Cx, FILES, FromScript, Module, Param, Registry, functions,
+};
 
-use crate::script::{ApiError, ApiFn, ApiResult as Result, Args, Cx, FromScript, functions};
-
-/// Native functions of Lua modules: `module.function` each. A Lua file of the module's name gets them as its second argument.
-pub(crate) const LIBRARIES: &[(&str, &[ApiFn])] = &[
-    ("org.conman.cbor", cbor::TREES),
-    ("org.conman.cbor_c", cbor::HEADS),
-    ("simCBOR", cbor::TREES),
-    ("lfs", lfs::FUNCTIONS),
-    ("lfs", lfs::LOCK),
-    ("lfsx", lfs::FUNCTIONS),
-    ("remote.ws", sim_ws::REMOTE),
-    ("remote.ws", remote::NAMES),
-    ("simConvex", sim_convex::FUNCTIONS),
-    ("simSubprocess", sim_subprocess::FUNCTIONS),
-    ("remote.zmq", remote::FUNCTIONS),
-    ("socket.core", socket::FUNCTIONS),
-    ("socket.core", socket::OBJECTS),
-    ("socket.core", socket::METHODS),
-    ("socket.core", socket::STREAM),
-    ("socket.core", socket::DATAGRAM),
-    ("socket.core", socket::OPTION),
-    ("socket.core", socket::DNS),
-    ("socket.unix", socket::FUNCTIONS),
-    ("ssl", socket::TLS),
-    ("ssl", socket::OBJECTS),
-    ("ssl", socket::METHODS),
-    ("ssl", socket::STREAM),
-    ("mime.core", mime::FUNCTIONS),
-    ("simWS", sim_ws::FUNCTIONS),
-    ("swanilda.test", swanilda_test::FUNCTIONS),
-    ("swanilda.test", swanilda_test::RUN),
+/// All modules. `sim` is the first; the others are in alphabetical order.
+pub(crate) static ALL: &[&Module] = &[
+    &api::SIM,
+    &lfs::LFS,
+    &lfs::LFSX,
+    &mime::MODULE,
+    &cbor::CBOR,
+    &cbor::CBOR_HEADS,
+    &remote::WS,
+    &remote::ZMQ,
+    &cbor::SIM_CBOR,
+    &sim_convex::MODULE,
+    &sim_subprocess::MODULE,
+    &sim_ws::MODULE,
+    &sim_zmq::MODULE,
+    &socket::CORE,
+    &socket::UNIX,
+    &socket::SSL,
+    &swanilda_test::MODULE,
 ];
 
-/// Everything scripts can reach, by name. One per process.
-pub(crate) fn registry() -> &'static Registry {
-    static REGISTRY: LazyLock<Registry> = LazyLock::new(build);
-    &REGISTRY
-}
-
-fn build() -> Registry {
-    let mut registry = Registry { modules: embedded_modules(), libraries: libraries(), ..Registry::default() };
-    api::add_to(&mut registry);
-    registry
-}
-
-fn embedded_modules() -> HashMap<&'static str, Embedded> {
-    FILES.iter().map(|&(name, source)| (name, Embedded::new(source))).collect()
-}
-
-fn libraries() -> HashMap<&'static str, Vec<Bound>> {
-    let bound = |function: &'static ApiFn| Bound { name: function.name, function, deprecation: None };
-    let mut libraries = HashMap::<_, Vec<_>>::new();
-    let zmq = sim_zmq::TABLES.iter().map(|&functions| ("simZMQ", functions));
-    for (module, functions) in LIBRARIES.iter().copied().chain(zmq) {
-        libraries.entry(module).or_default().extend(functions.iter().map(bound));
-    }
-    libraries
+/// What scripts can reach in simulators whose owner adds nothing. Bound once per process.
+pub(crate) fn registry() -> Arc<Registry> {
+    static REGISTRY: LazyLock<Arc<Registry>> = LazyLock::new(|| Arc::new(Registry::new(ALL, FILES)));
+    REGISTRY.clone()
 }

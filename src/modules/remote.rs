@@ -1,20 +1,50 @@
 //! The native part of the remote APIs (`lua/library/remote`): messages of programs outside.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
+use std::net::TcpListener;
+use std::rc::Rc;
 use std::sync::LazyLock;
 use std::time::Duration;
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions, registry};
-use crate::api::{CATEGORIES, lua_files};
-use crate::io::Incoming;
-use crate::script::{Bytes, Text};
+use super::{ALL, ApiFn, Cx, Module, Result, functions, sim_ws};
+use crate::io::{Incoming, ZmqServer};
+use crate::script::{Bytes, FILES, States, Text};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, others, returns, members];
+pub(super) static ZMQ: Module = Module { inner: &[FUNCTIONS, NAMES], ..Module::new("remote.zmq") };
+pub(super) static WS: Module = Module { inner: &[sim_ws::REMOTE, NAMES], ..Module::new("remote.ws") };
 
+const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, others, returns];
 /// What every remote API needs.
-pub(crate) const NAMES: &[ApiFn] = functions![members];
+const NAMES: &[ApiFn] = functions![members];
+
+/// Where programs outside reach a simulator.
+#[derive(Default)]
+struct Doors {
+    zmq_server: RefCell<Option<Rc<ZmqServer>>>,
+    web_socket_listener: RefCell<Option<TcpListener>>,
+}
+
+/// Lets programs outside call functions by ZeroMQ.
+pub(crate) fn set_zmq_server(states: &States, server: ZmqServer) {
+    states.get::<Doors>().zmq_server.replace(Some(Rc::new(server)));
+}
+
+/// Where the WebSocket remote API is to listen.
+pub(crate) fn set_web_socket_listener(states: &States, listener: TcpListener) {
+    states.get::<Doors>().web_socket_listener.replace(Some(listener));
+}
+
+fn zmq_server(cx: &Cx) -> Option<Rc<ZmqServer>> {
+    cx.module_state::<Doors>().zmq_server.borrow().clone()
+}
+
+/// The listener of the WebSocket remote API, if there is one.
+pub(super) fn listener(cx: &Cx) -> Option<std::io::Result<TcpListener>> {
+    cx.module_state::<Doors>().web_socket_listener.borrow().as_ref().map(TcpListener::try_clone)
+}
 
 /// Longest wait, seconds: the simulator must look after itself from time to time.
 const LONGEST_WAIT: f64 = 1.0;
@@ -26,7 +56,7 @@ const LONGEST_WAIT: f64 = 1.0;
 #[api("remote.zmq.receive")]
 fn receive(cx: &mut Cx, patience: f64) -> Result<Option<(i64, Option<Text>)>> {
     let patience = Duration::from_secs_f64(patience.clamp(0.0, LONGEST_WAIT));
-    let server = cx.zmq_server();
+    let server = zmq_server(cx);
     Ok(server.and_then(|server| server.receive(patience)).map(|incoming| match incoming {
         Incoming::Request(peer, message) => (peer as i64, Some(Text(message))),
         Incoming::Gone(peer) => (peer as i64, None),
@@ -39,7 +69,7 @@ fn receive(cx: &mut Cx, patience: f64) -> Result<Option<(i64, Option<Text>)>> {
 /// @param message the answer
 #[api("remote.zmq.reply")]
 fn reply(cx: &mut Cx, peer: i64, message: Bytes) -> Result<()> {
-    if let Some(server) = cx.zmq_server() {
+    if let Some(server) = zmq_server(cx) {
         server.reply(peer as u64, &message.0);
     }
     Ok(())
@@ -50,7 +80,7 @@ fn reply(cx: &mut Cx, peer: i64, message: Bytes) -> Result<()> {
 /// @return closed
 #[api("remote.zmq.closed")]
 fn closed(cx: &Cx) -> Result<bool> {
-    Ok(cx.zmq_server().is_none_or(|server| server.is_closed()))
+    Ok(zmq_server(cx).is_none_or(|server| server.is_closed()))
 }
 
 /// Whether something has come in by other sockets of the simulator, which are served when this function's caller returns.
@@ -58,7 +88,7 @@ fn closed(cx: &Cx) -> Result<bool> {
 /// @return waiting
 #[api("remote.zmq.others")]
 fn others(cx: &Cx) -> Result<bool> {
-    Ok(cx.zmq_server().is_some_and(|server| server.others_wait()))
+    Ok(zmq_server(cx).is_some_and(|server| server.others_wait()))
 }
 
 /// The types a function is declared to return.
@@ -75,17 +105,19 @@ fn returns(_cx: &Cx, name: String) -> Result<Option<Vec<String>>> {
 ///
 /// @return names
 #[api("remote.zmq.members")]
-fn members(_cx: &Cx) -> Result<Vec<String>> {
-    let mut names: Vec<String> = registry().members.keys().map(|&name| name.to_owned()).collect();
-    names.sort_unstable();
-    Ok(names)
+fn members(cx: &Cx) -> Result<Vec<String>> {
+    Ok(cx.env().registry.members_of_sim().names().into_iter().map(str::to_owned).collect())
 }
 
 /// Types of the results by function: of native ones from their rows, of those in Lua from the comments above them.
 fn declared() -> HashMap<&'static str, Vec<String>> {
-    let rows = CATEGORIES.iter().flat_map(|(_, functions)| functions.iter());
+    let rows = ALL.iter().flat_map(|module| module.public_functions());
     let native = rows.map(|function| (function.name, function.returns.iter().map(|&ty| ty.to_owned()).collect()));
-    let lines = lua_files().flat_map(|(_, source)| source.lines()).filter_map(|line| line.strip_prefix("-- @api "));
+    let lines = ALL
+        .iter()
+        .flat_map(|module| module.member_files(FILES))
+        .flat_map(|(_, source)| source.lines())
+        .filter_map(|line| line.strip_prefix("-- @api "));
     native.chain(lines.filter_map(declared_in_comment)).filter(|(_, types): &(_, Vec<_>)| !types.is_empty()).collect()
 }
 

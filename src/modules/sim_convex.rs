@@ -6,12 +6,14 @@ use api_macro::api;
 use geometry::DecompositionParameters;
 use geometry::Mesh;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 use crate::scene::shape::Shape;
 use crate::scene::{Data, Handle, Kind, SceneError};
 use crate::script::{Handles, Table};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![hull, qhull, vhacd, hacd];
+pub(super) static MODULE: Module = Module { functions: &[("Convex shapes", FUNCTIONS)], ..Module::new("simConvex") };
+
+const FUNCTIONS: &[ApiFn] = functions![hull, qhull, vhacd, hacd];
 
 /// The hull of shapes, dummies, point clouds and octrees together.
 #[api("simConvex.hull")]

@@ -9,12 +9,14 @@ use std::time::Duration;
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 use crate::io::{Process, ProcessError, Program};
 use crate::scene::Data;
 use crate::script::{Bytes, Nil, Results, Table};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![exec, exec_async, is_running, wait, kill, getpid];
+pub(super) static MODULE: Module = Module { functions: &[("Programs", FUNCTIONS)], ..Module::new("simSubprocess") };
+
+const FUNCTIONS: &[ApiFn] = functions![exec, exec_async, is_running, wait, kill, getpid];
 
 /// How long the outputs of a program that has ended may stay open: another program may hold them.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -46,7 +48,7 @@ impl Processes {
 
 /// Those of the calling script.
 fn processes(cx: &Cx) -> Rc<RefCell<Processes>> {
-    cx.library_data()
+    cx.script_state()
 }
 
 /// Runs a program to its end; the simulator waits.

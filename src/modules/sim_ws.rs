@@ -5,12 +5,18 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use super::{ApiError, ApiFn, Cx, Module, Result, functions, remote};
 use crate::io::{SendError, WsEndpoint, WsPages, WsRequest};
 use crate::script::channels::web_sockets::{Endpoint, Occasion, Role, handle_number};
 use crate::script::{Bytes, Handler, ScriptFunction};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+pub(super) static MODULE: Module = Module {
+    functions: &[("WebSocket", FUNCTIONS)],
+    constants: "opcode.continuation\t0\nopcode.text\t1\nopcode.binary\t2\n",
+    ..Module::new("simWS")
+};
+
+const FUNCTIONS: &[ApiFn] = functions![
     start,
     get_port,
     stop,
@@ -25,7 +31,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 ];
 
 /// The server of the remote API, which brings its own port along.
-pub(crate) const REMOTE: &[ApiFn] = functions![start_remote];
+pub(super) const REMOTE: &[ApiFn] = functions![start_remote];
 
 /// Starts a server.
 ///
@@ -53,8 +59,8 @@ fn get_port(cx: &Cx, server_handle: String) -> Result<i64> {
 /// @return serverHandle
 #[api("remote.ws.start")]
 fn start_remote(cx: &mut Cx) -> Result<String> {
-    let listener = cx.remote_listener();
-    let listener = listener.ok_or_else(|| ApiError::Other("there is no port for the remote API.".into()))?;
+    let listener =
+        remote::listener(cx).ok_or_else(|| ApiError::Other("there is no port for the remote API.".into()))?;
     let pages = WsPages::Own(cx.options().web_origins.clone());
     serve(cx, listener, pages).map_err(|error| unusable("the remote API's port", &error))
 }

@@ -22,6 +22,7 @@ pub use binding::args::{
     Table,
 };
 pub use binding::cx::Cx;
+pub use binding::module::Module;
 pub use binding::returns::{IntoScript, Nil, Results};
 pub use binding::{ApiFn, Param};
 pub use calls::callback::SysCall;
@@ -36,14 +37,17 @@ pub use test_bench::TestBench;
 
 pub(crate) use binding::by_handle::ByHandle;
 pub(crate) use binding::data::{push_buffer, read_buffer};
-pub(crate) use binding::{Bound, Member, Registry, functions};
+pub(crate) use binding::functions;
+pub(crate) use binding::module::pairs;
+pub(crate) use binding::registry::{Member, Registry};
+pub(crate) use binding::states::States;
 pub(crate) use calls::handler::Handler;
 pub(crate) use calls::threads::{auto_level, changed_level, set_auto_level, use_up_slice};
 pub(crate) use events::Filters;
 pub(crate) use files::app_storage::Section;
 pub(crate) use files::scene_save::write_named;
 pub(crate) use files::scene_switch::SceneSource;
-pub(crate) use lifecycle::embedded::{Embedded, FILES};
+pub(crate) use lifecycle::embedded::FILES;
 pub(crate) use lifecycle::env::Hook;
 pub(crate) use lifecycle::instance::Detached;
 pub(crate) use lifecycle::order::Group;

@@ -2,14 +2,15 @@
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
-use std::net::{IpAddr, Ipv4Addr, TcpListener};
+use std::net::{IpAddr, Ipv4Addr};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use super::binding::Registry;
 use super::binding::by_handle::ByHandle;
+use super::binding::registry::{Modules, Registry};
+use super::binding::states::States;
 use super::channels::system_semaphore::SystemSemaphores;
 use super::channels::tubes::Tubes;
 use super::channels::web_sockets::WebSockets;
@@ -27,7 +28,7 @@ use super::property::{AppData, SignalOwners};
 use super::step::clock::Clock;
 use super::test_bench::TestBench;
 use crate::dynamics::Dynamics;
-use crate::io::{EventLoop, SerialPort, ZmqServer, zmq};
+use crate::io::{EventLoop, SerialPort};
 use crate::scene::{Handle, Scene};
 
 /// How a simulator is set up.
@@ -92,7 +93,8 @@ pub struct Limits {
 /// Everything a running simulator consists of. Borrows of the parts never outlive a statement that calls a script.
 pub(crate) struct Sim {
     pub options: Options,
-    pub registry: &'static Registry,
+    /// What scripts can reach, and what modules keep.
+    pub modules: Modules,
     pub scene: RefCell<Scene>,
     pub clock: Clock,
     pub scripts: ScriptSet,
@@ -108,15 +110,7 @@ pub(crate) struct Sim {
     pub events: EventStream,
     /// Where all sockets live; made at first need.
     event_loop: OnceCell<Rc<EventLoop>>,
-    /// Where programs outside call functions, by ZeroMQ.
-    pub zmq_server: RefCell<Option<Rc<ZmqServer>>>,
     pub web_sockets: RefCell<WebSockets>,
-    /// Where the WebSocket remote API listens.
-    pub remote_listener: RefCell<Option<TcpListener>>,
-    /// The ZeroMQ context all scripts share; made at first need.
-    pub zmq_context: OnceCell<Rc<zmq::Context>>,
-    /// A share of it is held for each script that has ZeroMQ sockets.
-    pub zmq_users: Rc<()>,
     /// Where a test's runner waits.
     pub test_bench: OnceCell<Rc<TestBench>>,
     /// What states have counted that are gone.
@@ -124,13 +118,13 @@ pub(crate) struct Sim {
 }
 
 impl Sim {
-    pub(crate) fn new(options: Options, registry: &'static Registry, console: Box<dyn Console>) -> Rc<Self> {
+    pub(crate) fn new(options: Options, registry: Arc<Registry>, console: Box<dyn Console>) -> Rc<Self> {
         Rc::new(Self {
             log: Log::new(console, options.verbosity),
             app: RefCell::new(AppData::new(&options)),
             scripts: ScriptSet::new(options.limits.map_or(usize::MAX, |limits| limits.memory)),
             options,
-            registry,
+            modules: Modules { registry, states: States::default() },
             scene: RefCell::new(Scene::new()),
             clock: Clock::new(),
             dynamics: RefCell::new(Some(Dynamics::default())),
@@ -141,11 +135,7 @@ impl Sim {
             serial_ports: RefCell::default(),
             events: EventStream::new(),
             event_loop: OnceCell::new(),
-            zmq_server: RefCell::default(),
             web_sockets: RefCell::default(),
-            remote_listener: RefCell::default(),
-            zmq_context: OnceCell::new(),
-            zmq_users: Rc::default(),
             test_bench: OnceCell::new(),
             line_counts: RefCell::default(),
         })
@@ -181,15 +171,6 @@ impl Sim {
             event_loop.wait(patience);
             true
         })
-    }
-
-    /// Whether some script has ZeroMQ sockets. Nothing wakes the simulator for those: scripts look whether a message has come.
-    pub(crate) fn has_zmq_users(&self) -> bool {
-        Rc::strong_count(&self.zmq_users) > 1
-    }
-
-    pub(crate) fn zmq_server(&self) -> Option<Rc<ZmqServer>> {
-        self.zmq_server.borrow().clone()
     }
 
     /// The name a script has in the log.

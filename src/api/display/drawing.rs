@@ -188,15 +188,15 @@ fn remove<T>(all: &mut ByHandle<T>, handle: Number, missing: fn() -> ApiError) -
 }
 
 fn drawings(cx: &Cx) -> Rc<RefCell<ByHandle<Drawing>>> {
-    cx.library_data()
+    cx.script_state()
 }
 
 fn particles(cx: &Cx) -> Rc<RefCell<ByHandle<Particles>>> {
-    cx.library_data()
+    cx.script_state()
 }
 
 fn views(cx: &Cx) -> Rc<RefCell<ByHandle<View>>> {
-    cx.library_data()
+    cx.script_state()
 }
 
 fn object(cx: &Cx, handle: Number) -> Result<Handle> {

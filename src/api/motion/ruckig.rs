@@ -109,7 +109,7 @@ fn ruckig_remove(cx: &mut Cx, handle: Number) -> Result<()> {
 
 /// Those of the calling script.
 fn trajectories(cx: &Cx) -> Rc<RefCell<ByHandle<Trajectory>>> {
-    cx.library_data()
+    cx.script_state()
 }
 
 fn axes(dofs: Number) -> usize {

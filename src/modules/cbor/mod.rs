@@ -9,14 +9,14 @@ mod low_level;
 
 use std::ffi::c_int;
 
-use crate::script::{ApiFn, ApiResult, Args, Param};
+use super::{ApiFn, Args, Module, Param, Result};
 
 /// How deep arrays, maps and tags may be nested.
 const MAX_DEPTH: usize = 500;
 /// The text for what is nested deeper: a cycle most of the time.
 const TOO_DEEP: &str = "nested too deeply (500 levels): does a table contain itself?";
 
-type Call = fn(&mut Args<'_>) -> ApiResult<c_int>;
+type Call = fn(&mut Args<'_>) -> Result<c_int>;
 
 const fn row(name: &'static str, doc: &'static str, params: &'static [Param], call: Call) -> ApiFn {
     ApiFn { name, doc, params, returns: &[], mutates: false, call }
@@ -26,8 +26,11 @@ const fn required(name: &'static str, ty: &'static str) -> Param {
     Param { name, ty, default: None }
 }
 
-/// For `org.conman.cbor`.
-pub(crate) const TREES: &[ApiFn] = &[
+pub(super) static CBOR: Module = Module { inner: &[TREES], ..Module::new("org.conman.cbor") };
+pub(super) static CBOR_HEADS: Module = Module { functions: &[("CBOR", HEADS)], ..Module::new("org.conman.cbor_c") };
+pub(super) static SIM_CBOR: Module = Module { inner: &[TREES], ..Module::new("simCBOR") };
+
+const TREES: &[ApiFn] = &[
     row(
         "org.conman.cbor.encode",
         "The value as CBOR; nothing when that needs Lua code; nil and a message when it cannot be.",
@@ -50,7 +53,7 @@ pub(crate) const TREES: &[ApiFn] = &[
 ];
 
 /// The functions of `org.conman.cbor_c`.
-pub(crate) const HEADS: &[ApiFn] = &[
+const HEADS: &[ApiFn] = &[
     row(
         "org.conman.cbor_c.encode",
         "A head of major type `type` with the number `n`, or of unknown length when `n` is nil. Type 0xE0 with a float `x`: that float, \

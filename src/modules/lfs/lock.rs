@@ -6,7 +6,7 @@ use std::ffi::c_int;
 
 use crate::script::{ApiError, ApiFn, ApiResult, Args, FileLock, Param};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = &[ApiFn {
+pub(super) const FUNCTIONS: &[ApiFn] = &[ApiFn {
     name: "lfs.lock",
     doc: "Locks an open file (`r`: shared, `w`: alone) or releases it (`u`), without waiting.",
     params: &[Param { name: "file", ty: "any", default: None }, Param { name: "mode", ty: "string", default: None }],

@@ -12,15 +12,20 @@ use std::time::{Duration, SystemTime};
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use super::{ApiFn, Cx, Module, Result, functions};
 use crate::scene::{Data, Key};
 use crate::script::Results;
 use lock::system_words;
 
-pub(crate) use lock::FUNCTIONS as LOCK;
+pub(super) static LFS: Module =
+    Module { functions: &[("Files", FUNCTIONS), ("Files", lock::FUNCTIONS)], inner: &[INNER], ..Module::new("lfs") };
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![current_dir, change_dir, make_dir, remove_dir, link, touch, attributes, list, real_path, temp_dir];
+pub(super) static LFSX: Module = Module { functions: &[("Paths", PATHS)], ..Module::new("lfsx") };
+
+const FUNCTIONS: &[ApiFn] = functions![current_dir, change_dir, make_dir, remove_dir, link];
+/// Behind functions of `lua/public/lfs.lua`.
+const INNER: &[ApiFn] = functions![touch, attributes, list];
+const PATHS: &[ApiFn] = functions![real_path, temp_dir];
 
 /// True, or nil, reason and number.
 fn outcome(result: io::Result<()>) -> Results {

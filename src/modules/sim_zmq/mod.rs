@@ -11,15 +11,27 @@ use std::ffi::c_int;
 
 use api_macro::api;
 
-use super::{ApiFn, Cx, Result, functions};
+use super::{ApiFn, Cx, Module, Result, functions};
 use crate::io::zmq::{self, ERRORS};
 use crate::scene::Data;
 use crate::script::{Bytes, Number, Table, Text};
 use objects::objects;
 
-pub(crate) const TABLES: &[&[ApiFn]] = &[contexts::FUNCTIONS, sockets::FUNCTIONS, messages::FUNCTIONS, FUNCTIONS];
+pub(crate) use objects::has_sockets;
 
-const FUNCTIONS: &[ApiFn] = functions![errnum, strerror, has, version, z85_encode, z85_decode, errors];
+pub(super) static MODULE: Module = Module {
+    functions: &[
+        ("Contexts", contexts::FUNCTIONS),
+        ("Sockets", sockets::FUNCTIONS),
+        ("Messages", messages::FUNCTIONS),
+        ("Errors and encodings", FUNCTIONS),
+    ],
+    inner: &[INNER],
+    ..Module::new("simZMQ")
+};
+
+const FUNCTIONS: &[ApiFn] = functions![errnum, strerror, has, version, z85_encode, z85_decode];
+const INNER: &[ApiFn] = functions![errors];
 
 /// Numbers beyond C's integers become the nearest.
 fn int(number: Number) -> c_int {

@@ -3,12 +3,13 @@
 //! A handle is a text, `<hexadecimal number>:zmq.<kind>`. The number holds that of the script, so that nobody takes the object of another
 //! script for his own. The context all scripts share has a number of its own.
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use crate::io::zmq::{Context, Errno, Message, Socket, Termination, ZmqResult};
 use crate::modules::{ApiError, Cx, Result};
+use crate::script::States;
 
 /// The number of the context all scripts of a simulator share.
 const SINGLETON: u64 = 1;
@@ -20,6 +21,20 @@ const MAX_CONTEXTS: usize = 64;
 const CONTEXT: &str = "zmq.context";
 const SOCKET: &str = "zmq.socket";
 const MESSAGE: &str = "zmq.msg";
+
+/// What the scripts of a simulator share.
+#[derive(Default)]
+struct Shared {
+    /// The context with the number `SINGLETON`; made at first need.
+    context: OnceCell<Rc<Context>>,
+    /// A share of it is held for each script that has sockets.
+    users: Rc<()>,
+}
+
+/// Whether some script has ZeroMQ sockets. Nothing wakes the simulator for those: scripts look whether a message has come.
+pub(crate) fn has_sockets(states: &States) -> bool {
+    states.existing::<Shared>().is_some_and(|shared| Rc::strong_count(&shared.users) > 1)
+}
 
 /// What the calling script has. It goes with the script's state.
 #[derive(Default)]
@@ -41,7 +56,7 @@ enum Life {
 }
 
 pub(super) fn objects(cx: &Cx) -> Rc<Objects> {
-    cx.library_data()
+    cx.script_state()
 }
 
 fn invalid() -> ApiError {
@@ -71,12 +86,12 @@ fn warn_of_lost_events(cx: &Cx, socket: &Socket) {
 
 /// The context all scripts share, made when it is first asked for.
 fn singleton(cx: &Cx) -> ZmqResult<Rc<Context>> {
-    let shared = cx.zmq_context();
-    if shared.get().is_none() {
-        let context = Rc::new(Context::new()?);
-        return Ok(shared.get_or_init(|| context).clone());
+    let shared = cx.module_state::<Shared>();
+    if let Some(context) = shared.context.get() {
+        return Ok(context.clone());
     }
-    Ok(shared.get_or_init(|| unreachable!("it was looked at above")).clone())
+    let context = Rc::new(Context::new()?);
+    Ok(shared.context.get_or_init(|| context).clone())
 }
 
 pub(super) fn singleton_handle() -> String {
@@ -168,7 +183,7 @@ impl Objects {
     pub(super) fn add_socket(&self, cx: &Cx, socket: Socket) -> String {
         let number = self.next(cx);
         self.sockets.borrow_mut().insert(number, Rc::new(socket));
-        self.presence.replace(Some(cx.zmq_users().clone()));
+        self.presence.replace(Some(cx.module_state::<Shared>().users.clone()));
         handle(number, SOCKET)
     }
 

@@ -26,7 +26,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// Forgets an object nobody refers to any more; its socket is closed.
 #[api("socket.core.collect")]
 fn collect(cx: &Cx, object: AnySocket) -> Result<()> {
-    let sockets = cx.library_data::<Sockets>();
+    let sockets = cx.script_state::<Sockets>();
     match object {
         AnySocket::Stream(object, stream) => {
             stream.borrow_mut().close();
@@ -62,7 +62,7 @@ fn getfd(_cx: &Cx, object: AnySocket) -> Result<f64> {
 /// Gives the object another socket of this script, by its number; -1 takes it away without closing it.
 #[api("socket.core.any:setfd")]
 fn setfd(cx: &Cx, object: AnySocket, number: LuaNumber) -> Result<()> {
-    let sockets = cx.library_data::<Sockets>();
+    let sockets = cx.script_state::<Sockets>();
     let number = number.0 as i64;
     let socket = match number {
         -1 => None,

@@ -19,7 +19,7 @@ use std::sync::atomic::AtomicBool;
 
 use api_macro::api;
 
-use super::{ApiFn, Args, Cx, FromScript, Result, functions};
+use super::{ApiFn, Args, Cx, FromScript, Module, Result, functions};
 use crate::io::socket::{self, Datagram, Failure, Family, Role, Socket, Stream, descriptor};
 use crate::scene::Data;
 use crate::script::step::wall_clock;
@@ -27,10 +27,26 @@ use crate::script::{ApiError, ByHandle, LuaNumber, Object, Results};
 
 use results::{Created, Outcome};
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![tcp, tcp4, tcp6, udp, udp4, udp6, unix_stream, unix_dgram, poll, gettime, sleep];
+/// The core of LuaSocket: `lua/network/socket/core.lua` makes classes of these functions.
+pub(super) static CORE: Module = Module {
+    inner: &[
+        FUNCTIONS,
+        OBJECTS,
+        methods::FUNCTIONS,
+        stream::FUNCTIONS,
+        datagram::FUNCTIONS,
+        option::FUNCTIONS,
+        dns::FUNCTIONS,
+    ],
+    ..Module::new("socket.core")
+};
+pub(super) static UNIX: Module = Module { inner: &[FUNCTIONS], ..Module::new("socket.unix") };
+pub(super) static SSL: Module =
+    Module { inner: &[tls::FUNCTIONS, OBJECTS, methods::FUNCTIONS, stream::FUNCTIONS], ..Module::new("ssl") };
+
+const FUNCTIONS: &[ApiFn] = functions![tcp, tcp4, tcp6, udp, udp4, udp6, unix_stream, unix_dgram, poll, gettime, sleep];
 /// Functions that look at the stack themselves.
-pub(crate) const OBJECTS: &[ApiFn] = &[ApiFn {
+const OBJECTS: &[ApiFn] = &[ApiFn {
     name: "socket.core.define",
     doc: "Makes a table the metatable of a class of objects.",
     params: &[],
@@ -38,12 +54,6 @@ pub(crate) const OBJECTS: &[ApiFn] = &[ApiFn {
     mutates: false,
     call: define,
 }];
-pub(crate) use datagram::FUNCTIONS as DATAGRAM;
-pub(crate) use dns::FUNCTIONS as DNS;
-pub(crate) use methods::FUNCTIONS as METHODS;
-pub(crate) use option::FUNCTIONS as OPTION;
-pub(crate) use stream::FUNCTIONS as STREAM;
-pub(crate) use tls::FUNCTIONS as TLS;
 
 /// Classes of objects; the Lua files know them by these numbers.
 mod class {
@@ -152,7 +162,7 @@ impl FromScript for AnySocket {
     const TYPE: &'static str = "any";
 
     fn from_script(args: &Args<'_>) -> Result<Self> {
-        let sockets = args.context()?.library_data::<Sockets>();
+        let sockets = args.context()?.script_state::<Sockets>();
         args.object().and_then(|object| sockets.any(object)).ok_or_else(|| args.refused("socket expected"))
     }
 }
@@ -174,11 +184,11 @@ fn define(args: &mut Args<'_>) -> Result<c_int> {
 }
 
 fn new_stream(cx: &Cx, class: i64, family: Family) -> Outcome<Created> {
-    Outcome(Stream::new(family).map(|stream| cx.library_data::<Sockets>().add_stream(class, stream)))
+    Outcome(Stream::new(family).map(|stream| cx.script_state::<Sockets>().add_stream(class, stream)))
 }
 
 fn new_datagram(cx: &Cx, class: i64, family: Family) -> Outcome<Created> {
-    Outcome(Datagram::new(family).map(|datagram| cx.library_data::<Sockets>().add_datagram(class, datagram)))
+    Outcome(Datagram::new(family).map(|datagram| cx.script_state::<Sockets>().add_datagram(class, datagram)))
 }
 
 /// A TCP object; its first address decides on the family.
@@ -232,7 +242,7 @@ fn unix_dgram(cx: &Cx) -> Result<Outcome<Created>> {
 /// Waits for sockets, given by their numbers. Returns for each whether it is ready.
 #[api("socket.core.poll")]
 fn poll(cx: &Cx, readers: Vec<f64>, writers: Vec<f64>, seconds: f64) -> Result<Results> {
-    let known = cx.library_data::<Sockets>().by_descriptor();
+    let known = cx.script_state::<Sockets>().by_descriptor();
     let find = |numbers: &[f64]| numbers.iter().map(|&number| find(&known, number)).collect::<Result<Vec<_>>>();
     let ready = socket::select(&find(&readers)?, &find(&writers)?, seconds, stop(cx));
     let (readable, writable) = ready.map_err(raised)?;

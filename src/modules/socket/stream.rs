@@ -93,7 +93,7 @@ fn accept(cx: &Cx, object: Server) -> Result<Outcome<Created>> {
         let stream = object.stream.borrow();
         stream.accept(&Wait::begin(stream.timeout, stop(cx)))
     };
-    Ok(Outcome(accepted.map(|client| cx.library_data::<Sockets>().add_stream(object.class, client))))
+    Ok(Outcome(accepted.map(|client| cx.script_state::<Sockets>().add_stream(object.class, client))))
 }
 
 impl FromScript for Pattern {
@@ -119,7 +119,7 @@ fn receive(
     #[default(Pattern::Line)] pattern: Pattern,
     prefix: Option<LuaString>,
 ) -> Result<Received> {
-    let sockets = cx.library_data::<Sockets>();
+    let sockets = cx.script_state::<Sockets>();
     let mut data = sockets.space.take();
     data.clear();
     data.extend(prefix.iter().flat_map(|prefix| &prefix.0));

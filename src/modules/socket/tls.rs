@@ -15,7 +15,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![wrap, dohandshake, info];
 /// A new object that takes over the socket of another, to speak TLS on it.
 #[api("ssl.wrap")]
 fn wrap(cx: &Cx, object: Client) -> Result<Outcome<Created>> {
-    let sockets = cx.library_data::<Sockets>();
+    let sockets = cx.script_state::<Sockets>();
     let mut old = object.stream.borrow_mut();
     let new = old.handed_over();
     Ok(Outcome(Ok(sockets.add_stream(class::TLS, new))))

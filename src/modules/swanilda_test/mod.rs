@@ -6,13 +6,13 @@ use std::rc::Rc;
 
 use api_macro::api;
 
-use super::{ApiError, ApiFn, Cx, Result, functions};
+use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 use crate::scene::{Data, Key};
 use crate::script::test_bench::{ConsoleLine, Golden, TestBench, Tolerances, Trace};
 
-pub(crate) use run::FUNCTIONS as RUN;
+pub(super) static MODULE: Module = Module { inner: &[FUNCTIONS, run::FUNCTIONS], ..Module::new("swanilda.test") };
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![is_test, iterate, errors, lines, kill, file, time_limit, golden];
+const FUNCTIONS: &[ApiFn] = functions![is_test, iterate, errors, lines, kill, file, time_limit, golden];
 
 fn bench(cx: &Cx) -> Result<Rc<TestBench>> {
     let bench = cx.test_bench().cloned();

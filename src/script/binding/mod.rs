@@ -4,16 +4,18 @@ pub(in crate::script) mod args;
 pub(in crate::script) mod by_handle;
 pub(in crate::script) mod cx;
 pub(in crate::script) mod data;
+pub(in crate::script) mod module;
+pub(in crate::script) mod registry;
 pub(in crate::script) mod returns;
+pub(in crate::script) mod states;
 
-use std::collections::HashMap;
 use std::ffi::{c_int, c_void};
 
 use super::error::ApiResult;
-use super::lifecycle::embedded::Embedded;
 use super::lifecycle::env::Env;
 use super::lua::{Stack, push_callback};
 use args::Args;
+use registry::FunctionId;
 
 /// One parameter of a scriptable function.
 #[derive(Debug)]
@@ -41,59 +43,29 @@ macro_rules! functions {
 }
 pub(crate) use functions;
 
-/// A name scripts can call, with the function behind it.
-pub(crate) struct Bound {
-    pub name: &'static str,
-    pub function: &'static ApiFn,
-    /// The text logged at the first call.
-    pub deprecation: Option<&'static str>,
+/// Pushes a native function.
+pub(crate) fn push_function(stack: Stack<'_>, id: FunctionId) {
+    push_callback(stack, call_function, std::ptr::without_provenance(id.number()));
 }
 
-/// What the name of a `sim` member stands for.
-pub(crate) enum Member {
-    Constant(i64),
-    Native(Bound),
-    /// Implemented as `function` in the embedded Lua file `module`.
-    Lua {
-        module: &'static str,
-        function: &'static str,
-        deprecation: Option<&'static str>,
-    },
-    /// In the reference, but not built.
-    Missing {
-        name: &'static str,
-    },
-}
-
-/// Everything scripts can reach, by name. Built once per process by `modules::registry`.
-#[derive(Default)]
-pub(crate) struct Registry {
-    /// Members of `sim`, without the prefix.
-    pub members: HashMap<&'static str, Member>,
-    /// Functions that are globals.
-    pub globals: Vec<Bound>,
-    /// V-REP era names that do not follow the rule `simName` = `sim.name`, `sim_name` = `sim.name`: old name and member.
-    pub old_names: HashMap<&'static str, &'static str>,
-    /// Embedded Lua files by module name.
-    pub modules: HashMap<&'static str, Embedded>,
-    /// Native functions of Lua modules by module name: the module itself where there is no Lua file, else for that file's use.
-    pub libraries: HashMap<&'static str, Vec<Bound>>,
-}
-
-/// Pushes `bound` as a Lua function.
-pub(crate) fn push_bound(stack: Stack<'_>, bound: &'static Bound) {
-    push_callback(stack, call_bound, std::ptr::from_ref(bound).cast());
-}
-
-fn call_bound(stack: Stack<'_>, data: *const c_void) -> Result<c_int, String> {
-    // SAFETY: `push_bound` stored a `&'static Bound`.
-    let bound = unsafe { &*data.cast::<Bound>() };
-    if let Some(notice) = bound.deprecation {
-        Env::of(stack).warn_once(bound.name, notice);
+fn call_function(stack: Stack<'_>, number: *const c_void) -> Result<c_int, String> {
+    let env = Env::of(stack);
+    let bound = env.registry.function(number.addr()).ok_or("there is no such function.")?;
+    if let Some(replacement) = bound.replacement {
+        env.warn_deprecated(number.addr(), || deprecation_notice(&bound.name, replacement));
     }
-    let result = (bound.function.call)(&mut Args::new(stack)).map_err(|error| error.text(stack, bound.name));
+    let result = (bound.function.call)(&mut Args::new(stack)).map_err(|error| error.text(stack, &bound.name));
     if bound.function.mutates {
-        Env::of(stack).tell_changes();
+        env.tell_changes();
     }
     result
+}
+
+/// The line logged at the first call of a deprecated function.
+pub(crate) fn deprecation_notice(name: &str, replacement: &str) -> String {
+    let advice = match replacement {
+        "" => " and the related functionality will disappear in a future release.".to_owned(),
+        _ => format!(". please use {replacement} instead."),
+    };
+    format!("{name} is deprecated{advice} (control verbosity via notifyDeprecated in usrset.txt)")
 }

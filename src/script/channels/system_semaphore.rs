@@ -69,8 +69,7 @@ mod tests {
 
     /// Runs with a simulator of its own.
     fn with_sim<R>(options: Options, test: impl FnOnce(&Sim) -> R) -> R {
-        let registry = Box::leak(Box::<Registry>::default());
-        test(&Sim::new(options, registry, Box::new(Silent)))
+        test(&Sim::new(options, Registry::without_functions(), Box::new(Silent)))
     }
 
     #[test]

@@ -117,7 +117,7 @@ impl Sim {
             handlers: RefCell::default(),
         });
         self.web_sockets.borrow_mut().endpoints.insert(number, endpoint.clone());
-        let owned = cx.library_data::<Owned>();
+        let owned = cx.script_state::<Owned>();
         let mut owned = owned.0.borrow_mut();
         owned.retain(|other| self.web_socket(other.number).is_some());
         owned.push(Ownership { sim: Rc::downgrade(self), number });

@@ -111,7 +111,7 @@ impl Sim {
     fn counts_text_of(&self, script: &Script, text: &[u8]) -> bool {
         match script.script_type {
             ScriptType::Sandbox | ScriptType::AddOn => false,
-            ScriptType::Main => text != self.registry.modules["main"].source.as_bytes(),
+            ScriptType::Main => text != self.modules.registry.main_script().as_bytes(),
             _ => true,
         }
     }

@@ -57,7 +57,7 @@ impl Sim {
 
     /// The scripts outside of the tree: those attached to objects, and a main script of the scene's own.
     fn scripts_to_save(&self) -> Vec<LoadedScript> {
-        let usual_main = self.registry.modules["main"].source.as_bytes();
+        let usual_main = self.modules.registry.main_script().as_bytes();
         let saved = self.scripts.all_detached().into_iter().filter_map(|script| {
             let detached = script.detached.borrow();
             let own_main = script.script_type == ScriptType::Main && detached.code != usual_main;

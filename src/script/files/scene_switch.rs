@@ -114,7 +114,7 @@ impl Sim {
         }
         if let Some(main) = self.scripts.detached(ScriptType::Main) {
             let mut main = main.detached.borrow_mut();
-            main.code = self.registry.modules["main"].source.as_bytes().to_vec();
+            main.code = self.modules.registry.main_script().as_bytes().to_vec();
             main.source = None;
         }
         self.app.borrow_mut().closed_scenes += 1;

@@ -1,12 +1,14 @@
 //! What the host knows about one Lua state: whose it is, its yield levels, hooks, random numbers.
 
-use std::any::{Any, TypeId};
 use std::cell::{Cell, RefCell};
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashSet};
 use std::rc::{Rc, Weak};
+use std::sync::Arc;
 
 use super::instance::Script;
 use super::random::Random;
+use crate::script::binding::registry::Registry;
+use crate::script::binding::states::States;
 use crate::script::calls::callback::SysCall;
 use crate::script::coverage::Coverage;
 use crate::script::events::Filters;
@@ -18,6 +20,8 @@ use crate::script::sim::Sim;
 pub(crate) struct Env {
     pub(in crate::script) sim: Weak<Sim>,
     pub script: Rc<Script>,
+    /// What the script can reach.
+    pub registry: Arc<Registry>,
     /// Callbacks whose function was there when the chunk had run.
     pub defined: Cell<u64>,
     pub hooks: RefCell<Hooks>,
@@ -29,11 +33,12 @@ pub(crate) struct Env {
     pub event_filters: RefCell<Option<Filters>>,
     /// Whether anybody listens to events, so that changes must be told.
     pub events_wanted: Rc<Cell<bool>>,
-    /// What a library keeps for the state, by the library's own type; it goes with the state.
-    pub library_data: RefCell<HashMap<TypeId, Rc<dyn Any>>>,
+    /// What modules keep for the script; it goes with the state.
+    pub module_states: States,
     /// The memory of the state.
     pub budget: Rc<Budget>,
     warned: RefCell<HashSet<&'static str>>,
+    warned_deprecated: RefCell<HashSet<usize>>,
     watched: bool,
     /// What counts the lines that run, if they are counted.
     pub coverage: Option<Coverage>,
@@ -73,6 +78,7 @@ impl Env {
         Self {
             sim: Rc::downgrade(sim),
             script: script.clone(),
+            registry: sim.modules.registry.clone(),
             defined: Cell::new(0),
             hooks: RefCell::default(),
             depth: Cell::new(0),
@@ -80,9 +86,10 @@ impl Env {
             random: RefCell::new(Random::new(sim.options.seed)),
             event_filters: RefCell::default(),
             events_wanted: Rc::clone(&sim.events.listening),
-            library_data: RefCell::default(),
+            module_states: States::default(),
             budget: Rc::clone(&sim.scripts.budget),
             warned: RefCell::default(),
+            warned_deprecated: RefCell::default(),
             watched: sim.options.limits.is_some(),
             coverage: sim.options.count_lines.then(Coverage::default),
         }
@@ -93,10 +100,17 @@ impl Env {
         stack.owner()
     }
 
-    /// Logs a deprecation at the first call of `name` in this state.
-    pub(crate) fn warn_once(&self, name: &'static str, notice: &str) {
+    /// Logs a warning at the first call of `name` in this state.
+    pub(crate) fn warn_once(&self, name: &'static str, warning: &str) {
         if self.warned.borrow_mut().insert(name) {
-            self.log(verbosity::SCRIPT_WARNINGS, notice);
+            self.log(verbosity::SCRIPT_WARNINGS, warning);
+        }
+    }
+
+    /// Logs a deprecation at the first call of native function `number` in this state.
+    pub(crate) fn warn_deprecated(&self, number: usize, notice: impl FnOnce() -> String) {
+        if self.warned_deprecated.borrow_mut().insert(number) {
+            self.log(verbosity::SCRIPT_WARNINGS, &notice());
         }
     }
 

@@ -8,7 +8,8 @@ use mlua::{Function, Lua, Table};
 use super::env::{Env, Runtime};
 use super::shared_process;
 use crate::script::binding::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE};
-use crate::script::binding::{Bound, Member, push_bound};
+use crate::script::binding::registry::{Member, MissingId, Namespace};
+use crate::script::binding::{deprecation_notice, push_function};
 use crate::script::calls::threads;
 use crate::script::lua::{self, LuaError, Stack, Type, push_callback};
 use crate::script::sim::Sim;
@@ -136,10 +137,11 @@ fn search_last(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
 /// Pushes the loader of a module, and the native functions for its file; or why there is none.
 fn find_module(stack: Stack<'_>, name: &str) -> Result<c_int, String> {
     let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
+    let registry = &sim.modules.registry;
     let file = name.replace('.', "/");
-    let native = sim.registry.libraries.get(name);
-    match native {
-        _ if sim.registry.modules.contains_key(file.as_str()) && !file.starts_with("sim/") => {
+    let namespace = registry.module(name);
+    match namespace {
+        _ if registry.files.contains_key(file.as_str()) && !file.starts_with("sim/") => {
             load_module(stack, &sim, &file).map_err(|error| error.text)?;
         }
         Some(_) => push_callback(stack, return_library, std::ptr::null()),
@@ -148,17 +150,47 @@ fn find_module(stack: Stack<'_>, name: &str) -> Result<c_int, String> {
             return Ok(1);
         }
     }
-    push_library(stack, native.map(Vec::as_slice).unwrap_or_default());
+    push_native(stack, namespace);
     Ok(2)
 }
 
-/// Pushes a table of native functions, by the last part of their names.
-fn push_library(stack: Stack<'_>, functions: &'static [Bound]) {
-    stack.new_table(0, functions.len());
-    for bound in functions {
-        push_bound(stack, bound);
-        stack.raw_set_field(-2, bound.name.rsplit('.').next().unwrap_or(bound.name));
+/// Pushes a table of what is native in a module: constants, functions, and what is for its Lua part.
+fn push_native(stack: Stack<'_>, namespace: Option<&Namespace>) {
+    stack.new_table(0, 0);
+    let Some(namespace) = namespace else { return };
+    for (name, member) in namespace.listed() {
+        match member {
+            Member::Constant(value) => {
+                set_constant(stack, name, value);
+                continue;
+            }
+            Member::Native(id) => push_function(stack, id),
+            Member::Missing(id) => push_missing(stack, id),
+            Member::Lua { .. } => continue,
+        }
+        stack.raw_set_field(-2, name);
     }
+    for &(name, id) in &namespace.inner {
+        push_function(stack, id);
+        stack.raw_set_field(-2, name);
+    }
+}
+
+/// Sets `name`, or `enumeration.name`, in the table on top.
+fn set_constant(stack: Stack<'_>, name: &str, value: i64) {
+    let Some((enumeration, name)) = name.split_once('.') else {
+        stack.push_int(value);
+        return stack.raw_set_field(-2, name);
+    };
+    if stack.raw_get_field(-1, enumeration) != Type::Table {
+        stack.pop(1);
+        stack.new_table(0, 0);
+        stack.push_value(-1);
+        stack.raw_set_field(-3, enumeration);
+    }
+    stack.push_int(value);
+    stack.raw_set_field(-2, name);
+    stack.pop(1);
 }
 
 /// The loader of a module that is native altogether: what the searcher found comes as its second argument.
@@ -173,16 +205,16 @@ fn return_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
 
 /// Pushes the chunk of an embedded module.
 pub(in crate::script) fn load_module(stack: Stack<'_>, sim: &Sim, name: &str) -> Result<(), LuaError> {
-    match sim.registry.modules.get(name) {
+    match sim.modules.registry.files.get(name) {
         Some(module) => stack.load(module.bytecode(name), name, true),
         None => Err(LuaError { text: format!("no module '{name}' in Swanilda's library") }),
     }
 }
 
 fn install_globals(sim: &Sim, stack: Stack<'_>) {
-    for bound in &sim.registry.globals {
-        push_bound(stack, bound);
-        stack.set_global(bound.name);
+    for &(name, id) in &sim.modules.registry.globals {
+        push_function(stack, id);
+        stack.set_global(name);
     }
     push_callback(stack, set_buffer_metatable, std::ptr::null());
     stack.set_global("_setBufferMetatable");
@@ -234,12 +266,9 @@ fn index_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
 
 /// `pairs(sim)`: who iterates gets all names, used before or not.
 fn pairs_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
-    let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
-    let mut names: Vec<&str> = sim.registry.members.keys().copied().collect();
-    names.sort_unstable();
     stack.push_global("next");
     stack.push_registry(SIM);
-    for name in names {
+    for name in Env::of(stack).registry.members_of_sim().names() {
         let is_known = stack.raw_get_field(-1, name) != Type::Nil;
         stack.pop(1);
         if !is_known {
@@ -254,16 +283,16 @@ fn pairs_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
 fn index_globals(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
     let Some(name) = stack.bytes(2).and_then(|name| std::str::from_utf8(name).ok()) else { return Ok(0) };
     let Some(rest) = name.strip_prefix("sim") else { return Ok(0) };
-    let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
-    let member = match sim.registry.old_names.get(name) {
-        Some(member) => (*member).to_owned(),
+    let members = Env::of(stack).registry.members_of_sim();
+    let member = match members.of_old_name(name) {
+        Some(member) => member.to_owned(),
         None => match (rest.strip_prefix('_'), rest.chars().next()) {
             (Some(constant), _) => constant.to_owned(),
             (None, Some(first)) if first.is_ascii_uppercase() => first.to_ascii_lowercase().to_string() + &rest[1..],
             _ => return Ok(0),
         },
     };
-    if !sim.registry.members.contains_key(member.as_str()) {
+    if !members.contains(&member) {
         return Ok(0);
     }
     push_member(stack, &member)?;
@@ -272,52 +301,45 @@ fn index_globals(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
 
 /// Pushes `sim.<name>`, or nil.
 fn push_member(stack: Stack<'_>, name: &str) -> Result<(), String> {
-    let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
-    match sim.registry.members.get(name) {
+    match Env::of(stack).registry.members_of_sim().get(name) {
         None => stack.push_nil(),
-        Some(Member::Constant(value)) => stack.push_int(*value),
-        Some(Member::Native(bound)) => push_bound(stack, bound),
-        Some(Member::Missing { name }) => push_missing(stack, name),
-        Some(Member::Lua { module, function, deprecation }) => {
-            push_lua_member(stack, &sim, module, function, *deprecation)?
+        Some(Member::Constant(value)) => stack.push_int(value),
+        Some(Member::Native(id)) => push_function(stack, id),
+        Some(Member::Missing(id)) => push_missing(stack, id),
+        Some(Member::Lua { file, function, replacement }) => {
+            let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
+            push_lua_member(stack, &sim, file, function)?;
+            if let Some(replacement) = replacement {
+                wrap_deprecated(stack, &sim, &deprecation_notice(&format!("sim.{name}"), replacement))?;
+            }
         }
     }
     Ok(())
 }
 
-fn push_missing(stack: Stack<'_>, name: &'static &'static str) {
-    push_callback(stack, raise_missing, std::ptr::from_ref(name).cast());
+fn push_missing(stack: Stack<'_>, id: MissingId) {
+    push_callback(stack, raise_missing, std::ptr::without_provenance(id.number()));
 }
 
-fn raise_missing(stack: Stack<'_>, data: *const c_void) -> Result<c_int, String> {
-    // SAFETY: `push_missing` stored a `&'static &'static str`.
-    let name = unsafe { *data.cast::<&'static str>() };
-    Err(crate::script::error::ApiError::NotImplemented(format!("sim.{name}")).text(stack, name))
+fn raise_missing(stack: Stack<'_>, number: *const c_void) -> Result<c_int, String> {
+    let missing = Env::of(stack).registry.missing(number.addr()).ok_or("there is no such function.")?;
+    Err(missing.error().text(stack, ""))
 }
 
 /// Pushes a function of an embedded Lua file, loading the file if this state has not yet.
-fn push_lua_member(
-    stack: Stack<'_>,
-    sim: &Sim,
-    module: &'static str,
-    name: &str,
-    deprecation: Option<&'static str>,
-) -> Result<(), String> {
+fn push_lua_member(stack: Stack<'_>, sim: &Sim, file: &'static str, function: &str) -> Result<(), String> {
     stack.push_registry(LUA_MODULES);
-    if stack.raw_get_field(-1, module) != Type::Table {
+    if stack.raw_get_field(-1, file) != Type::Table {
         stack.pop(1);
-        load_module(stack, sim, module).map_err(|error| error.text)?;
+        load_module(stack, sim, file).map_err(|error| error.text)?;
         stack.push_registry(SIM);
         stack.protected_call(1, 1).map_err(|error| error.text)?;
         stack.push_value(-1);
-        stack.raw_set_field(-3, module);
+        stack.raw_set_field(-3, file);
     }
-    stack.raw_get_field(-1, name);
+    stack.raw_get_field(-1, function);
     stack.remove(-2);
     stack.remove(-2);
-    if let Some(notice) = deprecation {
-        wrap_deprecated(stack, sim, notice)?;
-    }
     Ok(())
 }
 

@@ -43,7 +43,7 @@ mod tests {
 
     /// Calls `test` with a state that has the standard libraries only.
     pub(super) fn with_state<T>(test: impl FnOnce(&State) -> T) -> T {
-        let registry: &'static Registry = Box::leak(Box::default());
+        let registry = Registry::without_functions();
         let sim = Sim::new(Options::default(), registry, Box::new(Silent));
         let script = sim.scripts.add_detached(ScriptType::Sandbox, Detached::default());
         test(&Runtime::new(&sim, &script).lua)

@@ -12,7 +12,6 @@ mod properties;
 mod scripts;
 mod simulation;
 
-use std::any::TypeId;
 use std::cell::{Ref, RefMut};
 use std::rc::Rc;
 use std::time::Duration;
@@ -80,11 +79,14 @@ impl<'a> Cx<'a> {
         self.sim.wait_for(limit, answer)
     }
 
-    /// What a library keeps for the calling script's state: made at the first call, dropped with the state.
-    pub(crate) fn library_data<T: Default + 'static>(&self) -> Rc<T> {
-        let mut all = self.env().library_data.borrow_mut();
-        let data = Rc::clone(all.entry(TypeId::of::<T>()).or_insert_with(|| Rc::new(T::default())));
-        data.downcast().expect("the key is the type")
+    /// What a module keeps for the simulator: made at the first call, dropped with the simulator.
+    pub(crate) fn module_state<T: Default + 'static>(&self) -> Rc<T> {
+        self.sim.modules.states.get()
+    }
+
+    /// What a module keeps for the calling script: made at the first call, dropped with the script's state.
+    pub(crate) fn script_state<T: Default + 'static>(&self) -> Rc<T> {
+        self.env().module_states.get()
     }
 
     /// Whether the caller is a thread that may hand over to the simulation now.

@@ -1,11 +1,10 @@
 //! What modules hold of the world outside: sockets, ports, tubes, semaphores.
 
-use std::cell::{OnceCell, Ref, RefMut};
-use std::net::TcpListener;
+use std::cell::{Ref, RefMut};
 use std::rc::Rc;
 
 use super::Cx;
-use crate::io::{EventLoop, Numbers, SerialPort, WsEndpoint, ZmqServer, zmq};
+use crate::io::{EventLoop, Numbers, SerialPort, WsEndpoint};
 use crate::script::binding::by_handle::ByHandle;
 use crate::script::channels::tubes::Tubes;
 use crate::script::channels::web_sockets::{Endpoint, Role};
@@ -18,26 +17,6 @@ impl Cx<'_> {
     /// When the system has none.
     pub(crate) fn event_loop(&self) -> std::io::Result<Rc<EventLoop>> {
         self.sim.event_loop()
-    }
-
-    /// Where programs outside call functions, by ZeroMQ.
-    pub(crate) fn zmq_server(&self) -> Option<Rc<ZmqServer>> {
-        self.sim.zmq_server()
-    }
-
-    /// The ZeroMQ context all scripts share; made at first need.
-    pub(crate) fn zmq_context(&self) -> &OnceCell<Rc<zmq::Context>> {
-        &self.sim.zmq_context
-    }
-
-    /// Shares of it are counted: each script that has ZeroMQ sockets holds one.
-    pub(crate) fn zmq_users(&self) -> &Rc<()> {
-        &self.sim.zmq_users
-    }
-
-    /// Where the WebSocket remote API listens.
-    pub(crate) fn remote_listener(&self) -> Option<std::io::Result<TcpListener>> {
-        self.sim.remote_listener.borrow().as_ref().map(TcpListener::try_clone)
     }
 
     /// The numbers of WebSocket endpoints and connections.

@@ -1,0 +1,76 @@
+//! What a module is: one description, from which come what scripts call, the reference, editor stubs, and what tools know.
+
+use super::ApiFn;
+
+/// A module: `sim`, or what `require` finds under another name.
+///
+/// It is data. A [`Registry`](super::registry::Registry) makes it callable; `crate::docs` makes pages of it. A Lua file of the module's
+/// name, below `lua/`, is its Lua part: it gets a table of everything that is native as its second argument and returns the module.
+pub struct Module {
+    pub name: &'static str,
+    /// Functions for scripts, by category. A name without a dot is a global function.
+    pub functions: &'static [(&'static str, &'static [ApiFn])],
+    /// Functions for the module's Lua part only.
+    pub inner: &'static [&'static [ApiFn]],
+    /// `name<TAB>integer`; `enumeration.name` for what belongs to an enumeration.
+    pub constants: &'static str,
+    /// `old<TAB>new`: names that do exactly what another does.
+    pub aliases: &'static str,
+    /// `name<TAB>replacement`: names that log their deprecation at the first call.
+    pub deprecated: &'static str,
+    /// `name<TAB>category<TAB>age<TAB>signature` of every function the module has in CoppeliaSim. Those that are not here raise an error.
+    pub reference: &'static str,
+    /// `name<TAB>what to do instead`, for functions of the reference that are not here.
+    pub remedies: &'static str,
+    /// `simName<TAB>name`: global names from before there were modules, where they follow no rule.
+    pub old_names: &'static str,
+    /// The folder of Lua files whose functions `M.name` are members, each loaded when one of its functions is first used.
+    pub lua_members: Option<&'static str>,
+}
+
+impl Module {
+    /// A module without anything: what others add to.
+    pub const fn new(name: &'static str) -> Self {
+        Self {
+            name,
+            functions: &[],
+            inner: &[],
+            constants: "",
+            aliases: "",
+            deprecated: "",
+            reference: "",
+            remedies: "",
+            old_names: "",
+            lua_members: None,
+        }
+    }
+
+    /// The functions for scripts, whatever their category.
+    pub fn public_functions(&self) -> impl Iterator<Item = &'static ApiFn> {
+        self.functions.iter().flat_map(|(_, functions)| *functions)
+    }
+
+    /// All native functions: those for scripts, and those for the Lua part.
+    pub(crate) fn native_functions(&self) -> impl Iterator<Item = &'static ApiFn> {
+        self.public_functions().chain(self.inner.iter().copied().flatten())
+    }
+
+    /// The names the module has in CoppeliaSim.
+    pub(crate) fn reference_names(&self) -> impl Iterator<Item = &'static str> {
+        self.reference.lines().filter_map(|line| line.split('\t').next())
+    }
+
+    /// The Lua files whose functions are members, out of all embedded ones.
+    pub(crate) fn member_files<'a>(
+        &self,
+        files: &'a [(&'static str, &'static str)],
+    ) -> impl Iterator<Item = (&'static str, &'static str)> + 'a {
+        let folder = self.lua_members;
+        files.iter().copied().filter(move |(path, _)| folder.is_some_and(|folder| path.starts_with(folder)))
+    }
+}
+
+/// The rows of a table of two columns.
+pub(crate) fn pairs(table: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    table.lines().filter_map(|line| line.split_once('\t'))
+}

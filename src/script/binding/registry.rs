@@ -1,0 +1,288 @@
+//! Everything scripts of a simulator can reach, by name: made from a list of modules.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::ApiFn;
+use super::module::{Module, pairs};
+use super::states::States;
+use crate::script::error::ApiError;
+use crate::script::lifecycle::embedded::Embedded;
+
+/// A native function, by its place in the registry of a simulator. Lua code holds it as a number, so that no pointer can be forged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct FunctionId(usize);
+
+impl FunctionId {
+    /// The number Lua keeps.
+    pub(crate) fn number(self) -> usize {
+        self.0
+    }
+}
+
+/// A name of the reference that is not built, by its place in the registry.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct MissingId(usize);
+
+impl MissingId {
+    /// The number Lua keeps.
+    pub(crate) fn number(self) -> usize {
+        self.0
+    }
+}
+
+/// A function CoppeliaSim has and Swanilda has not.
+pub(crate) struct Missing {
+    module: &'static str,
+    name: &'static str,
+    /// What to do instead.
+    remedy: Option<&'static str>,
+}
+
+impl Missing {
+    pub(crate) fn error(&self) -> ApiError {
+        let Self { module, name, remedy } = self;
+        let remedy = remedy.map(|remedy| format!(" ({remedy})")).unwrap_or_default();
+        ApiError::NotImplemented(format!("{module}.{name}{remedy}"))
+    }
+}
+
+/// A name scripts can call, with the function behind it.
+pub(crate) struct Bound {
+    /// `module.name`, or a bare name for globals.
+    pub name: Cow<'static, str>,
+    pub function: &'static ApiFn,
+    /// What to use instead, where the name is deprecated; empty when there is nothing.
+    pub replacement: Option<&'static str>,
+}
+
+/// What the name of a member of a module stands for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Member {
+    Constant(i64),
+    Native(FunctionId),
+    /// Implemented as `function` in the embedded Lua file `file`.
+    Lua {
+        file: &'static str,
+        function: &'static str,
+        replacement: Option<&'static str>,
+    },
+    /// In CoppeliaSim's reference, but not built.
+    Missing(MissingId),
+}
+
+/// A module with its names bound.
+pub(crate) struct Namespace {
+    pub module: &'static Module,
+    members: HashMap<&'static str, Member>,
+    /// Names of constants and native functions as the module lists them.
+    listed: Vec<&'static str>,
+    /// Functions for the Lua part, by the last part of their names.
+    pub inner: Vec<(&'static str, FunctionId)>,
+    old_names: HashMap<&'static str, &'static str>,
+}
+
+impl Namespace {
+    pub(crate) fn get(&self, name: &str) -> Option<Member> {
+        self.members.get(name).copied()
+    }
+
+    pub(crate) fn contains(&self, name: &str) -> bool {
+        self.members.contains_key(name)
+    }
+
+    /// All names, in alphabetical order.
+    pub(crate) fn names(&self) -> Vec<&'static str> {
+        let mut names: Vec<&str> = self.members.keys().copied().collect();
+        names.sort_unstable();
+        names
+    }
+
+    /// The members that need no Lua file, in the order in which the module lists them, then what is missing.
+    pub(crate) fn listed(&self) -> impl Iterator<Item = (&'static str, Member)> {
+        self.listed.iter().filter_map(|&name| Some((name, self.get(name)?)))
+    }
+
+    /// The member that a global name from before there were modules stands for.
+    pub(crate) fn of_old_name(&self, name: &str) -> Option<&'static str> {
+        self.old_names.get(name).copied()
+    }
+}
+
+/// The modules of one simulator.
+pub(crate) struct Modules {
+    pub registry: Arc<Registry>,
+    /// What they keep for the simulator.
+    pub states: States,
+}
+
+/// Modules with their names bound. Simulators with the same modules share it.
+pub(crate) struct Registry {
+    functions: Vec<Bound>,
+    missing: Vec<Missing>,
+    /// Functions that are globals, with their names.
+    pub globals: Vec<(&'static str, FunctionId)>,
+    /// In the order of the list; `sim` is the first.
+    namespaces: Vec<Namespace>,
+    by_name: HashMap<&'static str, usize>,
+    /// Embedded Lua files by path.
+    pub files: HashMap<&'static str, Embedded>,
+}
+
+impl Registry {
+    /// Binds `modules`, of which the first is `sim`. `files` are the paths and texts of the embedded Lua files.
+    pub(crate) fn new(modules: &[&'static Module], files: &'static [(&'static str, &'static str)]) -> Self {
+        let mut registry = Self {
+            functions: Vec::new(),
+            missing: Vec::new(),
+            globals: Vec::new(),
+            namespaces: Vec::new(),
+            by_name: HashMap::new(),
+            files: files.iter().map(|&(name, source)| (name, Embedded::new(source))).collect(),
+        };
+        for (place, &module) in modules.iter().enumerate() {
+            let namespace = registry.bind(module, files);
+            registry.namespaces.push(namespace);
+            registry.by_name.insert(module.name, place);
+        }
+        registry
+    }
+
+    /// What tests of the host need: a `sim` without members.
+    #[cfg(test)]
+    pub(crate) fn without_functions() -> Arc<Self> {
+        static NOTHING: Module = Module::new("sim");
+        Arc::new(Self::new(&[&NOTHING], &[]))
+    }
+
+    pub(crate) fn members_of_sim(&self) -> &Namespace {
+        &self.namespaces[0]
+    }
+
+    pub(crate) fn module(&self, name: &str) -> Option<&Namespace> {
+        self.by_name.get(name).map(|&place| &self.namespaces[place])
+    }
+
+    /// The function that Lua code knows by `number`; None for a number nobody was given.
+    pub(crate) fn function(&self, number: usize) -> Option<&Bound> {
+        self.functions.get(number)
+    }
+
+    /// The missing function that Lua code knows by `number`.
+    pub(crate) fn missing(&self, number: usize) -> Option<&Missing> {
+        self.missing.get(number)
+    }
+
+    pub(crate) fn bound(&self, id: FunctionId) -> &Bound {
+        &self.functions[id.0]
+    }
+
+    /// The text of the main script of a scene that has none of its own; empty when the registry has no files.
+    pub(crate) fn main_script(&self) -> &'static str {
+        self.files.get("main").map_or("", |file| file.source)
+    }
+
+    fn bind(&mut self, module: &'static Module, files: &[(&'static str, &'static str)]) -> Namespace {
+        let deprecated: HashMap<&str, &'static str> = pairs(module.deprecated).collect();
+        let mut namespace = Namespace {
+            module,
+            members: HashMap::new(),
+            listed: Vec::new(),
+            inner: Vec::new(),
+            old_names: pairs(module.old_names).collect(),
+        };
+        self.add_missing(&mut namespace);
+        add_constants(&mut namespace);
+        add_lua_members(&mut namespace, files, &deprecated);
+        for function in module.public_functions() {
+            self.add_function(&mut namespace, function, &deprecated);
+        }
+        for function in module.inner.iter().copied().flatten() {
+            let id = self.add(function.name.into(), function, None);
+            namespace.inner.push((last_part(function.name), id));
+        }
+        self.add_aliases(&mut namespace, &deprecated);
+        namespace
+    }
+
+    /// Names of the reference; those that are built take their places.
+    fn add_missing(&mut self, namespace: &mut Namespace) {
+        let module = namespace.module;
+        let remedies: HashMap<&str, &'static str> = pairs(module.remedies).collect();
+        for name in module.reference_names() {
+            self.missing.push(Missing { module: module.name, name, remedy: remedies.get(name).copied() });
+            namespace.members.insert(name, Member::Missing(MissingId(self.missing.len() - 1)));
+        }
+    }
+
+    fn add(
+        &mut self,
+        name: Cow<'static, str>,
+        function: &'static ApiFn,
+        replacement: Option<&'static str>,
+    ) -> FunctionId {
+        self.functions.push(Bound { name, function, replacement });
+        FunctionId(self.functions.len() - 1)
+    }
+
+    fn add_function(
+        &mut self,
+        namespace: &mut Namespace,
+        function: &'static ApiFn,
+        deprecated: &HashMap<&str, &'static str>,
+    ) {
+        if !function.name.contains('.') {
+            let id = self.add(function.name.into(), function, None);
+            return self.globals.push((function.name, id));
+        }
+        let member = last_part(function.name);
+        let id = self.add(function.name.into(), function, deprecated.get(member).copied());
+        namespace.members.insert(member, Member::Native(id));
+        namespace.listed.push(member);
+    }
+
+    fn add_aliases(&mut self, namespace: &mut Namespace, deprecated: &HashMap<&str, &'static str>) {
+        for (old, new) in pairs(namespace.module.aliases) {
+            let global = self.globals.iter().find(|(name, _)| *name == new).map(|&(_, id)| Member::Native(id));
+            let replacement = deprecated.get(old).copied();
+            let member = match namespace.get(new).filter(|_| old != new).or(global) {
+                Some(Member::Native(id)) => {
+                    let name = format!("{}.{old}", namespace.module.name).into();
+                    Member::Native(self.add(name, self.bound(id).function, replacement))
+                }
+                Some(Member::Lua { file, function, .. }) => Member::Lua { file, function, replacement },
+                Some(Member::Constant(_) | Member::Missing(_)) | None => continue,
+            };
+            namespace.members.insert(old, member);
+            namespace.listed.push(old);
+        }
+    }
+}
+
+fn last_part(name: &'static str) -> &'static str {
+    name.rsplit('.').next().unwrap_or(name)
+}
+
+fn add_constants(namespace: &mut Namespace) {
+    for (name, value) in pairs(namespace.module.constants) {
+        let value = value.parse().expect("a table of constants holds integers, which a test reads");
+        namespace.members.insert(name, Member::Constant(value));
+        namespace.listed.push(name);
+    }
+}
+
+/// Functions of the module's Lua files: each is a line `function M.name(`.
+fn add_lua_members(
+    namespace: &mut Namespace,
+    files: &[(&'static str, &'static str)],
+    deprecated: &HashMap<&str, &'static str>,
+) {
+    for (file, source) in namespace.module.member_files(files) {
+        let declarations = source.lines().filter_map(|line| line.strip_prefix("function M."));
+        for function in declarations.filter_map(|declaration| declaration.split('(').next()) {
+            let replacement = deprecated.get(function).copied();
+            namespace.members.insert(function, Member::Lua { file, function, replacement });
+        }
+    }
+}
