@@ -34,24 +34,31 @@ impl Scene {
         }
     }
 
-    /// The number of siblings before `handle` that have the same alias: the index in paths such as `/name[2]`.
-    pub fn child_order(&self, handle: Handle) -> SceneResult<usize> {
+    /// The number of siblings before `handle` that have the same alias: the index in paths such as `/name[2]`. None for an alias that no
+    /// sibling has.
+    pub fn child_order(&self, handle: Handle) -> SceneResult<Option<usize>> {
         let alias = self.object(handle)?.alias();
-        let before = self.siblings(handle)?.iter().take_while(|&&sibling| sibling != handle);
-        Ok(before.filter(|&&sibling| self.object(sibling).is_ok_and(|object| object.alias() == alias)).count())
+        let is_namesake = |sibling: &&Handle| self.object(**sibling).is_ok_and(|object| object.alias() == alias);
+        let mut namesakes = self.siblings(handle)?.iter().filter(is_namesake);
+        let before = namesakes.by_ref().take_while(|&&sibling| sibling != handle).count();
+        Ok((before > 0 || namesakes.next().is_some()).then_some(before))
     }
 
     /// The children of `parent` (None: the roots), each with its [`child_order`](Self::child_order).
-    pub fn child_orders(&self, parent: Option<Handle>) -> Vec<(Handle, usize)> {
+    pub fn child_orders(&self, parent: Option<Handle>) -> Vec<(Handle, Option<usize>)> {
         let children = match parent {
             None => &self.roots[..],
             Some(parent) => self.object(parent).map_or(&[][..], crate::scene::Object::children),
         };
-        let mut seen: HashMap<&str, usize> = HashMap::new();
-        let ordered = children.iter().filter_map(|&child| {
-            let next = seen.entry(self.object(child).ok()?.alias()).or_default();
-            *next += 1;
-            Some((child, *next - 1))
+        let named = children.iter().filter_map(|&child| Some((child, self.object(child).ok()?.alias())));
+        let named: Vec<(Handle, &str)> = named.collect();
+        let mut namesakes: HashMap<&str, usize> = HashMap::new();
+        named.iter().for_each(|(_, alias)| *namesakes.entry(alias).or_default() += 1);
+        let mut next: HashMap<&str, usize> = HashMap::new();
+        let ordered = named.into_iter().map(|(child, alias)| {
+            let order = next.entry(alias).or_default();
+            *order += 1;
+            (child, (namesakes[alias] > 1).then_some(*order - 1))
         });
         ordered.collect()
     }

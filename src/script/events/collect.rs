@@ -113,6 +113,7 @@ impl Sim {
         };
         self.added(&mut watched).into_iter().for_each(|event| self.push_event(event));
         watch.objects.insert(handle, watched);
+        self.collect_orders(watch, None);
         self.push_lists();
     }
 
@@ -207,7 +208,7 @@ impl Sim {
         let orders = self.scene.borrow().child_orders(parent);
         for (child, order) in orders {
             if let Some(watched) = watch.objects.get_mut(&child)
-                && !watched.was_told("childOrder", &Data::Int(order as i64))
+                && !watched.was_told("childOrder", &Data::Int(order.map_or(-1, |order| order as i64)))
             {
                 self.collect_one(watched, "childOrder");
             }

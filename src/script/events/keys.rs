@@ -47,8 +47,10 @@ const LARGE: &[(Field, &[&str])] =
 /// Properties that are told in one event.
 const PAIRS: &[[&str; 2]] = &[["bbPose", "bbHSize"], ["parentUid", "parentHandle"]];
 
-/// What changes in nearly every step, and the properties it concerns. A change of any other field can concern all properties.
+/// What changes in nearly every step, and the properties it concerns. A change of any other field can concern all properties. A new alias
+/// is told before the order among namesakes that results from it.
 const FREQUENT: &[(Field, &[&str])] = &[
+    (Field::Alias, &["alias", "scriptName"]),
     (Field::Pose, &["pose"]),
     (
         Field::Measured,

@@ -53,9 +53,7 @@ pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Comm
 
 /// The place among the siblings of the same alias; -1 for an alias of one's own.
 fn namesake_order(context: &Context<'_>, object: &Object) -> SceneResult<i32> {
-    let siblings = context.scene.siblings(object.handle())?.iter();
-    let namesakes = siblings.filter(|other| context.scene.object(**other).is_ok_and(|o| o.alias() == object.alias()));
-    Ok(if namesakes.count() < 2 { -1 } else { context.scene.child_order(object.handle())? as i32 })
+    Ok(context.scene.child_order(object.handle())?.map_or(-1, |order| order as i32))
 }
 
 /// The name of before 4.3 without its copy number sign and the like, which were no letters there.
