@@ -79,7 +79,6 @@ impl Scene {
         self.live += 1;
         self.roots.push(handle);
         self.note(Change::Added(handle));
-        self.store_state_of_new(handle)?;
         Ok(handle)
     }
 

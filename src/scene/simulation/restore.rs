@@ -52,8 +52,9 @@ impl Scene {
         }
     }
 
-    /// An object that comes during a run remembers the state it comes with, in case it survives the end.
-    pub(in crate::scene) fn store_state_of_new(&mut self, handle: Handle) -> SceneResult<()> {
+    /// A copy that is made during a run remembers the state it begins with, in case it survives the end. Other new objects do not: they
+    /// stay as the run leaves them.
+    pub(in crate::scene) fn store_state_of_copy(&mut self, handle: Handle) -> SceneResult<()> {
         if !self.in_run {
             return Ok(());
         }
@@ -84,8 +85,8 @@ impl Scene {
         self.object(parent).ok().map(Object::uid)
     }
 
-    /// Every object goes back to the state it had at the start of the run, unless its model does not want to. Objects that came later go
-    /// back to the state they came with.
+    /// Every object goes back to the state it had at the start of the run, unless its model does not want to. Copies made
+    /// since go back to the state they began with, other new objects stay as they are.
     pub fn restore_initial_state(&mut self) {
         self.in_run = false;
         let objects = self.all_breadth_first();

@@ -101,7 +101,7 @@ impl Scene {
         self.set_parent(copy, parent, false)?;
         let pose = if direct { local } else { self.parent_frame(copy)?.inverse() * world };
         self.object_mut(copy)?.pose = normalized(pose);
-        self.store_state_of_new(copy)?;
+        self.store_state_of_copy(copy)?;
         Ok(copy)
     }
 }

@@ -2,7 +2,7 @@
 -- as: customization
 -- passes: 10
 -- spec: objects 8
--- note: objects made during a run that are not removed at its end go back to the state they came with
+-- note: copies made during a run that are not removed at its end go back to the state they began with, other new objects do not
 sim = require 'sim'
 sim.createScript(sim.scripttype_simulation, [[
 sim = require 'sim'
