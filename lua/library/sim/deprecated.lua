@@ -104,8 +104,8 @@ function M.alphaBetaGammaToYawPitchRoll(...)
     local sa, ca, sb, cb = math.sin(alpha), math.cos(alpha), math.sin(beta), math.cos(beta)
     local sg, cg = math.sin(gamma), math.cos(gamma)
     local r31 = sa * sg - ca * sb * cg
-    if math.abs(r31) > 0.999999 then -- roll and yaw turn about the same axis: all of it is called yaw
-        return math.atan(cb * sg, ca * cg - sa * sb * sg), r31 < 0 and math.pi / 2 or -math.pi / 2, 0.0
+    if math.abs(r31) > 0.999999 then -- roll and yaw turn about the same axis: all of it is called roll
+        return 0, r31 < 0 and math.pi / 2 or -math.pi / 2, math.atan(sa * cb, ca * cg - sa * sb * sg)
     end
     local yaw = math.atan(ca * sg + sa * sb * cg, cb * cg)
     return yaw, math.asin(-r31), math.atan(sa * cg + ca * sb * sg, ca * cb)

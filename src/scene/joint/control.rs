@@ -207,7 +207,8 @@ impl Scene {
 
     /// Sets the mode of a joint.
     pub fn set_joint_mode(&mut self, handle: Handle, mode: JointMode) -> SceneResult<()> {
-        self.modify_joint(handle, |joint| joint.set_mode(mode))
+        self.modify_joint(handle, |joint| joint.set_mode(mode))?;
+        self.relimit_joint(handle)
     }
 
     /// Sets whether a joint is cyclic, and its lower limit and range; the position follows.
@@ -242,7 +243,8 @@ impl Scene {
         })
     }
 
-    /// Sets the target velocity (rad/s, m/s), the first of the acceleration and jerk limits, and the velocity to start from.
+    /// Sets the target velocity (rad/s, m/s) and, of a kinematic joint, the first of the acceleration and jerk limits and the velocity to
+    /// start from. A motor keeps its limits, as in the original: they are set as parameters of the joint.
     ///
     /// # Errors
     /// For spherical joints and targets that are no number.
@@ -257,8 +259,10 @@ impl Scene {
         finite(&[target, initial.unwrap_or(0.0)])?;
         finite(limits)?;
         self.control_joint(handle, |joint| {
-            let fields = [&mut joint.max_accel, &mut joint.max_jerk];
-            fields.into_iter().zip(limits).for_each(|(field, limit)| *field = *limit);
+            if joint.mode == JointMode::Kinematic {
+                let fields = [&mut joint.max_accel, &mut joint.max_jerk];
+                fields.into_iter().zip(limits).for_each(|(field, limit)| *field = *limit);
+            }
             joint.set_target_velocity(target);
             joint.start(Motion::AtVelocity { initial });
         })

@@ -56,7 +56,7 @@ impl Shape {
         let mut appearance = Appearance::new([1.0; 3]);
         appearance.culling = options.culling;
         if options.sharp_edges {
-            appearance.shading_angle = 0.0;
+            (appearance.shading_angle, appearance.edge_angle) = (0.0, 0.0);
         }
         mesh.compute_normals(appearance.shading_angle);
         let flat = matches!(kind, PrimitiveKind::Plane | PrimitiveKind::Disc);

@@ -180,7 +180,7 @@ impl Appearance {
             colour: Colour::new(ambient_diffuse),
             culling: false,
             wireframe: false,
-            edges: true,
+            edges: false,
             shading_angle: 30f64.to_radians(),
             edge_angle: 30f64.to_radians(),
         }
