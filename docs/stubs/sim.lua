@@ -300,10 +300,9 @@ function sim.buildPose(position, eulerAnglesOrAxis, mode, axis2) end
 
 --- Calls a function of another script (or of this one, by sim.handle_self).
 ---
---- The first two arguments may come in either order. `function@name` calls a function of the script of type `scriptHandle` that
---- belongs to the object of that path, or of the add-on of that name.
+--- The first two arguments may come in either order.
 ---@param functionName string/int name of a global function; dots walk through tables
----@param scriptHandle string/int the script, or a type (sim.scripttype_*) together with a name
+---@param scriptHandle string/int the script
 ---@param ... any
 ---@return any ... what the function returned
 function sim.callScriptFunction(functionName, scriptHandle, ...) end
@@ -2287,7 +2286,7 @@ function sim.readCustomDataTags(objectHandle) end
 --- Custom data as a string.
 ---@param objectHandle integer object, sim.handle_scene, sim.handle_app or sim.handle_appstorage
 ---@param tagName string its name
----@return any data nil if there is none
+---@return any data nil if there is none, or no such object
 function sim.readCustomStringData(objectHandle, tagName) end
 
 --- Reads a table from custom data.

@@ -37,6 +37,7 @@ function M.escpat(s) end
 --- Iterator over the parts of text between matches of pattern.
 function M.gsplit(text, pattern, plain) end
 
+--- Most of these return the text where it is of the class, else nil.
 function M.isalnum(s) end
 
 function M.isalpha(s) end
@@ -72,8 +73,10 @@ function M.startswith(s, prefix) end
 
 function M.stripmarkdown(s, opts) end
 
+--- The rest of a text after a prefix; no value where it begins otherwise.
 function M.stripprefix(s, prefix) end
 
+--- The beginning of a text before a suffix; no value where it ends otherwise.
 function M.stripsuffix(s, suffix) end
 
 function M.trim(s) end

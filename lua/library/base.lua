@@ -203,6 +203,10 @@ extendable(math, 'mathx')
 operator = setmetatable({}, {__index = function(t, key) return quietRequire('functional').operator[key] end})
 
 function wrap(original, generator) return generator(original) end
+
+-- Where the original keeps the functions of its interface. Native plugins, which would add to the other table, do not exist here.
+_S = setmetatable({}, {__index = function(_, key) return key == 'sim' and quietRequire('sim') or nil end})
+sim_plugin_namespaces = {}
 loadstring, unpack, quit, exit = load, unpack_, quitSimulator, quitSimulator
 
 -- Lua 5.3 took any number as a seed.

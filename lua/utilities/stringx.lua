@@ -68,13 +68,14 @@ end
 --- Escapes what is magic in a pattern.
 function M.escpat(s) return (s:gsub('[%^%$%(%)%%%.%[%]%*%+%-%?]', '%%%0')) end
 
-function M.isalnum(s) return s:find('^%w+$') ~= nil end
-function M.isalpha(s) return s:find('^%a+$') ~= nil end
-function M.isidentifier(s) return s:find('^[%a_][%w_]*$') ~= nil end
+-- Most of these return the text where it is of the class, else nil.
+function M.isalnum(s) return s:match('^%w+$') end
+function M.isalpha(s) return s:match('^%a+$') end
+function M.isidentifier(s) return s:match('^[%a_][%w_]*$') end
 function M.islower(s) return s:find('^%l+$') ~= nil end
-function M.isnumeric(s) return s:find('^%d+$') ~= nil end
-function M.isprintable(s) return s:find('^[%g ]*$') ~= nil end
-function M.isspace(s) return s:find('^%s+$') ~= nil end
+function M.isnumeric(s) return s:match('^%d+$') end
+function M.isprintable(s) return s:match('^[%g ]*$') end
+function M.isspace(s) return s:match('^%s+$') end
 function M.isupper(s) return s:find('^%u+$') ~= nil end
 function M.capitalize(s) return (s:gsub('^%l', string.upper)) end
 
@@ -124,8 +125,15 @@ function M.renderxml(node, order)
     return '<' .. tag .. xmlAttributes(node, order) .. '>' .. table.concat(parts) .. '</' .. tag .. '>'
 end
 
-function M.stripprefix(s, prefix) return M.startswith(s, prefix) and s:sub(#prefix + 1) or s end
-function M.stripsuffix(s, suffix) return M.endswith(s, suffix) and s:sub(1, #s - #suffix) or s end
+--- The rest of a text after a prefix; no value where it begins otherwise.
+function M.stripprefix(s, prefix)
+    if M.startswith(s, prefix) then return s:sub(#prefix + 1) end
+end
+
+--- The beginning of a text before a suffix; no value where it ends otherwise.
+function M.stripsuffix(s, suffix)
+    if M.endswith(s, suffix) then return s:sub(1, #s - #suffix) end
+end
 
 --- Shortens to maxLen, ending in three dots.
 function M.elide(s, maxLen, opts)

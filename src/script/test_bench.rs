@@ -26,20 +26,18 @@ pub struct ConsoleLine {
     /// `info`, `error`, ...; `print` for a print and what was written to standard output, `stderr` for what was written there.
     pub level: &'static str,
     pub text: String,
-    /// Of the log, but shown without author and level.
-    pub undecorated: bool,
 }
 
 impl ConsoleLine {
     fn printed(level: &'static str, text: &[u8], time: f64) -> Self {
         let text = String::from_utf8_lossy(text).into_owned();
-        Self { time, origin: None, level, text, undecorated: false }
+        Self { time, origin: None, level, text }
     }
 
     /// The line as it is shown.
     pub fn shown(&self) -> String {
         match &self.origin {
-            Some(origin) if !self.undecorated => format!("[{origin}:{}]   {}", self.level, self.text),
+            Some(origin) => format!("[{origin}:{}]   {}", self.level, self.text),
             _ => self.text.clone(),
         }
     }
@@ -182,7 +180,7 @@ impl TestBench {
         if lost > 0 {
             let plural = if lost == 1 { "" } else { "s" };
             let text = format!("{lost} more line{plural}: a test may write {CONSOLE_SIZE} bytes.");
-            lines.push(ConsoleLine { time, origin: None, level: "warning", text, undecorated: false });
+            lines.push(ConsoleLine { time, origin: None, level: "warning", text });
         }
         lines
     }
@@ -234,8 +232,7 @@ impl Console for Recorder {
                 time: line.time,
                 origin: Some(line.origin.to_owned()),
                 level: verbosity::word(line.level),
-                text: line.text.to_owned(),
-                undecorated: line.level & verbosity::UNDECORATED == verbosity::UNDECORATED,
+                text: line.plain_text().into_owned(),
             });
         }
     }

@@ -65,7 +65,7 @@ local function writeDataType(handle, tag, dataType)
     local info = readInfo(handle)
     if dataType == nil and info.blocks[tag] == nil then return end
     info.blocks[tag] = dataType and {type = dataType} or nil
-    sim.writeCustomStringData(handle, INFO_TAG, next(info.blocks) and sim.packTable(info) or '')
+    sim.writeCustomStringData(handle, INFO_TAG, sim.packTable(info))
 end
 
 --- Reads custom data and the kind it was written as.

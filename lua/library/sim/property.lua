@@ -14,6 +14,7 @@ local TYPES <const> = {
     [11] = {'floatarray', 'FloatArray'}, [12] = {'table', 'Table'}, [13] = {'intarray', 'IntArray'},
     [14] = {'vector2', 'Vector2'}, [15] = {'intarray2', 'IntArray2'}, [16] = {'long', 'Long'},
 }
+local getinfo <const> = debug.getinfo
 local NOT_READABLE <const>, LARGE_DATA <const>, NOT_WRITABLE <const> = 2, 0x100, 1
 
 local function getter(code) return TYPES[code] and sim['get' .. TYPES[code][2] .. 'Property'] end
@@ -51,6 +52,12 @@ function M.getPropertySetter(ptype, onlyName)
     return onlyName and 'set' .. TYPES[ptype][2] .. 'Property' or setter(ptype)
 end
 
+-- Raises an error at the line that called the function of sim; at a line here where that was called by a native function, as by pcall.
+local function refuse(message)
+    local caller = getinfo(3, 'l')
+    error(message, caller and caller.currentline > 0 and 3 or 2)
+end
+
 --- Value of a property of any type.
 -- @api any value = sim.getProperty(int target, string name, map options = {})
 -- @param target object, sim.handle_scene, sim.handle_app, ...
@@ -60,7 +67,7 @@ end
 function M.getProperty(target, name, options)
     local ptype = sim.getPropertyInfo(target, name)
     if ptype then return getter(ptype)(target, name, options) end
-    if not (options and options.noError) then error('no such property: ' .. tostring(name), 2) end
+    if not (options and options.noError) then refuse('no such property: ' .. tostring(name)) end
     return nil
 end
 
@@ -68,8 +75,7 @@ local function guessType(value)
     local kind = math.type(value) or type(value)
     if isbuffer(value) then return typeCode 'buffer' end
     local word = ({integer = 'int', float = 'float', string = 'string', boolean = 'bool', table = 'table'})[kind]
-    if not word then error('unsupported property type: ' .. type(value), 3) end
-    return typeCode(word)
+    return word and typeCode(word)
 end
 
 --- Sets a property of any type.
@@ -81,11 +87,11 @@ end
 function M.setProperty(target, name, value, ptype)
     if name:find('^customData%.') then
         if type(ptype) == 'string' then ptype = typeCode(ptype) end
-        return setter(ptype or guessType(value))(target, name, value)
+        local kind = ptype or guessType(value) or refuse('unsupported property type: ' .. type(value))
+        return setter(kind)(target, name, value)
     end
-    if ptype ~= nil then error('cannot specify type for static properties', 2) end
-    local known = sim.getPropertyInfo(target, name)
-    if not known then error('no such property: ' .. name, 2) end
+    if ptype ~= nil then refuse('cannot specify type for static properties') end
+    local known = sim.getPropertyInfo(target, name) or refuse('no such property: ' .. name)
     setter(known)(target, name, value)
 end
 

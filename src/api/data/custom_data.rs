@@ -85,14 +85,15 @@ fn write_app_storage(cx: &mut Cx, tag: &str, bytes: Option<Vec<u8>>) {
 ///
 /// @param objectHandle object, sim.handle_scene, sim.handle_app or sim.handle_appstorage
 /// @param tagName its name
-/// @return data nil if there is none
+/// @return data nil if there is none, or no such object
 #[api("sim.readCustomStringData")]
 fn read_custom_string_data(cx: &Cx, object_handle: Number, tag_name: String) -> Result<Data> {
     let read = |values: &CustomData| match values.get(&tag_name) {
         Some(Data::Buffer(bytes)) => Some(bytes.clone()),
         _ => None,
     };
-    let bytes = match owner(cx, object_handle.0)? {
+    let Ok(owner) = owner(cx, object_handle.0) else { return Ok(Data::Nil) };
+    let bytes = match owner {
         Owner::Scene(target) => cx.named_values(&target, Namespace::CustomData, read)?,
         Owner::App => read(&cx.app().raw_data),
         Owner::AppStorage => cx.stored_block(Section::Tags, &tag_name),

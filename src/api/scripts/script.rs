@@ -96,11 +96,10 @@ fn get_script(cx: &Cx, script_type: i64, #[default(Data::Nil)] script_name: Data
 
 /// Calls a function of another script (or of this one, by sim.handle_self).
 ///
-/// The first two arguments may come in either order. `function@name` calls a function of the script of type `scriptHandle` that
-/// belongs to the object of that path, or of the add-on of that name.
+/// The first two arguments may come in either order.
 ///
 /// @param functionName name of a global function; dots walk through tables
-/// @param scriptHandle the script, or a type (sim.scripttype_*) together with a name
+/// @param scriptHandle the script
 /// @return ... what the function returned
 #[api("sim.callScriptFunction")]
 fn call_script_function(cx: &mut Cx, function_name: Callee, script_handle: Callee, arguments: Rest) -> Result<Results> {
@@ -109,13 +108,9 @@ fn call_script_function(cx: &mut Cx, function_name: Callee, script_handle: Calle
         (Data::Text(_) | Data::Buffer(_), _) => return Err(ApiError::NotA { position: 2, expected: "integer" }),
         _ => return Err(ApiError::NotA { position: 1, expected: "string/buffer" }),
     };
-    let name = String::from_utf8_lossy(&name).into_owned();
-    let (function, place) = match name.split_once('@') {
-        Some((function, place)) => (function, Some(place)),
-        None => (name.as_str(), None),
-    };
-    let script = if raw == special::SELF { script_of(cx, raw)? } else { cx.script_for_call(raw, place)? };
-    let mut results = cx.call_function(&script, function, &arguments.0)?;
+    let function = String::from_utf8_lossy(&name);
+    let script = script_of(cx, raw)?;
+    let mut results = cx.call_function(&script, &function, &arguments.0)?;
     if results.is_empty() {
         results.push(Data::Nil);
     }

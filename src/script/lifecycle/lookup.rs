@@ -31,15 +31,6 @@ impl Sim {
         found.ok_or(ApiError::NoSuchScript)
     }
 
-    /// The script that a function name of the form `function@name` means, by type and name.
-    pub(crate) fn script_for_call(self: &Rc<Self>, raw: i64, name: Option<&str>) -> ApiResult<Rc<Script>> {
-        let id = match name {
-            Some(name) => self.script_by_name(ScriptType::from_number(raw).ok_or(ApiError::NoSuchScript)?, name)?,
-            None => raw,
-        };
-        self.script(id).ok_or(ApiError::NoSuchScript)
-    }
-
     fn add_on(&self, name: &str) -> Option<Rc<Script>> {
         let mut add_ons = self.scripts.all_detached().into_iter().filter(|s| s.script_type == ScriptType::AddOn);
         add_ons.find(|script| script.detached.borrow().name.trim_end_matches("@addOnScript") == name)

@@ -7,8 +7,9 @@ use crate::script::calls::callback::SysCall;
 use crate::script::lua::{LuaError, Stack};
 use crate::script::sim::Sim;
 
-/// What such a text asks for. It is looked for in the text as in the original, so that a comment is enough.
-const SIGN: &[u8] = b"sim.syscb_init";
+/// What such a text names: the call it runs for, and the first of the calls. They are looked for in the text as in the original, so that a
+/// comment is enough.
+const SIGNS: [&[u8]; 2] = [b"sim_call_type", b"sim.syscb_init"];
 
 /// The calls there were.
 const CALLS: &[SysCall] = &[
@@ -29,7 +30,7 @@ const CALLS: &[SysCall] = &[
 
 /// Whether a text is of that kind.
 pub(in crate::script) fn are_expected_by(code: &[u8]) -> bool {
-    contains(code, SIGN) && !contains(code, SysCall::Init.name().as_bytes())
+    SIGNS.iter().all(|sign| contains(code, sign)) && !contains(code, SysCall::Init.name().as_bytes())
 }
 
 fn contains(code: &[u8], part: &[u8]) -> bool {
@@ -57,6 +58,7 @@ mod tests {
     fn texts_that_ask_for_the_call() {
         assert!(are_expected_by(b"if (sim_call_type==sim.syscb_init) then end"));
         assert!(!are_expected_by(b"if (sim_call_type==sim.syscb_actuation) then end"));
-        assert!(!are_expected_by(b"function sysCall_init() print(sim.syscb_init) end"));
+        assert!(!are_expected_by(b"if sim_call_type==sim.syscb_init then end function sysCall_init() end"));
+        assert!(!are_expected_by(b"function sysCall_msg(m) print(m.data.callType == sim.syscb_init) end"));
     }
 }

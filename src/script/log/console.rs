@@ -1,6 +1,11 @@
 //! Where prints and log lines of a simulator go.
 
+use std::borrow::Cow;
+
 use super::verbosity;
+
+/// Ends a text that is HTML.
+const HTML_MARK: &str = "@html";
 
 /// One line of the log.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,13 +22,26 @@ pub struct LogLine<'a> {
 }
 
 impl LogLine<'_> {
-    /// The line as it is shown.
+    /// The line as a terminal shows it. `sim.verbosity_undecorated` is for status bars: terminals show the author all the same.
     pub fn decorated(&self) -> String {
-        if self.level & verbosity::UNDECORATED == verbosity::UNDECORATED {
-            return self.text.to_owned();
-        }
-        format!("[{}:{}]   {}", self.origin, verbosity::word(self.level), self.text)
+        format!("[{}:{}]   {}", self.origin, verbosity::word(self.level), self.plain_text())
     }
+
+    /// The text; where it is marked as HTML, by `@html` at its end, without mark and tags.
+    pub fn plain_text(&self) -> Cow<'_, str> {
+        self.text.strip_suffix(HTML_MARK).map_or(Cow::Borrowed(self.text), |html| Cow::Owned(without_tags(html)))
+    }
+}
+
+fn without_tags(html: &str) -> String {
+    let mut text = String::with_capacity(html.len());
+    let mut rest = html;
+    while let Some((before, tag)) = rest.split_once('<') {
+        let Some((_, after)) = tag.split_once('>') else { break };
+        text.push_str(before);
+        rest = after;
+    }
+    text + rest
 }
 
 /// Where a script writes with Lua's `io`.
@@ -53,4 +71,22 @@ impl Console for Silent {
     fn print(&mut self, _: &[u8], _: f64) {}
 
     fn log(&mut self, _: &LogLine<'_>) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plain(text: &str) -> String {
+        LogLine { origin: "a", level: verbosity::SCRIPT_INFOS, text, time: 0.0, chatter: false }
+            .plain_text()
+            .into_owned()
+    }
+
+    #[test]
+    fn tags_are_removed_from_html_only() {
+        assert_eq!(plain("<b>bold</b> text@html"), "bold text");
+        assert_eq!(plain("<b>bold</b> text"), "<b>bold</b> text");
+        assert_eq!(plain("1 < 2@html"), "1 < 2");
+    }
 }

@@ -45,7 +45,7 @@ pub fn moment(outcome: &Outcome) -> Option<String> {
 
 /// A line of the console with its time and its author.
 pub fn console_line(line: &ConsoleLine) -> String {
-    let origin = line.origin.as_deref().filter(|_| !line.undecorated);
+    let origin = line.origin.as_deref();
     let author = origin.map(|origin| format!("[{origin}:{}] ", line.level)).unwrap_or_default();
     format!("{:.3} {author}{}", line.time, line.text)
 }
@@ -85,13 +85,12 @@ pub(super) mod sample {
         failed.excerpts = Vec::from_iter(Excerpt::of("a/x_test.lua", format!("one\n{HOSTILE}\n").as_bytes(), 2));
         failed.script = Some("/Robot/script".into());
         failed.console = vec![
-            ConsoleLine { time: 0.05, origin: None, level: "print", text: HOSTILE.into(), undecorated: false },
+            ConsoleLine { time: 0.05, origin: None, level: "print", text: HOSTILE.into() },
             ConsoleLine {
                 time: 0.1,
                 origin: Some("/Robot/script".into()),
                 level: "warning",
                 text: "two\nlines".into(),
-                undecorated: false,
             },
         ];
         let mut todo = outcome("a/x_test.lua", 4, "todo", Status::Pending, "not written yet");

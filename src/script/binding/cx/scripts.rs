@@ -29,14 +29,6 @@ impl Cx<'_> {
         self.sim.script_by_name(script_type, name)
     }
 
-    /// The script with that handle or, with a name, of that type.
-    ///
-    /// # Errors
-    /// When there is none.
-    pub(crate) fn script_for_call(&self, raw: i64, name: Option<&str>) -> ApiResult<Rc<Script>> {
-        self.sim.script_for_call(raw, name)
-    }
-
     /// Script calls in progress, over all states.
     pub(crate) fn call_depth(&self) -> usize {
         self.sim.scripts.depth()
