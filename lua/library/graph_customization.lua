@@ -1,31 +1,77 @@
 --[[
-What the customization script of a graph does: `require('graph_customization')`. While a simulation runs, each step is recorded, after what
-other scripts gave the graph's streams (`sim.setGraphStreamValue`); what an earlier run recorded is forgotten when the next begins. Graphs
-that are handled explicitly are left alone.
+What the customization script of a graph does: `graph = require('graph_customization')`. While a simulation runs, each step is recorded, after
+what other scripts gave the graph's streams (`sim.setGraphStreamValue`); what an earlier run recorded is forgotten when the next begins. The
+graph becomes one that is handled explicitly, so that no main script records it a second time.
 
-Opens no dialog and draws nothing: there is no display.
+A script may decide itself what is recorded and when: its own `sysCall_init` calls `graph.init()`, and it calls `graph.handle(time)` as it likes.
+
+Opens no dialog and draws nothing: there is no display. `updateCurves`, `clearCurves` and `prepareCurves`, which draw, do nothing.
 ]]
 
-local sim = package.loaded.sim or require 'sim'
+sim = package.loaded.sim or require 'sim' -- scripts find it as a global, as in the original
 local graph = {}
+
+local INFO_TAG <const> = 'ABC_GRAPH_INFO'
+local DEFAULT_INFO <const> = {bitCoded = 15, graphPos = 0, updateFreq = 2} -- what is shown, where and how often
 
 -- The script is an object below the graph; in scenes from before there were such, it belongs to the graph itself.
 local function owner()
     local object = sim.getObject('.')
     local isScript = sim.getObjectType(object) == sim.sceneobject_script
     object = isScript and sim.getObjectParent(object) or object
-    local records = object ~= -1 and sim.getObjectType(object) == sim.sceneobject_graph
-    return records and sim.getExplicitHandling(object) == 0 and object or nil
+    return object ~= -1 and sim.getObjectType(object) == sim.sceneobject_graph and object or nil
 end
 
-function sysCall_beforeSimulation()
-    local object = owner()
-    if object then sim.resetGraph(object) end
+--- Finds the graph, `graph.model`, and makes it one that is handled explicitly.
+function graph.init()
+    graph.model = owner()
+    if graph.model and sim.getExplicitHandling(graph.model) == 0 then sim.setExplicitHandling(graph.model, 1) end
 end
 
+--- Records the values of the streams.
+-- @param recordingTime seconds; the end of the present step if left out
+function graph.handle(recordingTime)
+    local time = recordingTime or sim.getSimulationTime() + sim.getSimulationTimeStep()
+    if graph.model then sim.handleGraph(graph.model, time) end
+end
+
+--- Forgets what was recorded.
+function graph.reset()
+    if graph.model then sim.resetGraph(graph.model) end
+end
+
+--- Settings of the display: bitCoded, graphPos, updateFreq.
+function graph.readInfo()
+    local packed = graph.model and sim.readCustomStringData(graph.model, INFO_TAG)
+    local info = packed and #packed > 0 and sim.unpackTable(packed) or {}
+    for key, value in pairs(DEFAULT_INFO) do
+        if info[key] == nil then info[key] = value end
+    end
+    return info
+end
+
+--- Stores settings of the display with the graph.
+function graph.writeInfo(info)
+    if graph.model then sim.writeCustomStringData(graph.model, INFO_TAG, sim.packTable(info)) end
+end
+
+function graph.updateCurves() end
+
+function graph.clearCurves() end
+
+function graph.prepareCurves() end
+
+function graph.cleanup() end
+
+function sysCall_init() graph.init() end
+
+function sysCall_beforeSimulation() graph.reset() end
+
+-- The last pass before the end is not recorded.
 function sysCall_sensing()
-    local object = owner()
-    if object then sim.handleGraph(object, sim.getSimulationTime() + sim.getSimulationTimeStep()) end
+    if sim.getSimulationState() ~= sim.simulation_advancing_lastbeforestop then graph.handle() end
 end
+
+function sysCall_cleanup() graph.cleanup() end
 
 return graph

@@ -6,7 +6,7 @@ Does not open the dialog of a path: there is no display.
 ]]
 
 local model = require 'swanilda.pathmodel'
-local sim = package.loaded.sim or require 'sim'
+sim = package.loaded.sim or require 'sim' -- scripts find it as a global, as in the original
 local path = {}
 
 -- The script is an object below the path; in scenes from before there were such, it belongs to the path itself.

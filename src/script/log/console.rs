@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     fn plain(text: &str) -> String {
-        LogLine { origin: "a", level: verbosity::SCRIPT_INFOS, text, time: 0.0, chatter: false }
+        LogLine { origin: "a", level: verbosity::SCRIPT_INFOS, text, time: 0.0, status: false }
             .plain_text()
             .into_owned()
     }
