@@ -134,7 +134,7 @@ impl Body {
         let (build, surface) = (plan.build, plan.surface);
         let mut body = Self { rigid, colliders: Vec::new(), build, surface, local, sweep: None, slept: false };
         body.insert_colliders(shape, world);
-        // rapier would only know the mass during the first step, the articulation needs it before.
+        // rapier would only know the mass during the first step, mechanisms need it before.
         if let Some(rigid) = world.bodies.get_mut(rigid) {
             rigid.recompute_mass_properties_from_colliders(&world.colliders);
         }

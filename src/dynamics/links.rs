@@ -1,12 +1,12 @@
 //! Joints, force sensors and welds as constraints between bodies.
 //!
-//! What holds them is the articulation, which solves all of them exactly. Those of bodies that touch something are rapier's impulse
+//! What holds them is the crate `articulation`, which solves all of them exactly. Those of bodies that touch something are rapier's impulse
 //! joints as well, so that contacts and links can answer each other within a sub-step; those that scripts hand to rapier are nothing
 //! else. rapier's multibodies would not do: they have no loops, no moving bases, and no reading of what a link or a motor bears.
 
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
 
+use articulation::{JointLoad, wrap_angle};
 use nalgebra::{Vector3, Vector6};
 use rapier3d_f64::prelude::{
     GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, RigidBodyHandle, SpringCoefficients,
@@ -15,7 +15,7 @@ use rapier3d_f64::prelude::{
 use super::bodies::Bodies;
 use super::convert::{from_pose, from_vector, is_finite, to_pose};
 use super::load::{Load, Rows};
-use super::motors::{Drive, Motion, Motor, wrap};
+use super::motors::{Drive, Motion, Motor};
 use super::plan::{LinkKind, LinkPlan};
 use super::world::World;
 use crate::scene::joint::Joint;
@@ -40,14 +40,14 @@ pub(super) struct Link {
     /// Position, turns counted, and its change over the last sub-step.
     pub motion: Motion,
     /// How far the joint turned in the last sub-step by the spins of its bodies, radians.
-    turned: f64,
+    pub turned: f64,
     /// No sub-step has run yet since the link was made.
     pub fresh: bool,
     pub drive: Option<Drive>,
     /// Lowest and highest position, if the joint has stops.
     pub stops: Option<[f64; 2]>,
-    /// What the articulation found: forces and torques of the rows on the second body, and the motor's share.
-    exact: (Vector6<f64>, f64),
+    /// The exact solution: what the link exerts in this sub-step.
+    solution: Option<JointLoad>,
     /// Whether rapier holds the link as well.
     shared: bool,
     /// Effort of the motor on the parent in each sub-step of this call.
@@ -104,7 +104,7 @@ pub(super) fn follow(
         if let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) {
             link.take_limits(joint, world);
             if link.fresh {
-                link.motion.position = joint.position + wrap(link.motion.position - joint.position);
+                link.motion.position = joint.position + wrap_angle(link.motion.position - joint.position);
             }
         }
         links.insert(handle, link);
@@ -130,13 +130,14 @@ impl Link {
             fresh: true,
             drive: None,
             stops: None,
-            exact: (Vector6::zeros(), 0.0),
+            solution: None,
             shared: true,
             efforts: Vec::new(),
             loads: Vec::new(),
             rows: None,
         };
-        link.motion.position = link.deviation(world).map_or(0.0, |relative| link.coordinate(&relative));
+        link.motion.position =
+            link.deviation(world).map_or(0.0, |relative| link.plan.kind.joint().coordinate(&relative));
         link
     }
 
@@ -183,12 +184,12 @@ impl Link {
         }
     }
 
-    /// Takes what the articulation found; rapier's motor gets what is left.
-    pub(super) fn take_exact(&mut self, rows: &Vector6<f64>, motor: f64, world: &mut World) {
-        self.exact = (*rows, motor);
+    /// Notes the exact solution; rapier's motor gets what is left.
+    pub(super) fn set_solution(&mut self, load: &JointLoad, world: &mut World) {
+        self.solution = Some(*load);
         let (Some(axis), Some(drive)) = (self.axis(), self.drive) else { return };
         if let Some(link) = world.joints.get_mut(self.joint, true) {
-            link.data.set_motor_max_force(axis, (drive.force - motor.abs()).max(0.0));
+            link.data.set_motor_max_force(axis, (drive.force - load.motor.abs()).max(0.0));
         }
     }
 
@@ -201,26 +202,6 @@ impl Link {
 
     fn end(&self, index: usize, world: &World) -> Option<Pose> {
         Some(from_pose(world.bodies.get(self.bodies[index])?.position()))
-    }
-
-    /// Angle about or distance along the axis.
-    fn coordinate(&self, relative: &Pose) -> f64 {
-        match self.plan.kind {
-            LinkKind::Revolute => wrap(2.0 * relative.rotation.k.atan2(relative.rotation.w)),
-            LinkKind::Prismatic => relative.translation.z,
-            _ => 0.0,
-        }
-    }
-
-    /// The coordinate, turns counted on from the last position.
-    pub(super) fn position_near(&self, relative: &Pose) -> f64 {
-        let now = self.coordinate(relative);
-        let before = self.motion.position;
-        if self.plan.kind != LinkKind::Revolute {
-            return now;
-        }
-        let near = before + wrap(now - before);
-        near + TAU * ((before + self.turned - near) / TAU).round()
     }
 
     /// Notes how far the sub-step just made turned the joint: a fast wheel makes more than half a turn in it.
@@ -242,18 +223,18 @@ impl Link {
     pub(super) fn after_step(&mut self, world: &World, step: f64) -> Option<Pose> {
         let relative = self.deviation(world).filter(is_finite)?;
         let before = self.motion.position;
-        let position = self.position_near(&relative);
+        let position = self.plan.kind.joint().continued_coordinate(&relative, before, self.turned);
         self.motion = Motion { position, velocity: (position - before) / step };
         self.fresh = false;
         let joint = world.joints.get(self.joint)?;
-        let (rows, force) = std::mem::take(&mut self.exact);
+        let solution = self.solution.take().unwrap_or(JointLoad { rows: Vector6::zeros(), motor: 0.0 });
         let axis = self.axis().filter(|_| self.shared && self.drive.is_some());
         let impulse = axis.map_or(0.0, |axis| joint.data.motors[axis as usize].impulse);
-        self.efforts.push(finite(impulse / step - force));
+        self.efforts.push(finite(impulse / step - solution.motor));
         if let Some(residual) = self.rows.take() {
             let impulses = if self.shared { joint.impulses } else { Default::default() };
             let (force, torque) = residual.load(&impulses, step);
-            let load = |of: [f64; 3], at: usize| [0, 1, 2].map(|i| finite(of[i] - rows[at + i]));
+            let load = |of: [f64; 3], at: usize| [0, 1, 2].map(|i| finite(of[i] - solution.rows[at + i]));
             self.loads.push((load(force, 0), load(torque, 3)));
         }
         Some(relative)
@@ -265,7 +246,7 @@ fn finite(reading: f64) -> f64 {
     if reading.is_finite() { reading } else { 0.0 }
 }
 
-/// rapier knows no screw: what ties its turns to its way, only the articulation holds.
+/// rapier knows no screw: what ties its turns to its way, only the exact solution holds.
 fn locked_axes(plan: &LinkPlan) -> JointAxesMask {
     let all = JointAxesMask::all();
     match plan.kind {

@@ -7,14 +7,13 @@
 //! takes notice at the next call.
 //!
 //! - `plan`: who takes part, decided over the scene alone; compared with what exists, so that only changes touch the engine.
-//! - `bodies`, `colliders`, `links`: plans made real; `articulation`: all links solved at once.
+//! - `bodies`, `colliders`, `links`: plans made real; `mechanisms`: linked bodies, solved by the crate `articulation`.
 //! - `contacts`: who may touch whom; `motors`: the control law.
 //! - `load`, `contact_log`: what is read back; `frozen`: bodies that could not go on.
 //!
 //! Free bodies that rest fall asleep, which costs nothing and changes nothing that can be read, until something wakes them. No state
 //! outlives the run: the same scene gives the same bytes.
 
-mod articulation;
 mod bodies;
 mod colliders;
 mod contact_log;
@@ -23,6 +22,7 @@ mod convert;
 mod frozen;
 mod links;
 mod load;
+mod mechanisms;
 mod motors;
 mod plan;
 mod report;
@@ -34,13 +34,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d_f64::math::Vector;
 
-use articulation::Articulation;
 use bodies::Bodies;
 use contact_log::{Contact, ContactLog};
 pub(crate) use contacts::{Judge, Verdict};
 use frozen::Frozen;
 use links::Links;
-
+use mechanisms::Mechanisms;
 use motors::Motion;
 use plan::Plan;
 pub(crate) use report::Trigger;
@@ -69,7 +68,7 @@ pub(crate) struct Dynamics {
     world: Option<World>,
     bodies: Bodies,
     links: Links,
-    articulation: Articulation,
+    mechanisms: Mechanisms,
     contacts: ContactLog,
     frozen: Frozen,
     /// Roots too far away to be simulated.
@@ -185,7 +184,7 @@ impl Dynamics {
         contacts::ask_about_all(world, self.asks);
         let_sleep(&self.bodies, &self.links, world, self.asks);
         self.contacts.forget_resting();
-        self.articulation.follow(&mut self.links, &scene.all_breadth_first(), &self.bodies, world);
+        self.mechanisms.rebuild(&mut self.links, &scene.all_breadth_first(), &self.bodies, world);
         // What was just written into the scene asks for no other plan.
         self.has_new_changes(scene);
     }
@@ -245,8 +244,8 @@ impl Dynamics {
         }
         let gravity = scene.settings().dynamics.gravity.map(f64::from);
         let gravity = if gravity.iter().all(|x| x.is_finite()) { gravity } else { [0.0; 3] };
-        if !self.articulation.is_empty() {
-            self.articulation.act(&mut self.links, &mut world, gravity, call.step);
+        if !self.mechanisms.is_empty() {
+            self.mechanisms.apply_forces(&mut self.links, &mut world, gravity, call.step);
         }
         let seen = attention.watched || pass == call.passes;
         Some(Pass { world, gravity: convert::to_vector(gravity), step: call.step, seen })

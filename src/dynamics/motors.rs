@@ -2,8 +2,7 @@
 //!
 //! Pure functions; values in rad or m, N m or N, seconds.
 
-use std::f64::consts::TAU;
-
+use articulation::wrap_angle;
 use motion::{ruckig, ruckig_plan};
 
 use crate::scene::joint::{Control, Joint};
@@ -134,16 +133,13 @@ fn push(force: f64) -> Drive {
 /// Target minus position; the shortest way for a cyclic joint.
 pub(super) fn position_error(joint: &Joint, position: f64) -> f64 {
     let error = joint.target_position - position;
-    if joint.cyclic { wrap(error) } else { error }
-}
-
-/// The same angle in [-pi, pi].
-pub(super) fn wrap(angle: f64) -> f64 {
-    angle - TAU * (angle / TAU).round()
+    if joint.cyclic { wrap_angle(error) } else { error }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
     use crate::scene::joint::{JointMode, JointType};
 

@@ -6,8 +6,8 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use geometry::MassProperties;
-use geometry::Mesh;
+use articulation::JointKind;
+use geometry::{MassProperties, Mesh};
 
 use super::frozen::Frozen;
 use crate::scene::joint::{Joint, JointMode, JointSolver, JointType};
@@ -116,6 +116,18 @@ pub(super) enum LinkKind {
     Spherical,
     Sensor,
     Weld,
+}
+
+impl LinkKind {
+    /// The joint that holds such a link.
+    pub(super) fn joint(self) -> JointKind {
+        match self {
+            Self::Revolute => JointKind::Revolute,
+            Self::Prismatic => JointKind::Prismatic,
+            Self::Spherical => JointKind::Spherical,
+            Self::Sensor | Self::Weld => JointKind::Fixed,
+        }
+    }
 }
 
 impl Plan {

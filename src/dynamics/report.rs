@@ -1,5 +1,6 @@
 //! The way back: what the scene learns after a pass and at the end of a call.
 
+use articulation::wrap_angle;
 use nalgebra::UnitQuaternion;
 use rapier3d_f64::prelude::RigidBody;
 
@@ -7,7 +8,6 @@ use super::bodies::Body;
 use super::convert::{from_pose, from_vector};
 use super::links::{Link, Links};
 use super::load::Load;
-use super::motors::wrap;
 use super::plan::LinkKind;
 use super::world::World;
 use super::{Dynamics, Pass};
@@ -43,7 +43,7 @@ impl Dynamics {
             return;
         }
         self.links.values_mut().for_each(|link| link.note_turn(&world, step));
-        self.articulation.settle(&self.links, &mut world, step);
+        self.mechanisms.correct_positions(&self.links, &mut world);
         for (&handle, link) in &mut self.links {
             if let Some(moving_side) = link.after_step(&world, step) {
                 report_link(scene, handle, link, moving_side);
@@ -179,7 +179,7 @@ fn report_link(scene: &mut Scene, handle: Handle, link: &Link, moving_side: Pose
 /// The position scripts read: a turn of cyclic joints, within the interval where limits are enforced.
 fn shown_position(joint: &Joint, kind: LinkKind, position: f64) -> f64 {
     match kind {
-        LinkKind::Revolute if joint.cyclic => wrap(position),
+        LinkKind::Revolute if joint.cyclic => wrap_angle(position),
         _ if joint.enforce_limits && !joint.cyclic => position.max(joint.min).min(joint.max()),
         _ => position,
     }

@@ -1,18 +1,18 @@
 //! Symmetric positive definite systems of 6 x 6 blocks, most of which are zero.
 //!
-//! Cholesky's factorisation block by block. In which blocks numbers appear is worked out once; for a tree eliminated from its tips
-//! no block appears that was not there, and the cost is proportional to the number of links.
+//! Cholesky's factorisation block by block (A. George and J. Liu, *Computer Solution of Large Sparse Positive Definite Systems*, 1981). The
+//! fill-in is found once, symbolically; a tree eliminated from its leaves has none, and the cost is proportional to the number of joints.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{SMatrix, SVector};
 
-pub(super) type Block = SMatrix<f64, 6, 6>;
-pub(super) type Segment = SVector<f64, 6>;
+pub(crate) type Block = SMatrix<f64, 6, 6>;
+pub(crate) type Segment = SVector<f64, 6>;
 
 /// Where the blocks are: the lower triangle by columns.
 #[derive(Default)]
-pub(super) struct Pattern {
+pub(crate) struct Pattern {
     /// For every column: rows below the diagonal, rising, with the place of their block.
     columns: Vec<Vec<(usize, usize)>>,
     /// For every column: target, left and right block of `target -= left * right^T`; a diagonal is counted from the end of the others.
@@ -27,8 +27,8 @@ enum Target {
 }
 
 impl Pattern {
-    /// A pattern of `size` columns in which `pairs` of them meet; the order of the columns is the order of elimination.
-    pub(super) fn new(size: usize, pairs: impl IntoIterator<Item = (usize, usize)>) -> Self {
+    /// A pattern of `size` columns in which `pairs` of them are coupled; the order of the columns is the order of elimination.
+    pub(crate) fn new(size: usize, pairs: impl IntoIterator<Item = (usize, usize)>) -> Self {
         let mut below = vec![BTreeSet::new(); size];
         for (a, b) in pairs.into_iter().filter(|(a, b)| a != b) {
             below[a.min(b)].insert(a.max(b));
@@ -71,14 +71,14 @@ impl Pattern {
 
 /// A matrix of a pattern, or its factor.
 #[derive(Default)]
-pub(super) struct Matrix {
+pub(crate) struct Matrix {
     pub diagonal: Vec<Block>,
     pub below: Vec<Block>,
 }
 
 impl Matrix {
     /// Zero everywhere.
-    pub(super) fn clear(&mut self, pattern: &Pattern) {
+    pub(crate) fn clear(&mut self, pattern: &Pattern) {
         self.diagonal.clear();
         self.diagonal.resize(pattern.columns.len(), Block::zeros());
         self.below.clear();
@@ -86,7 +86,7 @@ impl Matrix {
     }
 
     /// Adds to the block in `row` and `column`, and to its mirror image.
-    pub(super) fn add(&mut self, pattern: &Pattern, row: usize, column: usize, block: &Block) {
+    pub(crate) fn add(&mut self, pattern: &Pattern, row: usize, column: usize, block: &Block) {
         if row == column {
             self.diagonal[row] += block;
         } else if let Some(place) = pattern.place(row.max(column), row.min(column)) {
@@ -95,7 +95,7 @@ impl Matrix {
     }
 
     /// Replaces the matrix by its lower Cholesky factor; false when it is not positive definite.
-    pub(super) fn factorize(&mut self, pattern: &Pattern) -> bool {
+    pub(crate) fn factorize(&mut self, pattern: &Pattern) -> bool {
         for column in 0..pattern.columns.len() {
             let Some(factor) = self.diagonal[column].cholesky() else { return false };
             let factor = factor.unpack();
@@ -116,8 +116,8 @@ impl Matrix {
         true
     }
 
-    /// Solves the system whose factor this is; `x` is the right side first, the solution then.
-    pub(super) fn solve(&self, pattern: &Pattern, x: &mut [Segment]) {
+    /// Solves the system whose factor this is; `x` is the right-hand side first, the solution then.
+    pub(crate) fn solve(&self, pattern: &Pattern, x: &mut [Segment]) {
         for column in 0..pattern.columns.len() {
             self.diagonal[column].solve_lower_triangular_unchecked_mut(&mut x[column]);
             for &(row, place) in &pattern.columns[column] {
@@ -158,7 +158,7 @@ mod tests {
         for (a, b) in PAIRS {
             let (row, column) = (a.max(b), a.min(b));
             let block = Block::from_fn(|i, j| entry(i + row, j + column));
-            matrix.below[pattern.place(row, column).expect("the two meet")] = block;
+            matrix.below[pattern.place(row, column).expect("the two are coupled")] = block;
             dense.view_mut((row * 6, column * 6), (6, 6)).copy_from(&block);
             dense.view_mut((column * 6, row * 6), (6, 6)).copy_from(&block.transpose());
         }

@@ -1,155 +1,268 @@
-//! A link as six rows of the system: three along and three about the axes of its base.
+//! A joint as six rows of the system: three along and three about the axes of its base.
 
+use std::f64::consts::TAU;
+
+use geometry::Pose;
 use nalgebra::{Matrix6, Vector3};
 
-use super::axis::{Axis, Motor};
-use super::block_cholesky::Segment;
-use super::mover::Mover;
-use super::spatial;
-use crate::dynamics::links::Link;
-use crate::dynamics::plan::LinkKind;
-use crate::scene::Handle;
+use crate::block_cholesky::Segment;
+use crate::free_axis::{FreeAxis, MotorState};
+use crate::linked_body::LinkedBody;
+use crate::spatial;
 
-/// A link in the system.
-pub(super) struct Node {
-    pub link: Handle,
-    pub ends: [usize; 2],
-    /// How the velocities of the two bodies move the link's rows.
-    pub jacobians: [Matrix6<f64>; 2],
-    /// Where the forces of the link act.
-    pub point: Vector3<f64>,
-    pub locked: [bool; 6],
-    pub axis: Option<Axis>,
-    pub impulse: Segment,
-    /// The rows that act, and what they make of the answers of the bodies; other rows are zero.
-    pub acting: [Matrix6<f64>; 2],
-    pub weighted: [Matrix6<f64>; 2],
+/// The degrees of freedom a joint leaves; its axis is the z of its base.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointKind {
+    Revolute,
+    Prismatic,
+    Spherical,
+    Fixed,
 }
 
-impl Node {
-    pub(super) fn new(link: Handle, kind: LinkKind, ends: [usize; 2]) -> Self {
-        let none = [Matrix6::zeros(); 2];
-        let (locked, axis) = (locked(kind), Axis::of(kind));
-        let (point, impulse) = (Vector3::zeros(), Segment::zeros());
-        Self { link, ends, jacobians: none, point, locked, axis, impulse, acting: none, weighted: none }
+/// What does not change about a joint while it is simulated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointProperties {
+    pub kind: JointKind,
+    /// Indices of the body that carries the base and of the one that carries the tip.
+    pub bodies: [usize; 2],
+    /// Base of the joint in the frame of the first body.
+    pub base: Pose,
+    /// Moving side of the joint in the frame of the second body. Where all coordinates are zero it coincides with the base.
+    pub tip: Pose,
+    /// Metres along the axis per radian about it: a screw; 0 for a plain revolute joint.
+    pub pitch: f64,
+}
+
+/// What a joint is to do in a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointState {
+    /// Coordinate along the free axis, whole turns included (rad or m).
+    pub position: f64,
+    pub velocity: f64,
+    pub motor: Option<Motor>,
+    /// Lowest and highest position.
+    pub limits: Option<[f64; 2]>,
+}
+
+/// A motor: it reaches `velocity` (rad/s or m/s) with at most `max_force` (N m or N).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motor {
+    pub velocity: f64,
+    pub max_force: f64,
+}
+
+/// Forces a joint exerts in a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointLoad {
+    /// Forces (N), then torques (N m), on the second body along the axes of the base.
+    pub rows: Segment,
+    /// The part of it that is the motor's, along the free axis.
+    pub motor: f64,
+}
+
+impl JointKind {
+    /// The rows a joint locks: linear, then angular.
+    fn locked_rows(self) -> [bool; 6] {
+        match self {
+            Self::Revolute => [true, true, true, true, true, false],
+            Self::Prismatic => [true, true, false, true, true, true],
+            Self::Spherical => [true, true, true, false, false, false],
+            Self::Fixed => [true; 6],
+        }
     }
 
-    /// Reads where the link is.
-    pub(super) fn place(&mut self, link: &Link, movers: &[Mover]) {
-        let [first, second] = self.ends.map(|end| &movers[end]);
-        let axes = (first.pose.rotation * link.plan.base.rotation).to_rotation_matrix();
-        let point = (second.pose * link.plan.tip).translation.vector;
+    /// The coordinate along the free axis of a joint whose tip lies at `tip_in_base`: radians within half a turn, or metres.
+    pub fn coordinate(self, tip_in_base: &Pose) -> f64 {
+        match self {
+            Self::Revolute => wrap_angle(2.0 * tip_in_base.rotation.k.atan2(tip_in_base.rotation.w)),
+            Self::Prismatic => tip_in_base.translation.z,
+            Self::Spherical | Self::Fixed => 0.0,
+        }
+    }
+
+    /// The coordinate with whole turns counted on from `before`, the joint having turned by about `turned` radians since.
+    pub fn continued_coordinate(self, tip_in_base: &Pose, before: f64, turned: f64) -> f64 {
+        let now = self.coordinate(tip_in_base);
+        if self != Self::Revolute {
+            return now;
+        }
+        let near = before + wrap_angle(now - before);
+        near + TAU * ((before + turned - near) / TAU).round()
+    }
+}
+
+/// The same angle in [-pi, pi].
+pub fn wrap_angle(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
+}
+
+/// A joint in the system.
+pub(crate) struct Joint {
+    pub properties: JointProperties,
+    pub state: JointState,
+    /// How the velocities of the two bodies move the rows of the joint.
+    pub jacobians: [Matrix6<f64>; 2],
+    /// Where the forces of the joint act, world.
+    pub point: Vector3<f64>,
+    locked: [bool; 6],
+    pub axis: Option<FreeAxis>,
+    pub impulse: Segment,
+    /// The Jacobians of the active rows; other rows are zero.
+    pub active: [Matrix6<f64>; 2],
+    /// The same times the inverse masses of the bodies: the halves of the inverse effective mass.
+    pub active_inverse_mass: [Matrix6<f64>; 2],
+}
+
+impl Joint {
+    pub(crate) fn new(properties: JointProperties) -> Self {
+        let none = [Matrix6::zeros(); 2];
+        Self {
+            properties,
+            state: JointState { position: 0.0, velocity: 0.0, motor: None, limits: None },
+            jacobians: none,
+            point: Vector3::zeros(),
+            locked: properties.kind.locked_rows(),
+            axis: FreeAxis::of(properties.kind),
+            impulse: Segment::zeros(),
+            active: none,
+            active_inverse_mass: none,
+        }
+    }
+
+    /// The body that carries the base, or the tip.
+    pub(crate) fn body(&self, side: usize) -> usize {
+        self.properties.bodies[side]
+    }
+
+    /// Computes the Jacobians for where the bodies are.
+    pub(crate) fn update_jacobians(&mut self, bodies: &[LinkedBody]) {
+        let JointProperties { base, tip, pitch, .. } = &self.properties;
+        let [first, second] = self.properties.bodies.map(|body| &bodies[body]);
+        let axes = (first.pose.rotation * base.rotation).to_rotation_matrix();
+        let point = (second.pose * tip).translation.vector;
         self.point = point;
         for row in 0..3 {
             let direction = axes.matrix().column(row).into_owned();
-            for (side, (mover, sign)) in [(first, -1.0), (second, 1.0)].into_iter().enumerate() {
-                let lever = point - mover.com;
+            for (side, (body, sign)) in [(first, -1.0), (second, 1.0)].into_iter().enumerate() {
+                let lever = point - body.com;
                 let along = spatial(direction, lever.cross(&direction)) * sign;
                 self.jacobians[side].set_row(row, &along.transpose());
                 self.jacobians[side].set_row(row + 3, &spatial(Vector3::zeros(), direction * sign).transpose());
             }
         }
-        for jacobian in self.jacobians.iter_mut().filter(|_| link.plan.pitch != 0.0) {
-            let screwed = jacobian.row(2) - jacobian.row(5) * link.plan.pitch;
+        for jacobian in self.jacobians.iter_mut().filter(|_| *pitch != 0.0) {
+            let screwed = jacobian.row(2) - jacobian.row(5) * *pitch;
             jacobian.set_row(2, &screwed);
         }
     }
 
     /// Velocity along a row.
-    fn velocity(&self, row: usize, movers: &[Mover]) -> f64 {
-        (0..2).map(|side| (self.jacobians[side].row(row) * movers[self.ends[side]].velocity)[0]).sum()
+    fn row_velocity(&self, row: usize, bodies: &[LinkedBody]) -> f64 {
+        (0..2).map(|side| (self.jacobians[side].row(row) * bodies[self.body(side)].velocity)[0]).sum()
     }
 
-    /// How far the moving side is from where the rows that act want it: metres and radians.
-    pub(super) fn gap(&self, link: &Link, movers: &[Mover]) -> Segment {
-        let [base, tip] =
-            [(0, &link.plan.base), (1, &link.plan.tip)].map(|(side, frame)| movers[self.ends[side]].pose * frame);
+    /// By how much the locked rows are violated: metres and radians. `turned`: how far the joint turned in this step.
+    pub(crate) fn position_error(&self, bodies: &[LinkedBody], turned: f64) -> Segment {
+        let JointProperties { kind, base, tip, pitch, .. } = &self.properties;
+        let [base, tip] = [(0, base), (1, tip)].map(|(side, frame)| bodies[self.body(side)].pose * frame);
         let apart = base.inverse() * tip;
-        let turn = match link.plan.kind {
+        let angular = match kind {
             // Where the axis of the tip points.
-            LinkKind::Revolute => {
+            JointKind::Revolute => {
                 let axis = apart.rotation * Vector3::z();
                 Vector3::new(-axis.y, axis.x, 0.0)
             }
             _ => apart.rotation.scaled_axis(),
         };
-        let mut gap = spatial(apart.translation.vector, turn);
-        if link.plan.pitch != 0.0 {
-            gap[2] -= link.plan.pitch * link.position_near(&apart);
+        let mut error = spatial(apart.translation.vector, angular);
+        if *pitch != 0.0 {
+            error[2] -= pitch * kind.continued_coordinate(&apart, self.state.position, turned);
         }
         for row in (0..6).filter(|&row| !self.locked[row]) {
-            gap[row] = 0.0;
+            error[row] = 0.0;
         }
-        gap
+        error
     }
 
-    /// Makes the rows that act ready.
-    pub(super) fn weigh(&mut self, movers: &[Mover]) {
+    /// Computes what the active rows add to the inverse effective mass of the system.
+    pub(crate) fn update_effective_mass(&mut self, bodies: &[LinkedBody]) {
         for side in 0..2 {
             let mut rows = self.jacobians[side];
-            for row in (0..6).filter(|&row| !self.acts(row)) {
+            for row in (0..6).filter(|&row| !self.is_active(row)) {
                 rows.row_mut(row).fill(0.0);
             }
-            self.acting[side] = rows;
-            self.weighted[side] = rows * movers[self.ends[side]].response;
+            self.active[side] = rows;
+            self.active_inverse_mass[side] = rows * bodies[self.body(side)].inverse_mass_matrix;
         }
     }
 
-    pub(super) fn acts(&self, row: usize) -> bool {
+    fn is_active(&self, row: usize) -> bool {
         match &self.axis {
-            Some(axis) if axis.row == row => axis.acts(),
+            Some(axis) if axis.row == row => axis.is_active(),
             _ => self.locked[row],
         }
     }
 
-    /// What the velocities of the acting rows lack.
-    pub(super) fn lacking(&self, movers: &[Mover]) -> Segment {
-        Segment::from_fn(|row, _| match (self.acts(row), &self.axis) {
+    /// The change of velocity that the active rows require.
+    pub(crate) fn right_hand_side(&self, bodies: &[LinkedBody]) -> Segment {
+        Segment::from_fn(|row, _| match (self.is_active(row), &self.axis) {
             (false, _) => 0.0,
-            (true, Some(axis)) if axis.row == row => axis.wanted() - self.velocity(row, movers),
-            (true, _) => -self.velocity(row, movers),
+            (true, Some(axis)) if axis.row == row => axis.target_velocity() - self.row_velocity(row, bodies),
+            (true, _) => -self.row_velocity(row, bodies),
         })
     }
 
-    /// The impulse of a motor that gives all it has.
-    pub(super) fn spent(&self) -> Segment {
+    /// The impulse of a saturated motor.
+    pub(crate) fn saturated_impulse(&self) -> Segment {
         let mut impulse = Segment::zeros();
-        if let Some(Axis { row, motor: Motor::Spent(all), .. }) = self.axis {
+        if let Some(FreeAxis { row, motor: MotorState::Saturated(all), .. }) = self.axis {
             impulse[row] = all;
         }
         impulse
     }
 
-    pub(super) fn motor_impulse(&self) -> f64 {
+    fn motor_impulse(&self) -> f64 {
         match self.axis {
-            Some(Axis { motor: Motor::Spent(all), .. }) => all,
-            Some(Axis { motor: Motor::Holds, row, .. }) => self.impulse[row],
+            Some(FreeAxis { motor: MotorState::Saturated(all), .. }) => all,
+            Some(FreeAxis { motor: MotorState::Tracking, row, .. }) => self.impulse[row],
             _ => 0.0,
         }
     }
 
-    pub(super) fn push(&self, movers: &mut [Mover], impulse: &Segment) {
+    /// All impulses of the rows.
+    pub(crate) fn total_impulse(&self) -> Segment {
+        self.impulse + self.saturated_impulse()
+    }
+
+    pub(crate) fn load(&self, step: f64) -> JointLoad {
+        JointLoad { rows: self.total_impulse() / step, motor: self.motor_impulse() / step }
+    }
+
+    /// Changes the velocities of the bodies by an impulse along the rows.
+    pub(crate) fn apply_impulse(&self, bodies: &mut [LinkedBody], impulse: &Segment) {
         for side in 0..2 {
-            let mover = &mut movers[self.ends[side]];
-            mover.velocity += mover.response * (self.jacobians[side].transpose() * impulse);
+            let body = &mut bodies[self.body(side)];
+            body.velocity += body.inverse_mass_matrix * (self.jacobians[side].transpose() * impulse);
         }
     }
 
-    /// Looks whether motor and stop do what they can and may; true when the system must be solved again.
-    pub(super) fn correct(&mut self, link: &Link, movers: &[Mover], step: f64) -> bool {
+    /// Lets motor and limit change sides where the solution violates their bounds; true when the system must be solved again.
+    pub(crate) fn update_active_set(&mut self, bodies: &[LinkedBody], step: f64) -> bool {
         let Some(mut axis) = self.axis else { return false };
-        let changed = axis.correct(link, self.velocity(axis.row, movers), self.impulse[axis.row], step);
+        let velocity = self.row_velocity(axis.row, bodies);
+        let changed = axis.update_active_set(&self.state, velocity, self.impulse[axis.row], step);
         self.axis = Some(axis);
         changed
     }
-}
 
-/// The rows a link locks: linear, then angular.
-fn locked(kind: LinkKind) -> [bool; 6] {
-    match kind {
-        LinkKind::Revolute => [true, true, true, true, true, false],
-        LinkKind::Prismatic => [true, true, false, true, true, true],
-        LinkKind::Spherical => [true, true, true, false, false, false],
-        LinkKind::Sensor | LinkKind::Weld => [true; 6],
+    /// Whether the joint holds a point of one body to a point of the other.
+    pub(crate) fn holds_point(&self) -> bool {
+        self.locked[..3].iter().all(|&locked| locked)
+    }
+
+    /// The axes its bodies may turn about against each other, world.
+    pub(crate) fn free_rotation_axes(&self) -> impl Iterator<Item = Vector3<f64>> {
+        let axis = |row: usize| self.jacobians[1].row(row).fixed_columns::<3>(3).transpose();
+        (3..6).filter(|&row| !self.is_active(row)).map(axis)
     }
 }

@@ -1,182 +1,133 @@
-//! Links that hang together by bodies that move: one system, with a row of blocks for each link.
+//! Bodies linked by joints, solved together: one system, with a row of blocks for each joint.
 //!
-//! A motor that cannot reach its velocity gives its full force, a stop only pushes: which of them act is found by trying.
-
-use std::collections::{BTreeMap, BTreeSet};
+//! A motor that cannot reach its velocity exerts its largest force, a limit only pushes: which of them are active is found by iteration
+//! over active sets.
 
 use nalgebra::{Vector3, Vector6};
 
-use super::block_cholesky::{Matrix, Pattern, Segment};
-use super::mover::Mover;
-use super::node::Node;
-use super::spatial;
-use crate::dynamics::bodies::Bodies;
-use crate::dynamics::links::Links;
-use crate::dynamics::plan::LinkPlan;
-use crate::dynamics::world::World;
-use crate::scene::Handle;
-use crate::scene::joint::JointSolver;
+use crate::block_cholesky::{Matrix, Pattern, Segment};
+use crate::joint::{Joint, JointLoad, JointProperties, JointState};
+use crate::linked_body::{BodyProperties, BodyState, LinkedBody};
+use crate::spatial;
 
-/// How often the set of acting motors and stops may be corrected in a sub-step.
-const ROUNDS: usize = 8;
+/// Largest number of solutions, with other active sets, in a step.
+const ITERATIONS: usize = 8;
 /// Compliance of the rows as a fraction of their own response: makes systems with redundant rows, such as flat loops, solvable.
 const COMPLIANCE: f64 = 1e-9;
-/// Sweeps of rapier's solver over linked bodies that touch something, on top of the usual ones: what a contact changes has to find its
-/// way along the chain.
-const SHARED_SWEEPS: usize = 48;
 
-/// Links that hang together, and their bodies.
-#[derive(Default)]
-pub(super) struct Chain {
-    pub movers: Vec<Mover>,
-    /// Index of the mover of a shape.
-    places: BTreeMap<Handle, usize>,
-    pub nodes: Vec<Node>,
-    meetings: Vec<Meeting>,
-    pub pattern: Pattern,
-    pub matrix: Matrix,
-    /// Whether a joint asks for rapier's joints, and whether there is a screw, which rapier does not know.
-    asks_rapier: bool,
-    has_screw: bool,
+/// Bodies linked by joints, with what the solver keeps from step to step.
+///
+/// A step is [`begin`](Self::begin), [`add_impulse`](Self::add_impulse) for every contact, [`solve`](Self::solve);
+/// [`body_loads`](Self::body_loads) are then applied to the bodies by an engine, and after its step
+/// [`correct_positions`](Self::correct_positions) closes what gaps the integration left.
+pub struct Mechanism {
+    pub(crate) bodies: Vec<LinkedBody>,
+    pub(crate) joints: Vec<Joint>,
+    couplings: Vec<Coupling>,
+    pub(crate) pattern: Pattern,
+    pub(crate) matrix: Matrix,
+    /// Length of the step, seconds.
+    pub(crate) step: f64,
 }
 
-/// Two links, or one with itself, at a body that moves: each by index and side.
-struct Meeting {
+/// Two joints, or one with itself, at a body that moves: each by index and side. The block of the system that they share.
+struct Coupling {
     row: (usize, usize),
     column: (usize, usize),
 }
 
-impl Chain {
-    /// Adds a link; those added first are eliminated first.
-    pub(super) fn add(&mut self, link: Handle, plan: &LinkPlan, bodies: &Bodies) {
-        self.asks_rapier |= plan.solver == JointSolver::Impulse;
-        self.has_screw |= plan.pitch != 0.0;
-        if let (Some(first), Some(second)) = (self.mover(plan.first, bodies), self.mover(plan.second, bodies)) {
-            self.nodes.push(Node::new(link, plan.kind, [first, second]));
+impl Mechanism {
+    /// Lays out the system. Joints are eliminated in their order: with those at the tips of a tree first, there is no fill-in.
+    ///
+    /// # Panics
+    /// When a joint refers to a body that is not there.
+    pub fn new(bodies: Vec<BodyProperties>, joints: Vec<JointProperties>) -> Self {
+        assert!(
+            joints.iter().flat_map(|joint| joint.bodies).all(|body| body < bodies.len()),
+            "joints need their bodies"
+        );
+        let bodies: Vec<LinkedBody> = bodies.into_iter().map(LinkedBody::new).collect();
+        let joints: Vec<Joint> = joints.into_iter().map(Joint::new).collect();
+        let couplings = couplings(&bodies, &joints);
+        let pattern = Pattern::new(joints.len(), couplings.iter().map(|coupling| (coupling.row.0, coupling.column.0)));
+        Self { bodies, joints, couplings, pattern, matrix: Matrix::default(), step: 0.0 }
+    }
+
+    /// Whether joints form loops. A tree has as many joints as bodies that move, at most.
+    pub fn has_loops(&self) -> bool {
+        self.joints.len() > self.bodies.iter().filter(|body| body.is_dynamic()).count()
+    }
+
+    /// Begins a step of `step` seconds: where bodies and joints are, and what acts on them. `gravity` in m/s2, world axes. Bodies and joints
+    /// are in the order of [`Mechanism::new`].
+    pub fn begin(&mut self, bodies: &[BodyState], joints: &[JointState], gravity: [f64; 3], step: f64) {
+        self.step = step;
+        for (body, state) in self.bodies.iter_mut().zip(bodies) {
+            body.set_pose(state.motion.pose);
+            body.predict(state, gravity.into(), step);
+        }
+        for (joint, state) in self.joints.iter_mut().zip(joints) {
+            joint.state = *state;
+            joint.update_jacobians(&self.bodies);
+            joint.axis.iter_mut().for_each(|axis| axis.warm_start(state, step));
+        }
+        self.stabilize();
+    }
+
+    /// Adds an impulse (N s) at a point, world axes: a contact that is expected to act in this step.
+    pub fn add_impulse(&mut self, body: usize, impulse: [f64; 3], point: [f64; 3]) {
+        if let Some(body) = self.bodies.get_mut(body) {
+            let (impulse, lever) = (Vector3::from(impulse), Vector3::from(point) - body.com);
+            body.external_impulse += spatial(impulse, lever.cross(&impulse));
         }
     }
 
-    /// Whether the links are left to rapier alone.
-    pub(super) fn is_rapiers(&self) -> bool {
-        self.asks_rapier && !self.has_screw
-    }
-
-    fn mover(&mut self, shape: Handle, bodies: &Bodies) -> Option<usize> {
-        let body = bodies.get(shape)?;
-        Some(*self.places.entry(shape).or_insert_with(|| {
-            self.movers.push(Mover::new(shape, body));
-            self.movers.len() - 1
-        }))
-    }
-
-    /// Lays out the system for the links that were added.
-    pub(super) fn lay_out(&mut self) {
-        self.meetings = self.meetings();
-        let pairs = self.meetings.iter().map(|meeting| (meeting.row.0, meeting.column.0));
-        self.pattern = Pattern::new(self.nodes.len(), pairs);
-    }
-
-    fn meetings(&self) -> Vec<Meeting> {
-        let mut ends: Vec<Vec<(usize, usize)>> = vec![Vec::new(); self.movers.len()];
-        for (index, node) in self.nodes.iter().enumerate() {
-            for side in (0..2).filter(|&side| self.movers[node.ends[side]].moves()) {
-                ends[node.ends[side]].push((index, side));
-            }
-        }
-        let mut meetings = Vec::new();
-        for ends in ends {
-            for (i, &row) in ends.iter().enumerate() {
-                meetings.extend(ends[..=i].iter().map(|&column| Meeting { row, column }));
-            }
-        }
-        meetings
-    }
-
-    pub(super) fn leave_gyration_to_rapier(&self, on: bool, world: &mut World) {
-        self.moving().for_each(|mover| mover.leave_gyration_to_rapier(on, world));
-    }
-
-    fn moving(&self) -> impl Iterator<Item = &Mover> {
-        self.movers.iter().filter(|mover| mover.moves())
-    }
-
-    /// A tree has as many links as bodies at most.
-    pub(super) fn has_loops(&self) -> bool {
-        self.nodes.len() > self.moving().count()
-    }
-
-    pub(super) fn moving_shapes(&self) -> impl Iterator<Item = Handle> {
-        self.moving().map(|mover| mover.shape)
-    }
-
-    /// Whether one of these shapes is a body of the chain.
-    pub(super) fn touches(&self, near: &BTreeSet<Handle>) -> bool {
-        self.moving().any(|mover| near.contains(&mover.shape))
-    }
-
-    /// Lets rapier hold the links as well, or not: where nothing touches the chain there is nothing to add.
-    pub(super) fn share(&self, with_engine: bool, links: &mut Links, world: &mut World) {
-        let sweeps = if with_engine { SHARED_SWEEPS } else { 0 };
-        for mover in self.moving() {
-            if let Some(rigid) = world.bodies.get_mut(mover.rigid) {
-                rigid.set_additional_pgs_iterations(sweeps);
-            }
-        }
-        for node in &self.nodes {
-            if let Some(link) = links.get_mut(&node.link) {
-                link.share(with_engine, world);
-            }
-        }
-    }
-
-    /// Reads where bodies and links are, and what will push the bodies.
-    pub(super) fn begin(&mut self, links: &Links, world: &World, gravity: [f64; 3], step: f64) {
-        self.movers.iter_mut().for_each(|mover| mover.place(world));
-        for node in &mut self.nodes {
-            if let Some(link) = links.get(&node.link) {
-                node.place(link, &self.movers);
-                node.axis.iter_mut().for_each(|axis| axis.expect(link, step));
-            }
-        }
-        self.steady(step);
-        self.movers.iter_mut().for_each(|mover| mover.predict(world, gravity, step));
-    }
-
-    /// Adds an impulse on a body to what will push it.
-    pub(super) fn push(&mut self, shape: Handle, impulse: Vector3<f64>, point: Vector3<f64>) {
-        if let Some(&place) = self.places.get(&shape) {
-            let mover = &mut self.movers[place];
-            let lever = point - mover.com;
-            mover.push += spatial(impulse, lever.cross(&impulse));
-        }
-    }
-
-    /// Solves with the set of motors and stops that turns out to act; false when there is no solution.
-    pub(super) fn solve(&mut self, links: &Links, step: f64) -> bool {
-        for round in 0..ROUNDS {
+    /// Finds the impulses that satisfy all joints, motors and limits at once; false when there are none in finite numbers.
+    pub fn solve(&mut self) -> bool {
+        for iteration in 0..ITERATIONS {
             self.assemble();
             if !self.matrix.factorize(&self.pattern) {
                 return false;
             }
             self.find_impulses();
-            let mut changed = round + 1 < ROUNDS && self.steady_more(step);
-            for node in &mut self.nodes {
-                if let Some(link) = links.get(&node.link) {
-                    changed |= node.correct(link, &self.movers, step);
-                }
+            let mut changed = iteration + 1 < ITERATIONS && self.stabilize_again();
+            for joint in &mut self.joints {
+                changed |= joint.update_active_set(&self.bodies, self.step);
             }
             if !changed {
                 break;
             }
         }
-        self.nodes.iter().all(|node| node.impulse.iter().all(|impulse| impulse.is_finite()))
+        self.joints.iter().all(|joint| joint.impulse.iter().all(|impulse| impulse.is_finite()))
     }
 
-    pub(super) fn assemble(&mut self) {
+    /// Force and torque about the centre of mass (N, N m, world axes) that an engine is to apply to each body during the step, beside
+    /// gravity, external forces and contacts, but instead of the gyroscopic torque; None for bodies that no force moves.
+    pub fn body_loads(&self) -> Vec<Option<Vector6<f64>>> {
+        let mut impulses = vec![Vector6::zeros(); self.bodies.len()];
+        for joint in &self.joints {
+            let total = joint.total_impulse();
+            for side in 0..2 {
+                impulses[joint.body(side)] += joint.jacobians[side].transpose() * total;
+            }
+        }
+        let load =
+            |(body, impulse): (&LinkedBody, _)| body.is_dynamic().then(|| body.engine_impulse(&impulse) / self.step);
+        self.bodies.iter().zip(impulses).map(load).collect()
+    }
+
+    /// What the joints and their motors exert.
+    pub fn joint_loads(&self) -> impl Iterator<Item = JointLoad> {
+        self.joints.iter().map(|joint| joint.load(self.step))
+    }
+
+    /// Forms the inverse effective mass of the active rows.
+    pub(crate) fn assemble(&mut self) {
         self.matrix.clear(&self.pattern);
-        self.nodes.iter_mut().for_each(|node| node.weigh(&self.movers));
-        for Meeting { row, column } in &self.meetings {
-            let block = self.nodes[row.0].weighted[row.1] * self.nodes[column.0].acting[column.1].transpose();
+        self.joints.iter_mut().for_each(|joint| joint.update_effective_mass(&self.bodies));
+        for Coupling { row, column } in &self.couplings {
+            let block =
+                self.joints[row.0].active_inverse_mass[row.1] * self.joints[column.0].active[column.1].transpose();
             self.matrix.add(&self.pattern, row.0, column.0, &block);
         }
         for diagonal in &mut self.matrix.diagonal {
@@ -187,36 +138,124 @@ impl Chain {
         }
     }
 
-    /// Solves for the impulses and moves the bodies by them.
+    /// Solves for the impulses and changes the velocities by them.
     fn find_impulses(&mut self) {
-        for mover in &mut self.movers {
-            mover.velocity = mover.free + mover.response * mover.push;
+        self.bodies.iter_mut().for_each(LinkedBody::reset_velocity);
+        for joint in &self.joints {
+            joint.apply_impulse(&mut self.bodies, &joint.saturated_impulse());
         }
-        for node in &self.nodes {
-            node.push(&mut self.movers, &node.spent());
-        }
-        let mut impulses: Vec<Segment> = self.nodes.iter().map(|node| node.lacking(&self.movers)).collect();
+        let mut impulses: Vec<Segment> = self.joints.iter().map(|joint| joint.right_hand_side(&self.bodies)).collect();
         self.matrix.solve(&self.pattern, &mut impulses);
-        for (node, impulse) in self.nodes.iter_mut().zip(impulses) {
-            node.impulse = impulse;
-            node.push(&mut self.movers, &impulse);
+        for (joint, impulse) in self.joints.iter_mut().zip(impulses) {
+            joint.impulse = impulse;
+            joint.apply_impulse(&mut self.bodies, &impulse);
+        }
+    }
+}
+
+fn couplings(bodies: &[LinkedBody], joints: &[Joint]) -> Vec<Coupling> {
+    let mut at_body: Vec<Vec<(usize, usize)>> = vec![Vec::new(); bodies.len()];
+    for (index, joint) in joints.iter().enumerate() {
+        for side in (0..2).filter(|&side| bodies[joint.body(side)].is_dynamic()) {
+            at_body[joint.body(side)].push((index, side));
+        }
+    }
+    let mut couplings = Vec::new();
+    for ends in at_body {
+        for (i, &row) in ends.iter().enumerate() {
+            couplings.extend(ends[..=i].iter().map(|&column| Coupling { row, column }));
+        }
+    }
+    couplings
+}
+
+#[cfg(test)]
+mod tests {
+    use geometry::Pose;
+    use nalgebra::Matrix3;
+
+    use super::*;
+    use crate::{BodyMotion, JointKind, Motor};
+
+    const STEP: f64 = 0.005;
+    const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
+
+    /// A chain of rods along x, hinged about y one after the other, the first on a base that does not move.
+    fn chain(rods: usize) -> (Mechanism, Vec<BodyState>) {
+        let inertia = Matrix3::from_diagonal(&Vector3::new(1e-4, 0.02, 0.02));
+        let mut bodies = vec![BodyProperties::immovable(Vector3::zeros())];
+        bodies.extend((0..rods).map(|_| BodyProperties::dynamic(1.0, inertia, Vector3::zeros())));
+        let about_y = nalgebra::UnitQuaternion::from_scaled_axis(Vector3::x() * -std::f64::consts::FRAC_PI_2);
+        let at = |x: f64| Pose::from_parts(Vector3::new(x, 0.0, 0.0).into(), about_y);
+        let joint = |i: usize| JointProperties {
+            kind: JointKind::Revolute,
+            bodies: [i, i + 1],
+            base: at(if i == 0 { 0.0 } else { 0.25 }),
+            tip: at(-0.25),
+            pitch: 0.0,
+        };
+        let states = (0..=rods).map(|i| {
+            let x = if i == 0 { 0.0 } else { 0.5 * i as f64 - 0.25 };
+            at_rest(Pose::translation(x, 0.0, 0.0))
+        });
+        (Mechanism::new(bodies, (0..rods).rev().map(joint).collect()), states.collect())
+    }
+
+    fn at_rest(pose: Pose) -> BodyState {
+        BodyState {
+            motion: BodyMotion { pose, velocity: Vector6::zeros() },
+            force: Vector6::zeros(),
+            gyroscopic_velocity: Vector3::zeros(),
+            target: None,
         }
     }
 
-    /// Gives the bodies what was found as forces, and the links to be read.
-    pub(super) fn give(&self, links: &mut Links, world: &mut World, step: f64) {
-        let mut impulses = vec![Vector6::zeros(); self.movers.len()];
-        for node in &self.nodes {
-            let total = node.impulse + node.spent();
-            for side in 0..2 {
-                impulses[node.ends[side]] += node.jacobians[side].transpose() * total;
-            }
-            if let Some(link) = links.get_mut(&node.link) {
-                link.take_exact(&(total / step), node.motor_impulse() / step, world);
-            }
+    fn solved(rods: usize, motor: Option<Motor>) -> Mechanism {
+        let (mut mechanism, bodies) = chain(rods);
+        let joint = JointState { position: 0.0, velocity: 0.0, motor, limits: None };
+        mechanism.begin(&bodies, &vec![joint; rods], GRAVITY, STEP);
+        assert!(mechanism.solve());
+        mechanism
+    }
+
+    #[test]
+    fn a_locked_chain_bears_its_weight() {
+        for rods in [1, 2, 10] {
+            let hold = Motor { velocity: 0.0, max_force: 1e9 };
+            let mechanism = solved(rods, Some(hold));
+            // The joint at the base comes last.
+            let load = mechanism.joint_loads().last().expect("there are joints");
+            let weight = 9.81 * rods as f64;
+            let moment = weight * 0.25 * rods as f64;
+            assert!((load.rows.fixed_rows::<3>(0).norm() - weight).abs() < 1e-4 * weight, "{rods}");
+            assert!((load.motor.abs() - moment).abs() < 1e-4 * moment, "{rods}: {}", load.motor);
         }
-        for (mover, impulse) in self.movers.iter().zip(impulses).filter(|(mover, _)| mover.moves()) {
-            mover.give(&impulse, world, step);
-        }
+    }
+
+    #[test]
+    fn a_weak_motor_is_saturated() {
+        let mechanism = solved(1, Some(Motor { velocity: 0.0, max_force: 1.0 }));
+        assert_eq!(mechanism.joint_loads().map(|load| load.motor.abs()).collect::<Vec<_>>(), [1.0]);
+    }
+
+    #[test]
+    fn a_free_pendulum_accelerates_as_its_inertia_says() {
+        let mechanism = solved(1, None);
+        let expected = 9.81 * 0.25 / (0.02 + 0.25 * 0.25) * STEP;
+        assert!((mechanism.bodies[1].velocity[4] - expected).abs() < 1e-9);
+    }
+
+    #[test]
+    fn gaps_are_closed() {
+        let (mut mechanism, mut bodies) = chain(3);
+        let joint = JointState { position: 0.0, velocity: 0.0, motor: None, limits: None };
+        mechanism.begin(&bodies, &[joint; 3], GRAVITY, STEP);
+        assert!(mechanism.solve());
+        bodies[2].motion.pose.translation.vector.z += 1e-3;
+        let motions: Vec<BodyMotion> = bodies.iter().map(|body| body.motion).collect();
+        let corrected = mechanism.correct_positions(&motions, &[0.0; 3]);
+        assert!(corrected[0].is_none() && corrected[1..].iter().all(Option::is_some));
+        let errors = mechanism.joints.iter().map(|joint| joint.position_error(&mechanism.bodies, 0.0).amax());
+        assert!(errors.fold(0.0, f64::max) < 1e-9);
     }
 }

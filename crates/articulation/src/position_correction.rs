@@ -1,110 +1,140 @@
-//! After a sub-step: the bodies back where the links want them.
+//! After a step of the engine: the bodies back where the joints want them, in positions and velocities alike (SHAKE).
 
-use nalgebra::Vector6;
+use nalgebra::{Vector3, Vector6};
 
-use super::block_cholesky::Segment;
-use super::chain::Chain;
-use super::mover::{Mover, Place};
-use super::node::Node;
-use crate::dynamics::links::Links;
-use crate::dynamics::world::World;
+use crate::block_cholesky::Segment;
+use crate::linked_body::{BodyMotion, LinkedBody, Placement};
+use crate::mechanism::Mechanism;
 
-/// Gaps this small are none, metres and radians.
+/// Errors this small are none, metres and radians.
 const CLOSED: f64 = 1e-9;
-/// Gaps that should have been closed at once, metres and radians.
+/// Errors that should have been corrected at once, metres and radians.
 const WIDE: f64 = 1e-4;
-/// How often the bodies may be put back in a sub-step.
-const ROUNDS: usize = 8;
-/// A step that closes less than this part of the gaps was made with forces that lead nowhere.
+/// Largest number of corrections in a step.
+const ITERATIONS: usize = 8;
+/// A correction that removes less than this part of the error was made along directions that lead nowhere.
 const PROGRESS: f64 = 0.75;
-/// Where no forces close wide gaps, the motion is too fast for the step: bodies turn by no more than this in a sub-step then, radians,
-/// lest energy comes from nowhere.
+/// Where no correction removes wide errors, the motion is too fast for the step: bodies turn by no more than this in a step then (rad), lest
+/// the integration gains energy.
 const RESOLVED_TURN: f64 = 0.1;
 
-impl Chain {
-    /// Puts the bodies back where the links want them: integration leaves them off by the curvature of their ways. The velocities
-    /// learn of it, which makes the whole a SHAKE step and keeps the energy.
-    pub(super) fn settle(&mut self, links: &Links, world: &mut World, step: f64) {
-        let spins = self.far_spins(links, world, step);
-        for (mover, spin) in self.movers.iter_mut().zip(spins) {
-            let before = mover.pose.rotation;
-            mover.forget_links(world);
-            mover.place(world);
-            mover.shift = Vector6::zeros();
-            mover.turn_with_axis(spin, before, step);
+impl Mechanism {
+    /// Corrects the positions that the integration left off the joints by the curvature of their paths, and the velocities with them, which
+    /// makes the whole a SHAKE step and keeps the energy.
+    ///
+    /// `motions`: of all bodies after the step. `turned`: how far each joint turned in it (rad), known to half a turn. Returns where bodies
+    /// belong and how they move; None for those that are right.
+    pub fn correct_positions(&mut self, motions: &[BodyMotion], turned: &[f64]) -> Vec<Option<BodyMotion>> {
+        let spins = self.fast_spins(motions, self.step);
+        for ((body, motion), spin) in self.bodies.iter_mut().zip(motions).zip(spins) {
+            let before = body.pose.rotation;
+            body.set_pose(motion.pose);
+            body.correction = Vector6::zeros();
+            body.turn_with_axis(spin, before, self.step);
         }
-        let is_closed = self.close_gaps(links);
-        let most = if is_closed { f64::MAX } else { RESOLVED_TURN / step };
-        let learns = is_closed || !self.has_loops();
-        self.movers.iter().for_each(|mover| mover.tell(world, step, learns, most));
+        let is_closed = self.close_gaps(turned);
+        let fastest = if is_closed { f64::MAX } else { RESOLVED_TURN / self.step };
+        let corrects_velocity = is_closed || !self.has_loops();
+        let step = self.step;
+        let of_body =
+            |(body, motion): (&LinkedBody, _)| body.corrected_motion(motion, step, corrects_velocity, fastest);
+        self.bodies.iter().zip(motions).map(of_body).collect()
     }
 
-    /// Forces act along the links as they were. Where that leads nowhere, as near a position in which a loop can fold two ways, the bodies
-    /// are taken back and pushed along the links as they are. False when wide gaps remain.
-    fn close_gaps(&mut self, links: &Links) -> bool {
-        let mut pushes = self.gaps(links);
-        let mut wide = widest(&pushes);
+    /// Corrections act along the joints as they were. Where that leads nowhere, as near a position in which a loop can fold two ways, the bodies
+    /// are taken back and corrected along the joints as they are. False when wide errors remain.
+    fn close_gaps(&mut self, turned: &[f64]) -> bool {
+        let mut errors = self.position_errors(turned);
+        let mut largest = largest_error(&errors);
         let mut is_current = false;
-        let begin = (wide > WIDE && self.has_loops())
-            .then(|| (wide, self.movers.iter().map(Mover::place_now).collect::<Vec<Place>>()));
-        for _ in 0..ROUNDS {
-            if wide < CLOSED || !wide.is_finite() {
+        let begin = (largest > WIDE && self.has_loops()).then(|| (largest, self.placements()));
+        for _ in 0..ITERATIONS {
+            if largest < CLOSED || !largest.is_finite() {
                 break;
             }
-            let places: Vec<Place> = self.movers.iter().map(Mover::place_now).collect();
-            let gaps = pushes.clone();
-            self.matrix.solve(&self.pattern, &mut pushes);
-            self.close(&pushes);
-            pushes = self.gaps(links);
-            let left = widest(&pushes);
-            if left <= wide * (1.0 - PROGRESS) || is_current {
-                (wide, is_current) = (left, false);
+            let placements = self.placements();
+            let mut multipliers = errors.clone();
+            self.matrix.solve(&self.pattern, &mut multipliers);
+            self.displace(&multipliers);
+            let left = self.position_errors(turned);
+            let now = largest_error(&left);
+            if now <= largest * (1.0 - PROGRESS) || is_current {
+                (errors, largest, is_current) = (left, now, false);
                 continue;
             }
-            self.movers.iter_mut().zip(places).for_each(|(mover, place)| mover.take_back(place));
-            pushes = gaps;
-            if !self.renew(links) {
+            self.restore(placements);
+            if !self.update_system() {
                 break;
             }
             is_current = true;
         }
         // What cannot be closed at all, as a loop that is too short, stays open.
-        if let Some((_, places)) = begin.filter(|(before, _)| wide > before * (1.0 - PROGRESS)) {
-            self.movers.iter_mut().zip(places).for_each(|(mover, place)| mover.take_back(place));
+        if let Some((_, placements)) = begin.filter(|(before, _)| largest > before * (1.0 - PROGRESS)) {
+            self.restore(placements);
         }
-        wide <= WIDE
+        largest <= WIDE
     }
 
-    fn gaps(&self, links: &Links) -> Vec<Segment> {
-        let gap = |node: &Node| links.get(&node.link).map_or(Segment::zeros(), |link| node.gap(link, &self.movers));
-        self.nodes.iter().map(gap).collect()
+    fn placements(&self) -> Vec<Placement> {
+        self.bodies.iter().map(LinkedBody::placement).collect()
     }
 
-    /// The system for where the bodies are now.
-    fn renew(&mut self, links: &Links) -> bool {
-        for node in &mut self.nodes {
-            if let Some(link) = links.get(&node.link) {
-                node.place(link, &self.movers);
-            }
+    fn restore(&mut self, placements: Vec<Placement>) {
+        self.bodies.iter_mut().zip(placements).for_each(|(body, placement)| body.restore(placement));
+    }
+
+    fn position_errors(&self, turned: &[f64]) -> Vec<Segment> {
+        self.joints.iter().zip(turned).map(|(joint, turned)| joint.position_error(&self.bodies, *turned)).collect()
+    }
+
+    /// The system for where the bodies are now; false when it cannot be solved.
+    fn update_system(&mut self) -> bool {
+        for joint in &mut self.joints {
+            joint.update_jacobians(&self.bodies);
         }
         self.assemble();
         self.matrix.factorize(&self.pattern)
     }
 
-    /// Moves the bodies as pushes along the rows against the gaps would.
-    fn close(&mut self, pushes: &[Segment]) {
-        let mut shifts = vec![Vector6::zeros(); self.movers.len()];
-        for (node, push) in self.nodes.iter().zip(pushes) {
+    /// Moves the bodies as impulses along the rows against the errors would.
+    fn displace(&mut self, multipliers: &[Segment]) {
+        let mut impulses = vec![Vector6::zeros(); self.bodies.len()];
+        for (joint, multiplier) in self.joints.iter().zip(multipliers) {
             for side in 0..2 {
-                shifts[node.ends[side]] -= node.jacobians[side].transpose() * push;
+                impulses[joint.body(side)] -= joint.jacobians[side].transpose() * multiplier;
             }
         }
-        for (mover, push) in self.movers.iter_mut().zip(shifts).filter(|(mover, _)| mover.moves()) {
-            mover.shift(&(mover.response * push));
+        for (body, impulse) in self.bodies.iter_mut().zip(impulses).filter(|(body, _)| body.is_dynamic()) {
+            body.displace(&(body.inverse_mass_matrix * impulse));
         }
     }
 }
 
-fn widest(gaps: &[Segment]) -> f64 {
-    gaps.iter().map(|gap| gap.amax()).fold(0.0, f64::max)
+impl LinkedBody {
+    /// The motion with the correction, which changes the velocity where it shall; `fastest` bounds the angular velocity, rad/s.
+    fn corrected_motion(
+        &self,
+        motion: &BodyMotion,
+        step: f64,
+        corrects_velocity: bool,
+        fastest: f64,
+    ) -> Option<BodyMotion> {
+        if self.correction == Vector6::zeros() && self.rotor.is_none() {
+            return None;
+        }
+        let change = if corrects_velocity { self.correction } else { Vector6::zeros() };
+        let mut velocity = motion.velocity + change / step;
+        let mut angular = velocity.fixed_rows::<3>(3).into_owned();
+        angular += self.rotor.as_ref().map_or_else(Vector3::zeros, |rotor| rotor.velocity_change);
+        let speed = angular.norm_squared();
+        if speed > fastest * fastest {
+            angular = fastest * (angular / speed.sqrt());
+        }
+        velocity.fixed_rows_mut::<3>(3).copy_from(&angular);
+        Some(BodyMotion { pose: self.pose, velocity })
+    }
+}
+
+fn largest_error(errors: &[Segment]) -> f64 {
+    errors.iter().map(|error| error.amax()).fold(0.0, f64::max)
 }

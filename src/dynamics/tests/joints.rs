@@ -121,7 +121,7 @@ fn a_chain_of_which_a_joint_asks_for_it_is_left_to_rapier() {
     let tip = bench.ghost([0.3, 0.0, 1.0], true);
     bench.hang(tip, sensor);
     bench.run(40);
-    assert!(bench.dynamics.articulation.is_empty());
+    assert!(bench.dynamics.mechanisms.is_empty());
     near(bench.height(arm), 1.0, 1e-2);
     near(bench.joint(joint).force.expect("simulated"), 9.81 * (0.1 + 0.3), 0.05);
     let object = bench.scene.object(sensor).expect("exists");
@@ -134,7 +134,7 @@ fn a_chain_of_which_a_joint_asks_for_it_is_left_to_rapier() {
     });
     changed.expect("a joint");
     bench.run(20);
-    assert!(!bench.dynamics.articulation.is_empty());
+    assert!(!bench.dynamics.mechanisms.is_empty());
     near(bench.height(arm), 1.0, 1e-4);
 }
 
@@ -143,5 +143,5 @@ fn a_screw_keeps_its_chain_exact() {
     let mut bench = Bench::new();
     bench.arm(0.01, 0.1, |joint| (joint.solver, joint.screw_lead) = (JointSolver::Impulse, 0.01));
     bench.run(1);
-    assert!(!bench.dynamics.articulation.is_empty());
+    assert!(!bench.dynamics.mechanisms.is_empty());
 }
