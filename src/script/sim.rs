@@ -208,7 +208,7 @@ impl Sim {
         }
         // Listeners to events get the lines of scripts even where the console shows fewer.
         if verbosity::plain(level) <= self.log.verbosity().max(verbosity::SCRIPT_INFOS) {
-            self.push_log_event(origin, level, text);
+            self.events.push_log_event(origin, level, text);
         }
         self.log.show(&LogLine { origin, level, text, time: self.clock.time(), status });
     }

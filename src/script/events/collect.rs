@@ -24,15 +24,10 @@ impl Sim {
         if !self.events.listening.get() {
             return;
         }
-        self.collect_clock();
-        let Some(changes) = self.new_changes() else { return self.begin_anew() };
-        if changes.is_empty() {
-            return;
-        }
-        let mut guard = self.events.watch.borrow_mut();
-        let Some(watch) = guard.as_mut() else { return };
-        for change in changes {
-            self.collect(watch, change);
+        self.with_collector(|mut collector| collector.collect_clock());
+        let Some(changes) = self.new_changes() else { return self.restart_events() };
+        if !changes.is_empty() {
+            self.with_collector(|mut collector| changes.into_iter().for_each(|change| collector.collect(change)));
         }
     }
 
@@ -46,75 +41,19 @@ impl Sim {
         }
     }
 
-    fn collect(self: &Rc<Self>, watch: &mut Watch, change: Change) {
-        match change {
-            Change::Added(handle) => self.collect_added(watch, handle),
-            Change::Removed(handle, uid) => self.collect_removed(watch, handle, uid),
-            Change::Modified(handle, field) => self.collect_modified(watch, handle, field),
-            Change::Selection => self.collect_selection(watch),
-            Change::Settings => self.collect_settings(watch),
-            Change::Stored { holder, namespace, name } => self.collect_stored(holder, namespace, &name),
-        }
+    /// Collects what no journal records: changes of the application, of scripts that are no objects, of the states of scripts.
+    pub(super) fn collect_unrecorded_changes(self: &Rc<Self>) {
+        self.with_collector(|mut collector| collector.collect_unrecorded());
     }
 
-    fn push_event(&self, event: Event) {
-        self.events.queue.borrow_mut().push(event);
-    }
-
-    /// Tells the properties that a change of `field` can concern (None: all), as far as they are different.
-    fn collect_differences(self: &Rc<Self>, watched: &mut Watched, field: Option<Field>) {
-        let keys = watched.keys();
-        let indices = field.map_or(keys.all(), |field| keys.concerned(field));
-        let events = watched.differences(self, indices);
-        events.into_iter().for_each(|event| self.push_event(event));
-    }
-
-    /// Tells one property, if it is different.
-    fn collect_one(self: &Rc<Self>, watched: &mut Watched, name: &str) {
-        let index = watched.keys().index_of(name);
-        let events = watched.differences(self, index.as_slice());
-        events.into_iter().for_each(|event| self.push_event(event));
-    }
-
-    /// Time and state are no part of the scene, so that nobody notes their changes.
-    fn collect_clock(self: &Rc<Self>) {
-        let now = self.clock_values();
-        if self.events.clock.replace(now) == now {
-            return;
-        }
-        let mut guard = self.events.watch.borrow_mut();
-        let Some(watch) = guard.as_mut() else { return };
-        for name in CLOCK {
-            self.collect_one(&mut watch.scene, name);
+    fn with_collector(self: &Rc<Self>, work: impl FnOnce(Collector<'_>)) {
+        if let Some(watch) = self.events.watch.borrow_mut().as_mut() {
+            work(Collector { sim: self, watch });
         }
     }
 
     pub(super) fn clock_values(&self) -> (f64, u64, i64) {
         (self.clock.time(), self.clock.steps(), self.clock.state() as i64)
-    }
-
-    fn collect_settings(self: &Rc<Self>, watch: &mut Watch) {
-        self.collect_differences(&mut watch.scene, None);
-        let engine = self.scene.borrow().settings().dynamics.engine;
-        if std::mem::replace(&mut watch.engine, engine) == engine {
-            return;
-        }
-        let handles = self.scene.borrow().all_breadth_first();
-        for handle in handles {
-            if let Some(watched) = watch.objects.get_mut(&handle) {
-                self.collect_one(watched, "engineProperties");
-            }
-        }
-    }
-
-    fn collect_added(self: &Rc<Self>, watch: &mut Watch, handle: Handle) {
-        let Ok(mut watched) = self.scene.borrow().object(handle).map(|o| Watched::object(o, &watch.audience)) else {
-            return;
-        };
-        self.added(&mut watched).into_iter().for_each(|event| self.push_event(event));
-        watch.objects.insert(handle, watched);
-        self.collect_orders(watch, None);
-        self.push_lists();
     }
 
     /// The events that introduce an object: its own, then those of its meshes.
@@ -128,129 +67,6 @@ impl Sim {
             events.push(Event::new("objectAdded", mesh.source, mesh.describe(self)));
         }
         events
-    }
-
-    fn collect_removed(self: &Rc<Self>, watch: &mut Watch, handle: Handle, uid: Uid) {
-        // One that came and went unseen.
-        let Some(watched) = watch.objects.remove(&handle) else { return };
-        debug_assert_eq!(watched.source.uid, uid);
-        for gone in watched.meshes.iter().chain([&watched]) {
-            self.push_event(Event::new("objectRemoved", gone.source, Vec::new()));
-        }
-        self.collect_orders(watch, watched.parent);
-        self.push_lists();
-    }
-
-    fn collect_modified(self: &Rc<Self>, watch: &mut Watch, handle: Handle, field: Field) {
-        let Ok(parent) = self.scene.borrow().object(handle).map(crate::scene::Object::parent) else { return };
-        if field == Field::Parent {
-            self.collect_new_parent(watch, handle, parent);
-        }
-        if let Some(watched) = watch.objects.get_mut(&handle) {
-            self.collect_differences(watched, Some(field));
-            watched.meshes.iter_mut().for_each(|mesh| self.collect_differences(mesh, Some(field)));
-        }
-        match field {
-            Field::Geometry => self.collect_meshes(watch, handle),
-            Field::Texture => self.collect_textures(watch, handle),
-            _ => {}
-        }
-        if field == Field::Alias {
-            self.collect_orders(watch, parent);
-        }
-    }
-
-    /// A shape has another image on it.
-    fn collect_textures(self: &Rc<Self>, watch: &Watch, handle: Handle) {
-        let meshes = watch.objects.get(&handle).map_or(&[][..], |watched| &watched.meshes);
-        let events = meshes.iter().flat_map(|mesh| mesh.large(self, Field::Texture));
-        events.for_each(|event| self.push_event(event));
-    }
-
-    /// A shape has another geometry: meshes went, came, or look different.
-    fn collect_meshes(self: &Rc<Self>, watch: &mut Watch, handle: Handle) {
-        let Some(watched) = watch.objects.get_mut(&handle) else { return };
-        let Ok(now) = self.scene.borrow().object(handle).map(|o| Watched::meshes(o, &watch.audience)) else { return };
-        let before = std::mem::take(&mut watched.meshes);
-        let in_list = |list: &[Watched], uid| list.iter().any(|mesh| mesh.source.uid == uid);
-        for gone in before.iter().filter(|mesh| !in_list(&now, mesh.source.uid)) {
-            self.push_event(Event::new("objectRemoved", gone.source, Vec::new()));
-        }
-        watched.meshes = now;
-        for mesh in &mut watched.meshes {
-            if in_list(&before, mesh.source.uid) {
-                mesh.large(self, Field::Geometry).into_iter().for_each(|event| self.push_event(event));
-                mesh.refresh(self);
-            } else {
-                let entries = mesh.describe(self);
-                self.push_event(Event::new("objectAdded", mesh.source, entries));
-            }
-        }
-    }
-
-    /// What another parent means for the siblings and the lists of the scene; the object itself comes after them.
-    fn collect_new_parent(self: &Rc<Self>, watch: &mut Watch, handle: Handle, parent: Option<Handle>) {
-        let Some(watched) = watch.objects.get_mut(&handle) else { return };
-        let old = std::mem::replace(&mut watched.parent, parent);
-        // A new parent is not told as a new pose, whether the object stays in place or not.
-        if let Some(pose) = watched.keys().index_of("pose") {
-            watched.take_difference(self, pose);
-        }
-        self.collect_orders(watch, parent);
-        if old != parent {
-            self.collect_orders(watch, old);
-        }
-        self.push_event(Event::list("orphanHandles"));
-    }
-
-    /// The order among namesakes may have changed for all children of `parent`.
-    fn collect_orders(self: &Rc<Self>, watch: &mut Watch, parent: Option<Handle>) {
-        let orders = self.scene.borrow().child_orders(parent);
-        for (child, order) in orders {
-            if let Some(watched) = watch.objects.get_mut(&child)
-                && !watched.was_told("childOrder", &Data::Int(order.map_or(-1, |order| order as i64)))
-            {
-                self.collect_one(watched, "childOrder");
-            }
-        }
-    }
-
-    fn collect_selection(self: &Rc<Self>, watch: &mut Watch) {
-        let now = self.scene.borrow().selection().to_vec();
-        let before = std::mem::replace(&mut watch.selection, now.clone());
-        for handle in before.iter().chain(&now) {
-            if before.contains(handle) != now.contains(handle)
-                && let Some(watched) = watch.objects.get_mut(handle)
-            {
-                self.collect_one(watched, "selected");
-            }
-        }
-        self.push_event(Event::list("selectionHandles"));
-    }
-
-    /// Each write of custom data or a signal is told, none merged.
-    fn collect_stored(self: &Rc<Self>, holder: Holder, namespace: Namespace, name: &str) {
-        let (target, source) = match holder {
-            Holder::App => (Target::App, Source::APP),
-            Holder::Scene => (Target::Scene, Source::SCENE),
-            Holder::Object(handle) => {
-                let Ok(uid) = self.scene.borrow().object(handle).map(crate::scene::Object::uid) else { return };
-                (Target::Object(handle), Source::object(handle, uid))
-            }
-        };
-        let protocol = self.events.protocol.get();
-        let present = self.with_named_values(&target, namespace, |values| {
-            values.typed(name).map(|value| stored_entry(protocol, namespace, name, value))
-        });
-        let removed = || Entry { key: stored_key(namespace, name).into(), value: encode::null() };
-        let entry = present.ok().flatten().unwrap_or_else(removed);
-        self.push_event(Event::new("objectChanged", source, vec![entry]));
-    }
-
-    /// Objects came or went.
-    fn push_lists(&self) {
-        self.push_event(Event::list("objectHandles"));
-        self.push_event(Event::list("orphanHandles"));
     }
 
     /// Fills in the lists of the scene as they are now, and names them as the protocol does.
@@ -280,56 +96,239 @@ impl Sim {
         Entry { key: key.into(), value }
     }
 
-    /// What nobody notes when it changes: the application, scripts that are no objects, states of scripts.
-    pub(super) fn collect_quiet_changes(self: &Rc<Self>) {
-        let mut guard = self.events.watch.borrow_mut();
-        let Some(watch) = guard.as_mut() else { return };
-        self.collect_differences(&mut watch.app, None);
-        self.collect_named_params(watch);
-        self.collect_detached_scripts(watch);
-        let scripts: Vec<Handle> = self.scripts.all().iter().filter_map(|script| script.object).collect();
-        for handle in scripts {
-            if let Some(watched) = watch.objects.get_mut(&handle) {
-                self.collect_one(watched, "scriptState");
-            }
-        }
-    }
-
-    fn collect_named_params(&self, watch: &mut Watch) {
-        let now = self.app.borrow().named_params.clone();
-        let before = std::mem::replace(&mut watch.named_params, now);
-        let names = before.keys().chain(watch.named_params.keys().filter(|name| !before.contains_key(*name)));
-        for name in names.filter(|name| before.get(*name) != watch.named_params.get(*name)) {
-            let entry = self.named_param_entry(name, watch.named_params.get(name));
-            self.push_event(Event::changed(Source::APP, vec![entry]));
-        }
-    }
-
     pub(super) fn named_param_entry(&self, name: &str, value: Option<&Vec<u8>>) -> Entry {
         let mut bytes = Vec::new();
         let data = value.map_or(Data::Nil, |text| Data::Text(text.clone()));
         encode::value(self.events.protocol.get(), ValueType::String, &data, &mut bytes);
         Entry { key: format!("namedParam.{name}").into(), value: bytes }
     }
+}
 
-    fn collect_detached_scripts(self: &Rc<Self>, watch: &mut Watch) {
-        let present: BTreeMap<i64, _> = self.scripts.all_detached().into_iter().map(|s| (s.id, s)).collect();
-        let gone: Vec<i64> = watch.scripts.keys().copied().filter(|id| !present.contains_key(id)).collect();
+/// Turns changes into events, with what listeners know of each target.
+struct Collector<'a> {
+    sim: &'a Rc<Sim>,
+    watch: &'a mut Watch,
+}
+
+impl Collector<'_> {
+    fn collect(&mut self, change: Change) {
+        match change {
+            Change::Added(handle) => self.collect_added(handle),
+            Change::Removed(handle, uid) => self.collect_removed(handle, uid),
+            Change::Modified(handle, field) => self.collect_modified(handle, field),
+            Change::Selection => self.collect_selection(),
+            Change::Settings => self.collect_settings(),
+            Change::Stored { holder, namespace, name } => self.collect_stored(holder, namespace, &name),
+        }
+    }
+
+    /// Time and state are no part of the scene, so that nobody notes their changes.
+    fn collect_clock(&mut self) {
+        let now = self.sim.clock_values();
+        if self.sim.events.clock.replace(now) == now {
+            return;
+        }
+        for name in CLOCK {
+            self.watch.scene.push_difference(self.sim, name);
+        }
+    }
+
+    fn collect_settings(&mut self) {
+        self.watch.scene.push_differences(self.sim, None);
+        let engine = self.sim.scene.borrow().settings().dynamics.engine;
+        if std::mem::replace(&mut self.watch.engine, engine) == engine {
+            return;
+        }
+        let handles = self.sim.scene.borrow().all_breadth_first();
+        for handle in handles {
+            if let Some(watched) = self.watch.objects.get_mut(&handle) {
+                watched.push_difference(self.sim, "engineProperties");
+            }
+        }
+    }
+
+    fn collect_added(&mut self, handle: Handle) {
+        let Ok(mut watched) = self.sim.scene.borrow().object(handle).map(|o| Watched::object(o, &self.watch.listeners))
+        else {
+            return;
+        };
+        self.sim.added(&mut watched).into_iter().for_each(|event| self.push(event));
+        self.watch.objects.insert(handle, watched);
+        self.collect_orders(None);
+        self.push_lists();
+    }
+
+    fn collect_removed(&mut self, handle: Handle, uid: Uid) {
+        // One that came and went unseen.
+        let Some(watched) = self.watch.objects.remove(&handle) else { return };
+        debug_assert_eq!(watched.source.uid, uid);
+        for gone in watched.meshes.iter().chain([&watched]) {
+            self.push(Event::new("objectRemoved", gone.source, Vec::new()));
+        }
+        self.collect_orders(watched.parent);
+        self.push_lists();
+    }
+
+    fn collect_modified(&mut self, handle: Handle, field: Field) {
+        let Ok(parent) = self.sim.scene.borrow().object(handle).map(crate::scene::Object::parent) else { return };
+        if field == Field::Parent {
+            self.collect_new_parent(handle, parent);
+        }
+        if let Some(watched) = self.watch.objects.get_mut(&handle) {
+            watched.push_differences(self.sim, Some(field));
+            watched.meshes.iter_mut().for_each(|mesh| mesh.push_differences(self.sim, Some(field)));
+        }
+        match field {
+            Field::Geometry => self.collect_meshes(handle),
+            Field::Texture => self.collect_textures(handle),
+            _ => {}
+        }
+        if field == Field::Alias {
+            self.collect_orders(parent);
+        }
+    }
+
+    /// A shape has another image on it.
+    fn collect_textures(&self, handle: Handle) {
+        let meshes = self.watch.objects.get(&handle).map_or(&[][..], |watched| &watched.meshes);
+        let events = meshes.iter().flat_map(|mesh| mesh.large(self.sim, Field::Texture));
+        events.for_each(|event| self.push(event));
+    }
+
+    /// A shape has another geometry: meshes went, came, or look different.
+    fn collect_meshes(&mut self, handle: Handle) {
+        let (sim, events) = (self.sim, &self.sim.events);
+        let Some(watched) = self.watch.objects.get_mut(&handle) else { return };
+        let Ok(now) = sim.scene.borrow().object(handle).map(|o| Watched::meshes(o, &self.watch.listeners)) else {
+            return;
+        };
+        let before = std::mem::take(&mut watched.meshes);
+        let in_list = |list: &[Watched], uid| list.iter().any(|mesh| mesh.source.uid == uid);
+        for gone in before.iter().filter(|mesh| !in_list(&now, mesh.source.uid)) {
+            events.push(Event::new("objectRemoved", gone.source, Vec::new()));
+        }
+        watched.meshes = now;
+        for mesh in &mut watched.meshes {
+            if in_list(&before, mesh.source.uid) {
+                mesh.large(sim, Field::Geometry).into_iter().for_each(|event| events.push(event));
+                mesh.refresh(sim);
+            } else {
+                let entries = mesh.describe(sim);
+                events.push(Event::new("objectAdded", mesh.source, entries));
+            }
+        }
+    }
+
+    /// What another parent means for the siblings and the lists of the scene; the object itself comes after them.
+    fn collect_new_parent(&mut self, handle: Handle, parent: Option<Handle>) {
+        let Some(watched) = self.watch.objects.get_mut(&handle) else { return };
+        let old = std::mem::replace(&mut watched.parent, parent);
+        // A new parent is not told as a new pose, whether the object stays in place or not.
+        if let Some(pose) = watched.keys().index_of("pose") {
+            watched.take_difference(self.sim, pose);
+        }
+        self.collect_orders(parent);
+        if old != parent {
+            self.collect_orders(old);
+        }
+        self.push(Event::list("orphanHandles"));
+    }
+
+    /// The order among namesakes may have changed for all children of `parent`.
+    fn collect_orders(&mut self, parent: Option<Handle>) {
+        let orders = self.sim.scene.borrow().child_orders(parent);
+        for (child, order) in orders {
+            if let Some(watched) = self.watch.objects.get_mut(&child)
+                && !watched.was_sent("childOrder", &Data::Int(order.map_or(-1, |order| order as i64)))
+            {
+                watched.push_difference(self.sim, "childOrder");
+            }
+        }
+    }
+
+    fn collect_selection(&mut self) {
+        let now = self.sim.scene.borrow().selection().to_vec();
+        let before = std::mem::replace(&mut self.watch.selection, now.clone());
+        for handle in before.iter().chain(&now) {
+            if before.contains(handle) != now.contains(handle)
+                && let Some(watched) = self.watch.objects.get_mut(handle)
+            {
+                watched.push_difference(self.sim, "selected");
+            }
+        }
+        self.push(Event::list("selectionHandles"));
+    }
+
+    /// Each write of custom data or a signal is told, none merged.
+    fn collect_stored(&mut self, holder: Holder, namespace: Namespace, name: &str) {
+        let (target, source) = match holder {
+            Holder::App => (Target::App, Source::APP),
+            Holder::Scene => (Target::Scene, Source::SCENE),
+            Holder::Object(handle) => {
+                let Ok(uid) = self.sim.scene.borrow().object(handle).map(crate::scene::Object::uid) else { return };
+                (Target::Object(handle), Source::object(handle, uid))
+            }
+        };
+        let protocol = self.sim.events.protocol.get();
+        let present = self.sim.with_named_values(&target, namespace, |values| {
+            values.typed(name).map(|value| stored_entry(protocol, namespace, name, value))
+        });
+        let removed = || Entry { key: stored_key(namespace, name).into(), value: encode::null() };
+        let entry = present.ok().flatten().unwrap_or_else(removed);
+        self.push(Event::new("objectChanged", source, vec![entry]));
+    }
+
+    /// Objects came or went.
+    fn push_lists(&self) {
+        self.push(Event::list("objectHandles"));
+        self.push(Event::list("orphanHandles"));
+    }
+
+    /// What nobody notes when it changes: the application, scripts that are no objects, states of scripts.
+    fn collect_unrecorded(&mut self) {
+        self.watch.app.push_differences(self.sim, None);
+        self.collect_named_params();
+        self.collect_detached_scripts();
+        let scripts: Vec<Handle> = self.sim.scripts.all().iter().filter_map(|script| script.object).collect();
+        for handle in scripts {
+            if let Some(watched) = self.watch.objects.get_mut(&handle) {
+                watched.push_difference(self.sim, "scriptState");
+            }
+        }
+    }
+
+    fn collect_named_params(&mut self) {
+        let now = self.sim.app.borrow().named_params.clone();
+        let before = std::mem::replace(&mut self.watch.named_params, now);
+        let names = before.keys().chain(self.watch.named_params.keys().filter(|name| !before.contains_key(*name)));
+        for name in names.filter(|name| before.get(*name) != self.watch.named_params.get(*name)) {
+            let entry = self.sim.named_param_entry(name, self.watch.named_params.get(name));
+            self.push(Event::changed(Source::APP, vec![entry]));
+        }
+    }
+
+    fn collect_detached_scripts(&mut self) {
+        let present: BTreeMap<i64, _> = self.sim.scripts.all_detached().into_iter().map(|s| (s.id, s)).collect();
+        let gone: Vec<i64> = self.watch.scripts.keys().copied().filter(|id| !present.contains_key(id)).collect();
         for id in gone {
-            if let Some(watched) = watch.scripts.remove(&id) {
-                self.push_event(Event::new("objectRemoved", watched.source, Vec::new()));
+            if let Some(watched) = self.watch.scripts.remove(&id) {
+                self.push(Event::new("objectRemoved", watched.source, Vec::new()));
             }
         }
         for (id, script) in present {
-            match watch.scripts.get_mut(&id) {
-                Some(watched) => self.collect_differences(watched, None),
+            match self.watch.scripts.get_mut(&id) {
+                Some(watched) => watched.push_differences(self.sim, None),
                 None => {
-                    let mut watched = Watched::script(&script, &watch.audience);
-                    self.push_event(self.detached_added(&mut watched));
-                    watch.scripts.insert(id, watched);
+                    let mut watched = Watched::script(&script, &self.watch.listeners);
+                    self.push(self.sim.detached_added(&mut watched));
+                    self.watch.scripts.insert(id, watched);
                 }
             }
         }
+    }
+
+    fn push(&self, event: Event) {
+        self.sim.events.push(event);
     }
 }
 

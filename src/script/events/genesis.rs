@@ -6,26 +6,26 @@ use super::collect::LISTS;
 use super::data_entry;
 use super::protocol::Protocol;
 use super::queue::{Class, Event, Source};
-use super::watch::{Audience, Watched};
+use super::watch::{Listeners, Watched};
 use crate::scene::{Data, Namespace};
 use crate::script::sim::Sim;
 
 impl Sim {
     /// Application, scripts outside of the scene, the scene, its objects parents first, the main script.
     pub(super) fn genesis(self: &Rc<Self>) -> Vec<Event> {
-        let nobody = self.nobody();
+        let no_listeners = self.events.no_listeners();
         let (main, outside): (Vec<_>, Vec<_>) = self
             .scripts
             .all_detached()
             .iter()
-            .map(|script| Watched::script(script, &nobody))
+            .map(|script| Watched::script(script, &no_listeners))
             .partition(|watched| watched.source.class == Class::Main);
         let mut events = vec![Event::new("genesisBegin", Source::NONE, Vec::new())];
-        events.extend(self.genesis_of_app(&nobody));
+        events.extend(self.genesis_of_app(&no_listeners));
         events.extend(outside.into_iter().map(|mut script| self.detached_added(&mut script)));
-        events.push(self.genesis_of_scene(&nobody));
+        events.push(self.genesis_of_scene(&no_listeners));
         for handle in self.scene.borrow().all_breadth_first() {
-            let watched = self.scene.borrow().object(handle).map(|object| Watched::object(object, &nobody));
+            let watched = self.scene.borrow().object(handle).map(|object| Watched::object(object, &no_listeners));
             events.extend(watched.into_iter().flat_map(|mut watched| self.added(&mut watched)));
         }
         events.extend(LISTS.map(Event::list));
@@ -35,8 +35,8 @@ impl Sim {
         events
     }
 
-    fn genesis_of_app(self: &Rc<Self>, nobody: &Audience) -> [Event; 2] {
-        let mut app = Watched::app(nobody);
+    fn genesis_of_app(self: &Rc<Self>, no_listeners: &Listeners) -> [Event; 2] {
+        let mut app = Watched::app(no_listeners);
         let mut entries = app.describe(self);
         let params = self.app.borrow().named_params.clone();
         entries.extend(params.iter().map(|(name, value)| self.named_param_entry(name, Some(value))));
@@ -45,8 +45,8 @@ impl Sim {
         [entries, lasting].map(|entries| Event::new("objectChanged", Source::APP, entries))
     }
 
-    fn genesis_of_scene(self: &Rc<Self>, nobody: &Audience) -> Event {
-        let mut scene = Watched::scene(nobody);
+    fn genesis_of_scene(self: &Rc<Self>, no_listeners: &Listeners) -> Event {
+        let mut scene = Watched::scene(no_listeners);
         let mut entries = scene.describe(self);
         for namespace in [Namespace::CustomData, Namespace::Signal] {
             entries.extend(scene.stored(self, namespace));

@@ -87,7 +87,7 @@ const FREQUENT: &[(Field, &[&str])] = &[
 ];
 
 /// One property the stream tells.
-pub(super) struct Told {
+pub(super) struct StreamProperty {
     pub row: &'static Row,
     /// Index of the one told in the same event.
     pub partner: Option<usize>,
@@ -97,7 +97,7 @@ pub(super) struct Told {
     pub renamed: (&'static str, Meaning),
 }
 
-impl Told {
+impl StreamProperty {
     /// The name listeners know it by.
     pub(super) fn key(&self, protocol: Protocol) -> &'static str {
         if protocol == Protocol::V4 { self.renamed.0 } else { self.row.name }
@@ -106,7 +106,7 @@ impl Told {
 
 /// The properties of a class of targets, in their order.
 pub(super) struct Keys {
-    pub told: Vec<Told>,
+    pub properties: Vec<StreamProperty>,
     frequent: Vec<(Field, Vec<usize>)>,
     all: Vec<usize>,
 }
@@ -114,22 +114,22 @@ pub(super) struct Keys {
 impl Keys {
     fn of_class(class: &'static Class) -> Self {
         let (before, after) = class.rows();
-        let rows: Vec<&'static Row> = before.iter().chain(after).filter(|row| is_told(row)).collect();
+        let rows: Vec<&'static Row> = before.iter().chain(after).filter(|row| is_sent(row)).collect();
         let index = |name: &str| rows.iter().position(|row| row.name == name);
         let partner = |name: &str| {
             let pair = PAIRS.iter().find(|pair| pair.contains(&name))?;
             index(pair.iter().find(|other| **other != name)?)
         };
-        let told = rows.iter().map(|row| Told {
+        let properties = rows.iter().map(|row| StreamProperty {
             row,
             partner: partner(row.name),
             large: LARGE.iter().find(|(_, names)| names.contains(&row.name)).map(|(field, _)| *field),
             renamed: renamed(row.class, row.name),
         });
-        let told = told.collect();
+        let properties = properties.collect();
         let indices = |names: &[&str]| names.iter().filter_map(|name| index(name)).collect();
         let frequent = FREQUENT.iter().map(|(field, names)| (*field, indices(names))).collect();
-        Self { told, frequent, all: (0..rows.len()).collect() }
+        Self { properties, frequent, all: (0..rows.len()).collect() }
     }
 
     /// Indices of the properties a change of `field` can concern.
@@ -142,11 +142,11 @@ impl Keys {
     }
 
     pub(super) fn index_of(&self, name: &str) -> Option<usize> {
-        self.told.iter().position(|told| told.row.name == name)
+        self.properties.iter().position(|property| property.row.name == name)
     }
 }
 
-fn is_told(row: &Row) -> bool {
+fn is_sent(row: &Row) -> bool {
     let hidden = flags::NOT_READABLE | flags::DEPRECATED;
     row.flags & hidden == 0 && !SILENT.contains(&row.name) && !row.name.starts_with("volume_")
 }

@@ -24,7 +24,7 @@ use super::step::wall_clock;
 use crate::scene::{Cursor, Data, Handle, Key, Topics, special};
 use crate::wire::cbor;
 use queue::{Class, Content, Entry, Event, Queue, Source};
-use watch::{Audience, Watch};
+use watch::{Listeners, Watch};
 
 pub(crate) use filter::Filters;
 pub(crate) use protocol::Protocol;
@@ -62,38 +62,83 @@ impl EventStream {
             protocol: Cell::default(),
         }
     }
+
+    /// Adds an event to those that wait for the next dispatch.
+    fn push(&self, event: Event) {
+        self.queue.borrow_mut().push(event);
+    }
+
+    /// The first of `count` numbers for events.
+    fn take_numbers(&self, count: usize) -> i64 {
+        self.next_seq.replace(self.next_seq.get() + count as i64)
+    }
+
+    fn no_listeners(&self) -> Listeners {
+        Listeners { protocol: self.protocol.get(), filters: Vec::new() }
+    }
+
+    /// An event that a script defined.
+    pub(crate) fn push_user_event(&self, name: String, (handle, uid): (i64, i64), data: &Data, options: i64) {
+        if !self.listening.get() {
+            return;
+        }
+        let source = Source { class: class_of(handle), handle, uid };
+        let topic = (options & MERGEABLE != 0).then(|| "".into());
+        let event = Event { name: name.into(), source, data: user_content(data), topic };
+        self.push(event);
+    }
+
+    /// A line of the log.
+    pub(crate) fn push_log_event(&self, origin: &str, level: i64, text: &str) {
+        if !self.listening.get() {
+            return;
+        }
+        let flag = |bits: i64| Data::Bool(level & bits == bits);
+        let flags = Data::map([
+            ("undecorated", flag(verbosity::UNDECORATED)),
+            ("onlyterminal", flag(verbosity::ONLY_TERMINAL)),
+        ]);
+        let entries = vec![
+            data_entry("origin", &Data::text(origin)),
+            data_entry("msg", &Data::text(text)),
+            int_entry("verbosity", verbosity::plain(level)),
+            data_entry("flags", &flags),
+        ];
+        self.push(Event::new("logMsg", Source::NONE, entries));
+    }
 }
 
 impl Sim {
-    /// A script that listens has come.
+    /// Another script listens to events.
     pub(crate) fn add_event_listener(self: &Rc<Self>) {
         self.collect_events();
-        let mut audience = self.events.watch.take().map_or_else(|| self.nobody(), |watch| watch.audience);
-        let first = audience.filters.is_empty();
-        audience.filters.push(None);
-        self.watch_for(audience);
+        let mut listeners =
+            self.events.watch.take().map_or_else(|| self.events.no_listeners(), |watch| watch.listeners);
+        let first = listeners.filters.is_empty();
+        listeners.filters.push(None);
+        self.watch_for_listeners(listeners);
         if first && self.events.scene_is_new.replace(false) {
             self.push_genesis();
         }
     }
 
-    /// Sets what the state of `script` wants to hear of; None for everything.
+    /// Sets which events the state of `script` gets; None for all.
     pub(crate) fn set_event_filters(self: &Rc<Self>, script: &Script, filters: Option<Filters>) {
         let Some(runtime) = script.current_runtime() else { return };
         runtime.env.event_filters.replace(filters);
         if self.events.listening.get() {
             self.collect_events();
-            let audience = self.audience();
-            self.watch_for(audience);
+            let listeners = self.listeners();
+            self.watch_for_listeners(listeners);
         }
     }
 
-    /// Begins to watch on behalf of `audience`, or begins anew; ends it when there is none.
-    fn watch_for(self: &Rc<Self>, audience: Audience) {
-        let listening = !audience.filters.is_empty();
+    /// Watches on behalf of these listeners from now on; not at all when there are none.
+    fn watch_for_listeners(self: &Rc<Self>, listeners: Listeners) {
+        let listening = !listeners.filters.is_empty();
         self.events.listening.set(listening);
-        self.follow_scene(listening);
-        let watch = listening.then(|| Watch::new(self, audience));
+        self.read_journal_while(listening);
+        let watch = listening.then(|| Watch::new(self, listeners));
         if !listening {
             self.events.queue.take();
         }
@@ -102,7 +147,7 @@ impl Sim {
     }
 
     /// Begins to read the journal of the scene as it is now, goes on, or stops.
-    fn follow_scene(&self, listening: bool) {
+    fn read_journal_while(&self, listening: bool) {
         let mut cursor = self.events.cursor.borrow_mut();
         if !listening {
             *cursor = None;
@@ -114,18 +159,13 @@ impl Sim {
         }
     }
 
-    /// An audience without listeners.
-    fn nobody(&self) -> Audience {
-        Audience { protocol: self.events.protocol.get(), filters: Vec::new() }
-    }
-
     /// All scripts that listen.
-    fn audience(&self) -> Audience {
+    fn listeners(&self) -> Listeners {
         let scripts = self.scripts.all();
         let runtimes = scripts.iter().filter_map(|script| script.current_runtime());
         let listening = runtimes.filter(|runtime| runtime.env.responds_to(SysCall::Event));
         let filters = listening.map(|runtime| runtime.env.event_filters.borrow().clone()).collect();
-        Audience { filters, ..self.nobody() }
+        Listeners { filters, ..self.events.no_listeners() }
     }
 
     /// Delivers what has happened since the last dispatch, as one batch per script.
@@ -134,19 +174,19 @@ impl Sim {
             self.events.scene_is_new.set(false);
             return;
         }
-        self.update_audience();
+        self.update_listeners();
         self.collect_events();
-        self.collect_quiet_changes();
+        self.collect_unrecorded_changes();
         self.deliver_pending_events();
     }
 
     /// Listeners that are gone need no watching.
-    fn update_audience(self: &Rc<Self>) {
-        let audience = self.audience();
-        let same = self.events.watch.borrow().as_ref().is_some_and(|watch| watch.audience == audience);
+    fn update_listeners(self: &Rc<Self>) {
+        let listeners = self.listeners();
+        let same = self.events.watch.borrow().as_ref().is_some_and(|watch| watch.listeners == listeners);
         if !same {
             self.collect_events();
-            self.watch_for(audience);
+            self.watch_for_listeners(listeners);
         }
     }
 
@@ -158,8 +198,7 @@ impl Sim {
         self.fill_in_lists(&mut events);
         let now = int_entry("time", wall_clock::unix_milliseconds());
         events.push(Event::new("msgDispatchTime", Source::NONE, vec![now]));
-        let first = self.events.next_seq.get();
-        self.events.next_seq.set(first + events.len() as i64);
+        let first = self.events.take_numbers(events.len());
         self.deliver_events(&events, first);
     }
 
@@ -191,7 +230,7 @@ impl Sim {
         self.collect_events();
         self.events.protocol.set(protocol);
         if self.events.listening.get() {
-            self.watch_for(self.audience());
+            self.watch_for_listeners(self.listeners());
             self.push_genesis();
         }
     }
@@ -207,23 +246,21 @@ impl Sim {
     }
 
     /// More changed than the journal holds: listeners are told everything anew.
-    fn begin_anew(self: &Rc<Self>) {
+    fn restart_events(self: &Rc<Self>) {
         let Some(watch) = self.events.watch.take() else { return };
-        self.watch_for(watch.audience);
+        self.watch_for_listeners(watch.listeners);
         self.push_genesis();
     }
 
     fn push_genesis(self: &Rc<Self>) {
-        let events = self.genesis();
-        let mut queue = self.events.queue.borrow_mut();
-        events.into_iter().for_each(|event| queue.push(event));
+        self.genesis().into_iter().for_each(|event| self.events.push(event));
     }
 
     /// A snapshot of everything, as one batch. What is pending is dispatched first, so that the next batch continues the numbers.
     pub(crate) fn genesis_events(self: &Rc<Self>) -> Vec<u8> {
         if self.events.listening.get() {
             self.collect_events();
-            self.collect_quiet_changes();
+            self.collect_unrecorded_changes();
             self.deliver_pending_events();
         }
         let events = self.genesis();
@@ -232,36 +269,6 @@ impl Sim {
         let next = self.events.next_seq.get().max(count);
         self.events.next_seq.set(next);
         queue::batch(&events, next - count, None).unwrap_or_default()
-    }
-
-    /// An event a script made up.
-    pub(crate) fn push_user_event(&self, name: String, (handle, uid): (i64, i64), data: &Data, options: i64) {
-        if !self.events.listening.get() {
-            return;
-        }
-        let source = Source { class: class_of(handle), handle, uid };
-        let topic = (options & MERGEABLE != 0).then(|| "".into());
-        let event = Event { name: name.into(), source, data: user_content(data), topic };
-        self.events.queue.borrow_mut().push(event);
-    }
-
-    /// A line of the log.
-    pub(crate) fn push_log_event(&self, origin: &str, level: i64, text: &str) {
-        if !self.events.listening.get() {
-            return;
-        }
-        let flag = |bits: i64| Data::Bool(level & bits == bits);
-        let flags = Data::map([
-            ("undecorated", flag(verbosity::UNDECORATED)),
-            ("onlyterminal", flag(verbosity::ONLY_TERMINAL)),
-        ]);
-        let entries = vec![
-            data_entry("origin", &Data::text(origin)),
-            data_entry("msg", &Data::text(text)),
-            int_entry("verbosity", verbosity::plain(level)),
-            data_entry("flags", &flags),
-        ];
-        self.events.queue.borrow_mut().push(Event::new("logMsg", Source::NONE, entries));
     }
 }
 

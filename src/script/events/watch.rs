@@ -18,13 +18,13 @@ use crate::script::sim::Sim;
 
 /// Those who listen, and how they are spoken to.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Audience {
+pub(super) struct Listeners {
     pub protocol: Protocol,
     /// What each wants to hear; None for everything.
     pub filters: Vec<Option<Filters>>,
 }
 
-impl Audience {
+impl Listeners {
     fn wants(&self, source: Source, key: &str) -> bool {
         self.filters.iter().any(|filters| match filters {
             None => true,
@@ -43,76 +43,77 @@ pub(super) struct Watched {
     protocol: Protocol,
     keys: &'static Keys,
     /// Nil where nobody wants to know.
-    told: Vec<Data>,
+    sent: Vec<Data>,
     wanted: Vec<bool>,
 }
 
 impl Watched {
-    pub(super) fn app(audience: &Audience) -> Self {
-        Self::new(Target::App, Source::APP, app_class(), audience)
+    pub(super) fn app(listeners: &Listeners) -> Self {
+        Self::new(Target::App, Source::APP, app_class(), listeners)
     }
 
-    pub(super) fn scene(audience: &Audience) -> Self {
-        Self::new(Target::Scene, Source::SCENE, scene_class(), audience)
+    pub(super) fn scene(listeners: &Listeners) -> Self {
+        Self::new(Target::Scene, Source::SCENE, scene_class(), listeners)
     }
 
-    pub(super) fn script(script: &Rc<Script>, audience: &Audience) -> Self {
+    pub(super) fn script(script: &Rc<Script>, listeners: &Listeners) -> Self {
         let class = match script.script_type {
             ScriptType::Main => Class::Main,
             ScriptType::Sandbox => Class::Sandbox,
             _ => Class::AddOn,
         };
         let source = Source { class, handle: script.id, uid: script.id };
-        Self::new(Target::Script(Rc::clone(script)), source, script_class(), audience)
+        Self::new(Target::Script(Rc::clone(script)), source, script_class(), listeners)
     }
 
-    pub(super) fn object(object: &Object, audience: &Audience) -> Self {
+    pub(super) fn object(object: &Object, listeners: &Listeners) -> Self {
         let handle = object.handle();
         let source = Source::object(handle, object.uid());
-        let watched = Self::new(Target::Object(handle), source, object_class(&object.kind), audience);
-        Self { parent: object.parent(), meshes: Self::meshes(object, audience), ..watched }
+        let watched = Self::new(Target::Object(handle), source, object_class(&object.kind), listeners);
+        Self { parent: object.parent(), meshes: Self::meshes(object, listeners), ..watched }
     }
 
     /// The meshes of a shape.
-    pub(super) fn meshes(object: &Object, audience: &Audience) -> Vec<Self> {
+    pub(super) fn meshes(object: &Object, listeners: &Listeners) -> Vec<Self> {
         let Ok(shape) = object.shape() else { return Vec::new() };
         let uids = shape.parts.iter().map(|part| part.uid);
         uids.map(|uid| {
             let source = Source { class: Class::Mesh, handle: uid, uid };
-            Self::new(Target::Mesh(uid), source, mesh_class(), audience)
+            Self::new(Target::Mesh(uid), source, mesh_class(), listeners)
         })
         .collect()
     }
 
-    fn new(target: Target, source: Source, class: &'static PropertyClass, audience: &Audience) -> Self {
+    fn new(target: Target, source: Source, class: &'static PropertyClass, listeners: &Listeners) -> Self {
         let keys = keys(class);
-        let wanted = keys.told.iter().map(|told| audience.wants(source, told.key(audience.protocol))).collect();
-        let told = vec![Data::Nil; keys.told.len()];
-        Self { target, source, parent: None, meshes: Vec::new(), protocol: audience.protocol, keys, told, wanted }
+        let wanted =
+            keys.properties.iter().map(|property| listeners.wants(source, property.key(listeners.protocol))).collect();
+        let sent = vec![Data::Nil; keys.properties.len()];
+        Self { target, source, parent: None, meshes: Vec::new(), protocol: listeners.protocol, keys, sent, wanted }
     }
 
     /// Takes the present values as told.
     pub(super) fn refresh(&mut self, sim: &Rc<Sim>) {
-        for index in 0..self.told.len() {
+        for index in 0..self.sent.len() {
             if self.remembers(index) {
-                self.told[index] = self.read(sim, index).unwrap_or(Data::Nil);
+                self.sent[index] = self.read(sim, index).unwrap_or(Data::Nil);
             }
         }
         self.meshes.iter_mut().for_each(|mesh| mesh.refresh(sim));
     }
 
     fn remembers(&self, index: usize) -> bool {
-        self.wanted[index] && self.keys.told[index].large.is_none()
+        self.wanted[index] && self.keys.properties[index].large.is_none()
     }
 
     /// Everything about the target, which counts as told from now on.
     pub(super) fn describe(&mut self, sim: &Rc<Sim>) -> Vec<Entry> {
-        let mut entries = Vec::with_capacity(self.told.len());
-        for index in 0..self.told.len() {
+        let mut entries = Vec::with_capacity(self.sent.len());
+        for index in 0..self.sent.len() {
             let Some(value) = self.read(sim, index) else { continue };
             entries.push(self.entry(index, &value));
             if self.remembers(index) {
-                self.told[index] = value;
+                self.sent[index] = value;
             }
         }
         entries
@@ -121,29 +122,42 @@ impl Watched {
     /// What is not remembered and a change of `field` concerns, as it is now: one event each.
     pub(super) fn large(&self, sim: &Rc<Sim>, field: Field) -> Vec<Event> {
         let concerned = |of: Option<Field>| of.is_some_and(|of| of == field || field == Field::Geometry);
-        let large = (0..self.told.len()).filter(|&index| self.wanted[index] && concerned(self.keys.told[index].large));
+        let large =
+            (0..self.sent.len()).filter(|&index| self.wanted[index] && concerned(self.keys.properties[index].large));
         let values = large.filter_map(|index| Some((index, self.read(sim, index)?)));
         let entries = values.filter(|(_, value)| !is_empty(value)).map(|(index, value)| self.entry(index, &value));
         entries.map(|entry| Event::changed(self.source, vec![entry])).collect()
     }
 
     /// One event for each of these properties that is not as it was told; pairs are told in one.
-    pub(super) fn differences(&mut self, sim: &Rc<Sim>, indices: &[usize]) -> Vec<Event> {
+    fn differences(&mut self, sim: &Rc<Sim>, indices: &[usize]) -> Vec<Event> {
         let mut events = Vec::new();
         for &index in indices {
             if !self.take_difference(sim, index) {
                 continue;
             }
-            let mut told = vec![index];
-            if let Some(partner) = self.keys.told[index].partner {
+            let mut sent = vec![index];
+            if let Some(partner) = self.keys.properties[index].partner {
                 self.take_difference(sim, partner);
-                told.push(partner);
-                told.sort_unstable();
+                sent.push(partner);
+                sent.sort_unstable();
             }
-            let entries = told.iter().map(|&i| self.entry(i, &self.told[i])).collect();
+            let entries = sent.iter().map(|&i| self.entry(i, &self.sent[i])).collect();
             events.push(Event::changed(self.source, entries));
         }
         events
+    }
+
+    /// Adds events for the properties that a change of `field` can concern (None: all), as far as they are different.
+    pub(super) fn push_differences(&mut self, sim: &Rc<Sim>, field: Option<Field>) {
+        let indices = field.map_or(self.keys.all(), |field| self.keys.concerned(field));
+        self.differences(sim, indices).into_iter().for_each(|event| sim.events.push(event));
+    }
+
+    /// Adds an event for one property, if it is different.
+    pub(super) fn push_difference(&mut self, sim: &Rc<Sim>, name: &str) {
+        let index = self.keys.index_of(name);
+        self.differences(sim, index.as_slice()).into_iter().for_each(|event| sim.events.push(event));
     }
 
     /// Reads a property anew; tells whether it is different from what was told.
@@ -152,14 +166,14 @@ impl Watched {
             return false;
         }
         let Some(value) = self.read(sim, index) else { return false };
-        let differs = self.told[index] != value;
-        self.told[index] = value;
+        let differs = self.sent[index] != value;
+        self.sent[index] = value;
         differs
     }
 
     /// Whether the property is not wanted, or was told with this value.
-    pub(super) fn was_told(&self, name: &str, value: &Data) -> bool {
-        self.keys.index_of(name).is_none_or(|index| !self.remembers(index) || self.told[index] == *value)
+    pub(super) fn was_sent(&self, name: &str, value: &Data) -> bool {
+        self.keys.index_of(name).is_none_or(|index| !self.remembers(index) || self.sent[index] == *value)
     }
 
     pub(super) fn keys(&self) -> &'static Keys {
@@ -168,17 +182,17 @@ impl Watched {
 
     /// The value of a property; None where there is nothing to tell.
     fn read(&self, sim: &Rc<Sim>, index: usize) -> Option<Data> {
-        sim.read_row(&self.target, self.keys.told[index].row).ok()
+        sim.read_row(&self.target, self.keys.properties[index].row).ok()
     }
 
     fn entry(&self, index: usize, value: &Data) -> Entry {
-        let told = &self.keys.told[index];
+        let property = &self.keys.properties[index];
         let mut bytes = Vec::new();
         match self.protocol {
-            Protocol::V3 => encode::value(Protocol::V3, told.row.ty, value, &mut bytes),
-            Protocol::V4 => encode::meant(told.renamed.1, told.row.ty, value, &mut bytes),
+            Protocol::V3 => encode::value(Protocol::V3, property.row.ty, value, &mut bytes),
+            Protocol::V4 => encode::meant(property.renamed.1, property.row.ty, value, &mut bytes),
         }
-        Entry { key: told.key(self.protocol).into(), value: bytes }
+        Entry { key: property.key(self.protocol).into(), value: bytes }
     }
 
     /// Custom data or signals of the target.
@@ -215,7 +229,7 @@ pub(super) fn stored_key(namespace: Namespace, name: &str) -> String {
 
 /// All targets with what was told about them.
 pub(super) struct Watch {
-    pub audience: Audience,
+    pub listeners: Listeners,
     pub app: Watched,
     pub scene: Watched,
     pub objects: HashMap<Handle, Watched>,
@@ -229,18 +243,18 @@ pub(super) struct Watch {
 
 impl Watch {
     /// The world as it is, as if all of it had been told.
-    pub(super) fn new(sim: &Rc<Sim>, audience: Audience) -> Self {
-        let objects: Vec<Watched> = sim.scene.borrow().objects().map(|o| Watched::object(o, &audience)).collect();
-        let scripts: Vec<Watched> = sim.scripts.all_detached().iter().map(|s| Watched::script(s, &audience)).collect();
+    pub(super) fn new(sim: &Rc<Sim>, listeners: Listeners) -> Self {
+        let objects: Vec<Watched> = sim.scene.borrow().objects().map(|o| Watched::object(o, &listeners)).collect();
+        let scripts: Vec<Watched> = sim.scripts.all_detached().iter().map(|s| Watched::script(s, &listeners)).collect();
         let mut watch = Self {
-            app: Watched::app(&audience),
-            scene: Watched::scene(&audience),
+            app: Watched::app(&listeners),
+            scene: Watched::scene(&listeners),
             objects: objects.into_iter().filter_map(|w| Some((Handle::from_raw(w.source.handle)?, w))).collect(),
             scripts: scripts.into_iter().map(|w| (w.source.handle, w)).collect(),
             named_params: sim.app.borrow().named_params.clone(),
             selection: sim.scene.borrow().selection().to_vec(),
             engine: sim.scene.borrow().settings().dynamics.engine,
-            audience,
+            listeners,
         };
         let Watch { app, scene, objects, scripts, .. } = &mut watch;
         [app, scene].into_iter().chain(objects.values_mut()).chain(scripts.values_mut()).for_each(|w| w.refresh(sim));

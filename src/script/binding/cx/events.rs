@@ -23,6 +23,6 @@ impl Cx<'_> {
 
     /// An event of the calling script's own.
     pub(crate) fn push_user_event(&mut self, name: String, source: (i64, i64), data: &Data, options: i64) {
-        self.sim.push_user_event(name, source, data, options);
+        self.sim.events.push_user_event(name, source, data, options);
     }
 }
