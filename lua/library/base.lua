@@ -5,7 +5,7 @@ Does: the wrapped standard functions (require, pcall, tonumber, assert, string.*
 (global sysCall_thread), and cheap stand-ins for everything a script may use but usually does not.
 Does not: hold any of those other functions (swanilda/display.lua, functional.lua, ...), nor the sim table.
 
-A thousand states run this file: every closure and table here is paid for by each of them.
+Every script runs this file: each closure and table here costs memory in each of them.
 ]]
 
 local rawrequire, rawpcall, rawtonumber = require, pcall, tonumber

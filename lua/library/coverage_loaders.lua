@@ -1,5 +1,5 @@
 --[[
-Where lines are counted, what loads texts gives them probes. Internal.
+With coverage, instruments code that scripts load. Internal.
 ]]
 
 local count = ...

@@ -1,9 +1,9 @@
 sim = require 'sim'
 
 --[[
-The main script used when a scene has none of its own: one run through its callbacks is one simulation step.
+The main script of scenes without one of their own: one run of it is one simulation step.
 
-Does not hold what happens inside a stage; each line below is one, and their order is the order of 4.10.
+Only lists the stages, in the order of 4.10; they are implemented natively.
 ]]
 
 local handleEmbeddedScripts, handleAddOnScripts = sim.handleEmbeddedScripts, sim.handleAddOnScripts
@@ -46,7 +46,7 @@ function sysCall_suspend() tellScripts(SUSPEND) end
 function sysCall_suspended() tellScripts(SUSPENDED) end
 function sysCall_resume() tellScripts(RESUME) end
 
----------------------------------------------------------------- kinematic joints nobody else moves
+---------------------------------------------------------------- kinematic joints that no other script moves
 
 local BASE_CYCLE <const> = 0.0001
 local motions = {} -- joint -> velocity and acceleration at the end of the last step

@@ -1,5 +1,5 @@
 --[[
-Wraps a deprecated function: logs the notice at the first call, then does what it always did.
+Wraps a deprecated function: logs the notice at the first call, then calls the function.
 Called as a chunk with the function and the notice.
 ]]
 

@@ -1,5 +1,5 @@
 --[[
-Takes from a fresh Lua state what starts programs or loads native libraries; runs after base.lua where --no-unsafe was asked for.
+Removes functions that start programs or load native libraries from a fresh Lua state; runs after base.lua with --no-unsafe.
 ]]
 
 local function forbid(library, name)

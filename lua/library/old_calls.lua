@@ -1,7 +1,7 @@
 --[[
-Scripts from before there were callbacks: their whole text runs for each call, and asks sim_call_type which one it is.
+Scripts from before callbacks existed: their whole text runs for each call and distinguishes calls by sim_call_type.
 
-Given: the text as a function, and names of callbacks with the numbers the text knows them by. The text runs once as its
+Arguments: the text as a function, and names of callbacks with their old numbers. The text runs once as its
 initialization; then each callback is a function that runs it again.
 ]]
 local run, init, callbacks = ...

@@ -1,6 +1,6 @@
 --[[
-What the customization script of a path object does: `path = require('path_customization')`. The path follows its control points, dummies
-below it, while no simulation runs and when one begins. `path.shaping(points, closed, upVector)` may make the shape along it.
+Customization script of path objects: `path = require('path_customization')`. The path is updated when its control points, dummies
+below it, move while the simulation is stopped, and when it starts. `path.shaping(points, closed, upVector)` may create the shape along it.
 
 Does not open the dialog of a path: there is no display.
 ]]

@@ -1,5 +1,5 @@
 --[[
-What scripts do otherwise whose simulator shares its process with others, as in `swanilda test`: they cannot end it, and what they write to
+For scripts whose simulator shares its process with others, as in `swanilda test`: they cannot exit it, and their output to
 standard output and error goes to the console of their simulator. Internal.
 ]]
 

@@ -1,5 +1,5 @@
 --[[
-The later name of the module matrix.
+Later name of the module matrix.
 ]]
 
 return require 'matrix'

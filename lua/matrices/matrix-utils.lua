@@ -1,5 +1,5 @@
 --[[
-Makes functions of sim take and give the objects of the module matrix: positions, angles and colours are Vector3, quaternions
+Makes functions of sim accept and return objects of the module matrix: positions, angles and colours are Vector3, quaternions
 Vector4, poses Vector7, matrices Matrix4x4, inertias Matrix3x3. Load it once; it returns sim.
 
 Arguments may still be plain tables. A Matrix4x4 goes to sim as its first three rows.

@@ -1,5 +1,5 @@
 --[[
-CBOR as CoppeliaSim's remote interfaces speak it: all of org.conman.cbor, and a decode that knows the simulator's types.
+CBOR for CoppeliaSim's remote interfaces: everything in org.conman.cbor, and a decoder for the simulator's types.
 
     decode(data)     byte strings become buffers (not as keys of maps), typed arrays tables of numbers, a matrix (tag 40) an object
                      of the module matrix, a colour a Color, handles, poses and quaternions their numbers; other tags are dropped

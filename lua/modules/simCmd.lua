@@ -1,10 +1,10 @@
 --[[
-The command line of CoppeliaSim's window, as far as it makes sense without one.
+The command line of CoppeliaSim's user interface, as far as applicable without one.
 
-    exec(lang, code)                 runs code as the user would: in the selected script, and prints what it gives. Lua only
-    setSelectedScript(handle, lang)  chooses that script; the sandbox is chosen first
+    exec(lang, code)                 runs code in the selected script and prints the result. Lua only
+    setSelectedScript(handle, lang)  selects a script; default: the sandbox
     help(), helpText()               prints, or returns, a few hints for beginners
-    helpClose(), setVisible(visible), clearHistory(), toggleStatusbarHeight()     are about the window, and have no effect
+    helpClose(), setVisible(visible), clearHistory(), toggleStatusbarHeight()     have no effect
 ]]
 
 local sim = require('sim')

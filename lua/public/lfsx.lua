@@ -31,7 +31,7 @@ function lfs.pathsplit(p)
     return folder == '' and SEPARATOR or folder, name
 end
 
---- Parts joined by separators; an absolute part begins anew.
+--- Parts joined by separators; an absolute part restarts the path.
 function lfs.pathjoin(...)
     local joined = ''
     local parts = type((...)) == 'table' and (...) or {...}

@@ -89,7 +89,7 @@ function M.join(t, sep)
     return table.concat(parts, sep or ', ')
 end
 
--- Text of a table; with sep between its entries where that is given.
+-- Text of a table; with sep between its entries if it is passed.
 function M.tostring(t, sep)
     if not sep then return getAsString(t) end
     local parts, n = {}, #t
@@ -250,7 +250,7 @@ function M.frompairs(items)
     return result
 end
 
---- A table of what an iterator such as ipairs(t) gives.
+--- A table of the values of an iterator such as ipairs(t).
 function M.fromipairs(iterator, state, index)
     local result = {}
     for _, value in iterator, state, index do result[#result + 1] = value end

@@ -1,5 +1,5 @@
 --[[
-What graph_customization is, by its later name.
+Later name of graph_customization.
 ]]
 
 return require 'graph_customization'

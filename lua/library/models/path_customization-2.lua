@@ -1,5 +1,5 @@
 --[[
-What path_customization is, by its later name.
+Later name of path_customization.
 ]]
 
 return require 'path_customization'

@@ -1,7 +1,7 @@
 --[[
-What there is to call, as the clients of a remote API ask for it: `zmqRemoteApi.require` and `zmqRemoteApi.info`.
+Lists callable functions for remote API clients: `zmqRemoteApi.require` and `zmqRemoteApi.info`.
 
-Gives a function that makes these two in the Lua state it is called in; it takes the names of the members of `sim`, which fills itself.
+Returns a function that defines both in its Lua state; its argument is the list of members of `sim`, which is filled lazily.
 ]]
 
 local sim = require('sim')

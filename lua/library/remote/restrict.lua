@@ -1,8 +1,8 @@
 --[[
-What remote clients do not get where `execUnsafeExt` is false: files, programs, and code given as text. For the add-ons that serve them.
+Restricts remote clients if `execUnsafeExt` is false: no files, no programs, no code passed as text. For the add-ons that serve them.
 
-Running it takes these from the Lua state. It keeps clients from the direct ways into the machine. It is no prison: a client may give
-the scene a script, and scripts may use files.
+Removes these functions from the Lua state. It is not a sandbox: a client may create a script in the scene, and scripts may use
+files.
 ]]
 
 local sim = require('sim')

@@ -1,13 +1,13 @@
 --[[
-The WebSocket remote API: calls of functions of this Lua state by programs outside, browsers among them.
+The WebSocket remote API: lets external programs and web pages call functions of this Lua state.
 
-An add-on is made of this file. A message is a request, {func, args, id} or {eval, id}; the reply is {id, success, ret} or {id, success,
+Loaded as an add-on. A message is a request, {func, args, id} or {eval, id}; the reply is {id, success, ret} or {id, success,
 error}, in the encoding of the request: JSON as text, CBOR as binary. All clients share the state. Each request runs in a coroutine of its
 own, so that it may wait for a step (sim.wait) while others are served.
 
     wsRemoteApi.require(name), wsRemoteApi.info(nameOrTable)
-    setStepping(enable)    the simulation stands still but for
-    step()                 one step; the reply does not wait for it
+    setStepping(enable)    the simulation advances only by
+    step()                 one step; the reply is immediate
 
 Parameters (sim.setNamedStringParam, -D): wsRemoteApi.port, wsRemoteApi.autoStart, and wsRemoteApi.verbose, with which requests are logged
 (1: their names, 2: in full).

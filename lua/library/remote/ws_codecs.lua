@@ -1,5 +1,5 @@
 --[[
-The two encodings of the WebSocket remote API. Which one a message has is told by its first byte.
+The two encodings of the WebSocket remote API. The first byte of a message distinguishes them.
 
 A codec is {opcode, success = function(id, results), failure = function(id, message)}.
 ]]

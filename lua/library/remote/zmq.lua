@@ -1,13 +1,13 @@
 --[[
-The ZeroMQ remote API: calls of functions of this Lua state by programs outside.
+The ZeroMQ remote API: lets external programs call functions of this Lua state.
 
-An add-on is made of this file. All clients share its state, so that what one requires or defines, the others see. Each request runs in a
-coroutine of its own (a task): it may wait for a step or call back into its client while other clients are served.
+Loaded as an add-on. All clients share its state: definitions and modules of one are visible to the others. Each request runs in its
+own coroutine (a task): it may wait for a step or call back into its client while other clients are served.
 
-    swanilda.batch(calls, stopAtError)    several requests ({func, args, argsL} or {eval}) in one; gives a list of their answers,
+    swanilda.batch(calls, stopAtError)    several requests ({func, args, argsL} or {eval}) in one; returns a list of their replies,
                                           {ret} or {err} each
 
-The sockets are native; here are the words of the protocol, and who waits for whom. Parameters (sim.setNamedStringParam, -D):
+The sockets are native; this file implements the protocol and the scheduling of clients. Parameters (sim.setNamedStringParam, -D):
 zmqRemoteApi.rpcPort, zmqRemoteApi.autoStart, and zmqRemoteApi.verbose, with which requests are logged (1: their names, 2: in full).
 ]]
 
@@ -263,7 +263,7 @@ local function serveOne(patience)
     return true
 end
 
--- While everything waits for one client, the others wait a little, then they are told to ask again.
+-- While everything waits for one client, the others wait a little, then they have to repeat their request.
 function serveAsked()
     serveOne(NAP)
     local now = sim.getSystemTime()

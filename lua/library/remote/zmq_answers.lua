@@ -1,5 +1,5 @@
 --[[
-How results, errors and callbacks of the ZeroMQ remote API become bytes.
+Encodes results, errors and callbacks of the ZeroMQ remote API.
 ]]
 
 local cbor = require('org.conman.cbor')

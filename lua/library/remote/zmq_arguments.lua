@@ -1,5 +1,5 @@
 --[[
-The arguments of a request of the ZeroMQ remote API, with the words in them that mean something else.
+Decodes the arguments of a request of the ZeroMQ remote API, including control words.
 ]]
 
 local NIL <const> = '_*NIL*_'
@@ -9,7 +9,7 @@ local MOST_ARGUMENTS <const> = 100000
 
 local M = {}
 
---- The arguments as they came, and their number: null at the end of a list is told by the number only.
+--- The arguments and their number: a trailing null is only visible in the number.
 function M.given(request)
     local args = type(request.args) == 'table' and request.args or {}
     local n = math.tointeger(request.argsL) or #args

@@ -1,11 +1,11 @@
 --[[
-The clients of the ZeroMQ remote API: who they are, what of theirs is under way, and whether they hold up the simulation.
+The clients of the ZeroMQ remote API: identity, pending requests, and whether they block the simulation.
 
 A client is known by its uuid and has one or more connections. Each of its requests is a task as long as it has no answer:
 
-    peer         the connection that waits for an answer; nil while the client has the word
-    owner        the connection the task came by
-    coroutine    where it runs
+    peer         the connection that waits for an answer; nil while the client has to send
+    owner        the connection of the request
+    coroutine    its coroutine
     waits        'step' | 'callback' | nil while it runs or has not begun
 ]]
 
@@ -106,7 +106,7 @@ function M.expecting(client, peer)
     end
 end
 
----------------------------------------------------------------- who holds up the simulation
+---------------------------------------------------------------- clients that block the simulation
 
 function M.holdsUp(client, currentStep)
     if client.locks > 0 then return true end
@@ -138,7 +138,7 @@ function M.anyLock()
     return false
 end
 
---- Takes from all clients what could hold up the simulation's end.
+--- Removes everything by which clients could block the end of the simulation.
 function M.release(currentStep)
     for _, client in ipairs(clients) do client.level, client.locks, client.desiredStep = 0, 0, currentStep + 10 end
 end

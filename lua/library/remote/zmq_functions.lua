@@ -1,7 +1,7 @@
 --[[
-The functions that are different, or there at all, because ZeroMQ clients call them.
+Functions that are specific to ZeroMQ clients, or behave differently for them.
 
-Gives a function that puts them into the Lua state it is called in; `server` knows who is calling.
+Returns a function that defines them in its Lua state; `server` knows the calling client.
 ]]
 
 local sim = require('sim')

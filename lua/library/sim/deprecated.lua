@@ -1,7 +1,7 @@
 --[[
-Old functions of sim that scripts still use, over the new ones.
+Old functions of sim that scripts still use, based on the new ones.
 
-Does not log that they are old (native), nor hold names that are mere aliases (native table).
+Deprecation notices and plain aliases are native.
 ]]
 
 local sim = ...
@@ -77,7 +77,7 @@ function M.getThreadSwitchTiming() return sim.getAutoYieldDelay() * 1000 end
 -- @return result 1 or 0
 function M.getIsRealTimeSimulation() return sim.getBoolParam(sim.boolparam_realtime_simulation) and 1 or 0 end
 
---- Gives an object the name of another one with something appended.
+--- Names an object after another one, with a suffix.
 -- @api sim.setSimilarName(int handle, string original, string suffix)
 -- @param handle the object
 -- @param original name of the other

@@ -1,7 +1,7 @@
 --[[
 sim.createPath, and configurations of joints.
 
-What a path object is stands in swanilda/pathmodel.lua.
+Path objects are defined in swanilda/pathmodel.lua.
 ]]
 
 local sim = ...

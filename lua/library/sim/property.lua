@@ -1,5 +1,5 @@
 --[[
-Properties of any type by one function, and many at once.
+Reading and writing properties of any type, and several at once.
 
 Does not read or write a property itself: the typed functions are native.
 ]]

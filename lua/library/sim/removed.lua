@@ -1,8 +1,8 @@
 --[[
-Functions of sim whose work CoppeliaSim itself no longer does: they are called by old main scripts and models, and do nothing there as
-here. Also the dialogs and plugins of old scripts, of which there are none without a display.
+Functions of sim that have no effect in CoppeliaSim any more but are called by old main scripts and models. Also dialogs and plugins
+of old scripts, which do not exist without a display.
 
-Does not log that they are old (native).
+Deprecation notices are native.
 ]]
 
 local sim = ...
@@ -127,19 +127,19 @@ function M.launchThreadedChildScripts() return 0 end
 -- @return result 0
 function M.setThreadIsFree(freeMode) return 0 end
 
---- Does nothing: there are no plugins to be told.
+--- Does nothing: there are no plugins to notify.
 -- @api int count = sim.openModule(any module)
 -- @param module a name, or sim.handle_all
 -- @return count 0
 function M.openModule(module) return 0 end
 
---- Does nothing: there are no plugins to be told.
+--- Does nothing: there are no plugins to notify.
 -- @api int count = sim.closeModule(any module)
 -- @param module a name, or sim.handle_all
 -- @return count 0
 function M.closeModule(module) return 0 end
 
---- Does nothing: there are no plugins to be told.
+--- Does nothing: there are no plugins to notify.
 -- @api int count = sim.handleModule(any module, bool calledInSensingPart)
 -- @param module a name, or sim.handle_all
 -- @param calledInSensingPart any
@@ -233,7 +233,7 @@ function M.sendData(targetID, dataHeader, dataName, data, ...)
     sim.setBufferProperty(sim.handle_scene, mailbox(dataHeader, dataName), data)
 end
 
---- Takes what sim.sendData left.
+--- Receives data sent by sim.sendData.
 -- @api string data, int senderID, int dataHeader, string dataName = sim.receiveData(int dataHeader, string dataName, ...)
 -- @param dataHeader as sent
 -- @param dataName as sent

@@ -1,5 +1,5 @@
 --[[
-Calling other scripts by name, looking objects up, and what a script can ask about itself.
+Calls to other scripts by name, lookup of objects, and information about the calling script.
 
 Does not resolve paths or pass values between states: that is native (sim._getObject, sim.callScriptFunction).
 ]]

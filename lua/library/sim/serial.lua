@@ -1,5 +1,5 @@
 --[[
-Serial ports, over the native ones that never wait.
+Serial ports, based on native non-blocking ones.
 
 Does not hold the ports: they belong to the simulator. Bytes fetched but not read yet belong to the script that fetched them.
 ]]

@@ -21,7 +21,7 @@ end
 
 local CHANGE_ARGS = {{type = 'int'}, {type = 'table', item_type = 'float', size = 3}, {type = 'int', default = 0}}
 
---- Gives the shapes of a collection, or one shape, a colour.
+--- Sets the colour of the shapes of a collection, or of one shape.
 -- @api map[] originalColors = sim.changeEntityColor(int entityHandle, float[3] color, int component = sim.colorcomponent_ambient_diffuse)
 -- @param entityHandle shape or collection
 -- @param color red, green, blue

@@ -1,7 +1,7 @@
 --[[
 Functions for interactive use: evaluating a typed line, help, completion, dumps of bytes.
 
-Does not read a terminal; the host hands over the text.
+Does not read a terminal; the host passes the text.
 ]]
 
 local M = {}

@@ -1,5 +1,5 @@
 --[[
-How values look to a human: print and its relatives, in the format of CoppeliaSim 4.10.
+Formatting of values for print and similar functions, as in CoppeliaSim 4.10.
 
 Does not write anywhere itself: a finished line goes to the host function _print.
 ]]

@@ -2,7 +2,7 @@
 Shared by sim/pathobject.lua and path_customization.lua: path objects in the scene. A path object is a dummy that carries control points
 and a sampled path as custom data; dummies below it mark the control points and can be moved, copied and removed.
 
-Does not draw a path; M.update follows the dummies when it is called.
+Does not draw a path; M.update applies movements of the dummies when it is called.
 ]]
 
 local sim = package.loaded.sim or require 'sim'
@@ -128,7 +128,7 @@ local function addPoint(path, pose, index)
     mark(point, index)
 end
 
---- A path object with its control points; info as M.info gives it.
+--- A path object with its control points; info as returned by M.info.
 function M.create(points, info)
     local path = sim.createDummy(0.04)
     sim.setObjectAlias(path, 'Path')
@@ -176,7 +176,7 @@ local function replaceShape(object, path, info, shaping)
     sim.setBufferProperty(shape, SHAPE, sim.packTable{1})
 end
 
---- Samples a path anew if its control points are not where they were. Returns whether they were not.
+--- Resamples a path if its control points have moved. Returns whether they have.
 function M.update(object, shaping)
     local info, handles = M.info(object), M.controlPoints(object)
     if not info or #handles < 2 then return false end

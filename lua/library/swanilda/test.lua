@@ -93,7 +93,7 @@ function t.run(file, options) return native.run(located(file), options) end
 
 ---------------------------------------------------------------- time
 
--- An error nobody caught ends the test, unless it said otherwise.
+-- An uncaught error ends the test, unless allowed.
 local knownErrors = 0
 function t._checkErrors()
     local errors = native.errors()

@@ -1,5 +1,5 @@
 --[[
-Shared by sim/motion.lua and sim/pose.lua: checks and limits of a motion, the trajectory object behind it, and following it to its end.
+Shared by sim/motion.lua and sim/pose.lua: checks and limits of a motion, the trajectory object behind it, and its execution.
 
 Not a group of sim functions: those are in lua/library/sim.
 ]]
@@ -7,7 +7,7 @@ Not a group of sim functions: those are in lua/library/sim.
 local sim = package.loaded.sim or require 'sim'
 local M = {}
 
--- What 4.10 uses when no limit is given at all: the motion becomes a jump.
+-- What 4.10 uses when no limit is passed at all: the motion becomes a jump.
 local UNLIMITED <const> = {maxVel = 9999.0, maxAccel = 99999.0, maxJerk = 9999999.0}
 local UNLIMITED_STEP <const> = 10.0
 local BASE_CYCLE <const> = 0.0001
@@ -116,7 +116,7 @@ local function split(limits, n, flags, flag)
     return maxima, table.move(limits, n + 1, 2 * n, 1, {})
 end
 
---- Adds to params what the older form gives: limits, perhaps with minima, and a callback(data[field], vel, accel, auxData).
+--- Adds to params the arguments of the older form: limits, perhaps with minima, and a callback(data[field], vel, accel, auxData).
 function M.addOlder(params, n, limits, callback, field, level)
     M.checkCallback(callback, level + 1)
     local flags = params.flags
@@ -166,7 +166,7 @@ function M.finish(data)
     data.ruckigObj = nil
 end
 
---- Follows a motion to its end, a time step per simulation step. What it holds is given back also when a callback fails.
+--- Runs a motion to its end, a time step per simulation step. Resources are released also when a callback fails.
 function M.run(data, step, cleanup)
     local stepping = sim.setStepping(true)
     local ending <close> = setmetatable({}, {__close = function()

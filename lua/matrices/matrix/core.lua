@@ -72,7 +72,7 @@ function Matrix:fromtable(t)
     return new(#t, #t[1], data)
 end
 
---- Rows as tables; with 'data' the numbers by rows; with 'dims' a table that fromtable takes.
+--- Rows as tables; with 'data' the numbers by rows; with 'dims' a table accepted by fromtable.
 function Matrix:totable(format)
     if format == 'data' then return self:data() end
     if format == 'dims' then return {dims = {self._rows, self._cols}, data = self:data()} end

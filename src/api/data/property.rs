@@ -47,7 +47,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// The `options` table of the property functions.
 #[derive(Default)]
 struct Options {
-    /// Failure gives nothing instead of an error.
+    /// Return nothing on failure instead of raising an error.
     no_error: bool,
     /// Only names that begin with it.
     prefix: String,

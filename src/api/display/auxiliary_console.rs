@@ -81,7 +81,7 @@ fn auxiliary_console_close(cx: &mut Cx, console_handle: Number) -> Result<i64> {
     Ok(i64::from(cx.app_mut().consoles.close(console_handle.0)))
 }
 
-/// The next thing the user did in the interface. Nobody does anything there.
+/// The next message of the user interface. There is none without a window.
 ///
 /// @return messageID -1: nothing
 /// @return auxiliaryData four zeros
@@ -91,7 +91,7 @@ fn get_simulator_message(_cx: &Cx) -> Result<(i64, Vec<i64>, Data)> {
     Ok((-1, vec![0; 4], Data::Array(Vec::new())))
 }
 
-/// Takes or gives back a semaphore all programs on the machine share. Taking waits until no other one has it.
+/// Acquires or releases a semaphore shared by all programs on the machine. Acquiring waits until it is free.
 ///
 /// @param key its name
 /// @param acquire true to take it, false to give it back

@@ -54,7 +54,7 @@ fn add_drawing_object(
 /// Adds items to a drawing object.
 ///
 /// @param drawingObjectHandle from sim.addDrawingObject
-/// @param itemData coordinates and more, as the type says; nil takes all items out
+/// @param itemData coordinates and other numbers, depending on the type; nil removes all items
 /// @return result 1
 #[api("sim.addDrawingObjectItem")]
 fn add_drawing_object_item(

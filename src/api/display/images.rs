@@ -54,7 +54,7 @@ pub(in crate::api) fn read_file(name: &[u8]) -> Result<Vec<u8>> {
 /// @param image rows of pixels, the top row first
 /// @param resolution width and height
 /// @param options 0: red, green, blue; 1: with an alpha channel; 2: grey
-/// @param filename its ending tells the kind: png, jpg, bmp, tga. An ending alone (`.png`) makes the function return the content of the file
+/// @param filename its extension selects the format: png, jpg, bmp, tga. An extension alone (`.png`) makes the function return the content of the file
 /// @param quality of JPEG, 1 to 100; -1 for the usual one
 /// @return serializedImage
 #[api("sim.saveImage")]

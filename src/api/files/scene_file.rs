@@ -71,7 +71,7 @@ fn save_scene(cx: &mut Cx, #[default(None)] filename: Option<String>) -> Result<
     Ok(Data::Int(1))
 }
 
-/// Writes a model to a file, or returns its bytes. It is saved where it stands in the world.
+/// Writes a model to a file, or returns its bytes. It is saved with its pose in the world.
 ///
 /// @param modelBaseHandle an object that is marked as the base of a model
 /// @param filename a `.ttm` file, or a `.simmodel.xml` file, with `@simpleXml` behind it for the simple variant; nothing for the bytes
@@ -149,7 +149,7 @@ fn absolute(filename: &str) -> String {
     std::path::absolute(filename).map_or_else(|_| filename.to_owned(), |path| path.to_string_lossy().into_owned())
 }
 
-/// Closes the scene: the default scene takes its place. For add-ons and the sandbox, while the simulation is stopped.
+/// Closes the scene and opens the default scene. For add-ons and the sandbox, while the simulation is stopped.
 ///
 /// @return result 1
 #[api("sim.closeScene")]

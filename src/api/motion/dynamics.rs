@@ -76,7 +76,7 @@ fn get_velocity(cx: &Cx, shape_handle: Handle) -> Result<([f64; 3], [f64; 3])> {
     Ok((velocity.linear, velocity.angular))
 }
 
-/// Makes the physics take an object up anew at the next dynamics call: it loses its velocity.
+/// Resets an object in the physics at the next dynamics call: it loses its velocity.
 ///
 /// @param objectHandle the object, with sim.handleflag_model also everything below it, or sim.handle_all
 #[api("sim.resetDynamicObject")]

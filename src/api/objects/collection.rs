@@ -32,7 +32,7 @@ fn destroy_collection(cx: &mut Cx, collection_handle: Number) -> Result<()> {
     Ok(cx.scene_mut().remove_collection(collection_handle.0)?)
 }
 
-/// Takes everything out of a collection.
+/// Removes all items from a collection.
 ///
 /// @param collectionHandle the collection
 #[api("sim.emptyCollection")]

@@ -242,7 +242,7 @@ fn rotate_around_axis(
     })
 }
 
-/// A matrix or a pose, told apart by the number of values.
+/// A matrix or a pose, distinguished by the number of values.
 enum Transform {
     Matrix([f64; 12]),
     Pose([f64; 7]),

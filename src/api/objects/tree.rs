@@ -294,7 +294,7 @@ fn add_object_to_selection(cx: &mut Cx, what: Number, #[default(None)] object_ha
     Ok(())
 }
 
-/// Takes objects out of the selection.
+/// Removes objects from the selection.
 ///
 /// @param what sim.handle_single, _tree, _chain or _all
 /// @param objectHandle the object meant

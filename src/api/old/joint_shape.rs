@@ -65,7 +65,7 @@ fn set_joint_max_force(cx: &mut Cx, joint_handle: Handle, force_or_torque: f64) 
     Ok(cx.scene_mut().control_joint(joint_handle, |joint| joint.set_target_force(force_or_torque, false))?)
 }
 
-/// Pose of a shape in the frame a script means: the world unless it gives a matrix.
+/// Pose of a shape in the requested frame: the world unless a matrix is passed.
 fn pose_in(cx: &Cx, shape: Handle, frame: Option<[f64; 12]>) -> Result<Pose> {
     let frame = frame.map_or_else(Pose::identity, |matrix| pose_from_matrix(&matrix));
     Ok(frame.inverse() * cx.scene().world_pose(shape)?)

@@ -203,7 +203,7 @@ fn get_script_attribute(cx: &Cx, script_handle: Number, attribute_id: Number) ->
     read(cx, &script_of(cx, script_handle.0)?, Attribute::from_number(attribute_id.0)?)
 }
 
-/// How often the calling script has run, as it was last told by sim.setScriptAttribute: old scenes tell it so.
+/// Execution count of the calling script, as last set by sim.setScriptAttribute in old scenes.
 ///
 /// @return count 0 at first
 #[api("sim.getScriptExecutionCount")]

@@ -27,13 +27,13 @@ fn tube_open(cx: &mut Cx, data_header: Number, data_name: Bytes, read_buffer_siz
 ///
 /// @param tubeHandle from sim.tubeOpen
 /// @param data the packet
-/// @return result 1, 0 if nobody has opened the other end (the packet is lost), -1 if there is no such tube
+/// @return result 1, 0 if the other end is not open (the packet is lost), -1 if there is no such tube
 #[api("sim.tubeWrite")]
 fn tube_write(cx: &mut Cx, tube_handle: Number, data: Bytes) -> Result<i64> {
     Ok(cx.tubes_mut().write(tube_handle.0, data.0).map_or(FAILED, i64::from))
 }
 
-/// Takes the oldest packet out of a tube.
+/// Reads and removes the oldest packet of a tube.
 ///
 /// @param tubeHandle from sim.tubeOpen
 /// @return data nothing if no packet waits

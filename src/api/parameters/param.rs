@@ -228,7 +228,7 @@ fn set_array_param(cx: &mut Cx, parameter: Number, parameter_values: [f64; 3]) -
     Ok(())
 }
 
-/// A string parameter; empty where Swanilda has nothing to tell.
+/// A string parameter; empty if it has no value in Swanilda.
 ///
 /// @param parameter sim.stringparam_*
 /// @return parameterValue

@@ -96,7 +96,7 @@ pub(in crate::api) fn read<T: PropertyValue>(cx: &Cx, twins: &[Twin], number: i6
     Ok(T::from_data(cx.read_property(&target, name, T::TYPE)?))
 }
 
-/// Sets the property that `number` is; tells whether it is one.
+/// Sets the property with that parameter number; returns whether there is one.
 pub(in crate::api) fn write<T: PropertyValue>(cx: &mut Cx, twins: &[Twin], number: i64, value: T) -> Result<bool> {
     let Some((target, name)) = twin(twins, number) else { return Ok(false) };
     cx.write_property(&target, name, (T::TYPE, value.into_data()))?;

@@ -8,7 +8,7 @@ use crate::script::{Bytes, Filters, Table};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![set_event_filters, get_genesis_events, push_user_event];
 
-/// Chooses which events `sysCall_event` of this script is told. The choice ends with the script's Lua state.
+/// Selects the events delivered to `sysCall_event` of this script. The filter ends with the script's Lua state.
 ///
 /// @param filters from handles (of objects, `sim.handle_app`, `sim.handle_scene`, `sim.handle_sceneobject` for all other objects, ...) to lists of property names; an empty list means all of them. An empty table removes all filters
 #[api("sim.setEventFilters")]
@@ -35,7 +35,7 @@ fn get_genesis_events(cx: &mut Cx) -> Result<Bytes> {
 /// @param handle what it is about, or -1
 /// @param uid the identifier of what it is about, or -1
 /// @param eventData its data
-/// @param options bit 0: a later event of the same name and uid in the same batch takes its place
+/// @param options bit 0: a later event with the same name and uid in the same batch replaces it
 #[api("sim.pushUserEvent")]
 fn push_user_event(
     cx: &mut Cx,

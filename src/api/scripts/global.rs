@@ -157,7 +157,7 @@ fn add_statusbar_message(cx: &Cx, message: String) -> Result<i64> {
 /// Small services of the host: `headless`, `useBuffers`. Other commands return nothing.
 ///
 /// @param cmd the service
-/// @return result what it gives
+/// @return result its result
 #[api("auxFunc")]
 fn aux_func(cx: &Cx, cmd: String, _arguments: Rest) -> Result<Results> {
     let _ = cx;
@@ -183,10 +183,10 @@ fn print_line(cx: &Cx, text: crate::script::Bytes) -> Result<()> {
     Ok(())
 }
 
-/// Told of every module a script loads.
+/// Notification that a script has loaded a module.
 ///
 /// @param name the module
-/// @param implicit it was loaded because a script used its name, which takes a thread's time slice
+/// @param implicit loaded implicitly, which uses up a thread's time slice
 #[api("_usedModule")]
 fn used_module(cx: &Cx, name: String, #[default(false)] implicit: bool) -> Result<()> {
     let _ = name;

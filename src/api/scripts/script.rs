@@ -59,7 +59,7 @@ pub(in crate::api) fn script_of(cx: &Cx, raw: i64) -> Result<Rc<Script>> {
     }
 }
 
-/// Ends a script and starts it anew at once.
+/// Resets a script and initialises it again.
 ///
 /// @param scriptHandle the script
 #[api("sim.initScript")]

@@ -28,7 +28,7 @@ fn get_system_time_in_ms(cx: &Cx, previous_time: Number) -> Result<i64> {
     Ok(if previous_time.0 < 0 { now } else { now.saturating_sub(previous_time.0) })
 }
 
-/// A random number of this script's own sequence, which begins anew with each start of the script.
+/// A random number of this script's own sequence, which restarts with each start of the script.
 ///
 /// @param seed begins another sequence
 /// @return randomValue 0 to 1, 1 excluded

@@ -16,7 +16,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     subtract_object_from_cloud,
 ];
 
-/// The colour a script gives, or that of the octree or point cloud.
+/// The colour passed by the script, or that of the octree or point cloud.
 fn colour(scene: &Scene, handle: Handle, given: Option<&[f64]>) -> Result<[u8; 3]> {
     match given {
         None | Some([]) => Ok(scene.object(handle)?.colour.ambient_diffuse.map(|part| (255.0 * part) as u8)),
@@ -25,7 +25,7 @@ fn colour(scene: &Scene, handle: Handle, given: Option<&[f64]>) -> Result<[u8; 3
     }
 }
 
-/// Occupies the cells an object takes: those that the triangles of a shape touch, that voxels overlap, that points or a dummy are in.
+/// Occupies the cells of an object: cells touched by triangles of a shape, overlapped by voxels, or containing points or a dummy.
 ///
 /// @param octreeHandle the octree
 /// @param objectHandle a shape, octree, point cloud or dummy
@@ -54,7 +54,7 @@ fn insert_object_into_octree(
     })?)
 }
 
-/// Empties the cells an object takes, as `sim.insertObjectIntoOctree` would occupy them.
+/// Empties the cells that `sim.insertObjectIntoOctree` would occupy.
 ///
 /// @param octreeHandle the octree
 /// @param objectHandle a shape, octree, point cloud or dummy

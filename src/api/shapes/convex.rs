@@ -56,7 +56,7 @@ fn convex_decompose(
 /// @param path poses of 7 numbers, two at least
 /// @param section points x and y, two at least; closed when the last is the first
 /// @param options 4: the last pose is followed by the first
-/// @param upVector y of the section is turned towards it, z along the path; zeros: the poses say how the section lies
+/// @param upVector y axis of the section points towards it, z along the path; zeros: the poses of the path define the orientation
 /// @return shapeHandle the shape
 #[api("sim.generateShapeFromPath")]
 fn generate_shape_from_path(

@@ -8,7 +8,7 @@ use crate::script::{Handles, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![group_shapes, ungroup_shape];
 
-/// Makes one shape of several. The originals are removed; the last one gives its pose, place, name and flags.
+/// Groups or merges shapes into one. The originals are removed; pose, parent, alias and flags are those of the last one.
 ///
 /// @param shapeHandles the shapes
 /// @param merge whether the result is one mesh instead of a compound
@@ -20,7 +20,7 @@ fn group_shapes(cx: &mut Cx, shape_handles: Handles, #[default(false)] merge: bo
     Ok(group)
 }
 
-/// Takes a compound apart into the shapes it was made of.
+/// Splits a compound into its members.
 ///
 /// @param shapeHandle the shape; -2 minus the handle divides a single mesh into its islands
 /// @return simpleShapeHandles the new shapes, or the shape itself when there is nothing to take apart

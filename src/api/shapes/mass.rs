@@ -70,7 +70,7 @@ fn compute_mass_and_inertia(cx: &mut Cx, shape_handle: Handle, density: f64) -> 
     Ok(i64::from(cx.scene_mut().reshape(shape_handle, |shape| Ok(shape.weigh(density)))?))
 }
 
-/// Gives a shape a preset material, or the one of another shape.
+/// Assigns a preset material to a shape, or the material of another shape.
 ///
 /// @param shapeHandle the shape
 /// @param materialIdOrShapeHandle sim.dynmat_* or a shape

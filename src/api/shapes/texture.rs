@@ -18,7 +18,7 @@ use crate::script::{Bytes, IntPair, Number};
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![create_texture, get_texture_id, get_shape_texture_id, set_shape_texture, read_texture, write_texture];
 
-/// Pixels of a new texture whose size nobody said.
+/// Default size of a new texture in pixels.
 const USUAL_SIDE: f64 = 256.0;
 const WHITE: u8 = 255;
 /// `sim.textureapplymode_decal`.
@@ -40,7 +40,7 @@ mod shape_option {
 /// @param options 1: pixels are not interpolated, 2: applied as a decal, 4: repeated along u, 8: repeated along v
 /// @param planeSizes of the plane, metres; nothing: one metre wide, as high as the image says
 /// @param scalingUV size of the image, metres; nothing for that of the plane
-/// @param xy_g where the image lies on the plane: x, y and perhaps an angle, metres and radians
+/// @param xy_g placement of the image on the plane: x, y and optionally an angle, metres and radians
 /// @param fixedResolution 1: the image of a file is brought to the resolution too
 /// @param resolution of a new image, pixels; 256 times 256 if nothing is said
 /// @return shapeHandle the plane
@@ -145,7 +145,7 @@ fn get_shape_texture_id(cx: &Cx, shape_handle: Handle) -> Result<i64> {
 /// Puts an image on all meshes of a shape.
 ///
 /// @param shapeHandle the shape
-/// @param textureId a texture, or a vision sensor whose picture it is; -1 takes the image away
+/// @param textureId a texture, or a vision sensor whose image is used; -1 removes the texture
 /// @param mappingMode sim.texturemap_*
 /// @param options 1: pixels are not interpolated, 2: applied as a decal, 4: repeated along u, 8: repeated along v
 /// @param uvScaling size of the image, metres
@@ -263,7 +263,7 @@ fn finite_list(numbers: &[f64]) -> Result<Rc<[f32]>> {
     if singles.iter().all(|n| n.is_finite()) { Ok(singles) } else { Err(SceneError::InvalidData.into()) }
 }
 
-/// What `sim.getShapeViz` tells of the texture on a mesh; nothing where there is none, or no image of it.
+/// The texture of a mesh as `sim.getShapeViz` returns it; nothing without a texture or image.
 pub(in crate::api) fn viz(scene: &Scene, part: &Part) -> Option<Data> {
     let mapping = part.texture.as_deref()?;
     let texture = scene.texture(mapping.source.raw()).ok()?;

@@ -139,7 +139,7 @@ fn msg_gets(cx: &Cx, msg: String, property: String) -> Result<(i64, Text)> {
     })
 }
 
-/// Gives a message the content of another.
+/// Copies the content of a message to another.
 ///
 /// @param dest gets it
 /// @param src keeps it
@@ -149,7 +149,7 @@ fn msg_copy(cx: &Cx, dest: String, src: String) -> Result<i64> {
     put(cx, &dest, &src, Message::copy)
 }
 
-/// Gives a message the content of another, which becomes empty.
+/// Moves the content of a message to another; the source becomes empty.
 ///
 /// @param dest gets it
 /// @param src loses it

@@ -42,7 +42,7 @@ pub(super) struct Objects {
     messages: RefCell<BTreeMap<u64, Message>>,
     sockets: RefCell<BTreeMap<u64, Rc<Socket>>>,
     contexts: RefCell<BTreeMap<u64, Life>>,
-    /// Tells the simulator that there are sockets.
+    /// Records that there are sockets.
     presence: RefCell<Option<Rc<()>>>,
     last: Cell<u64>,
     /// Why the last call that failed did.
@@ -73,7 +73,7 @@ fn handle(number: u64, kind: &str) -> String {
     format!("{number:x}:{kind}")
 }
 
-/// What stands for a socket that could not be made.
+/// The handle of a socket that could not be created.
 pub(super) fn no_socket() -> String {
     handle(0, SOCKET)
 }
@@ -98,7 +98,7 @@ pub(super) fn singleton_handle() -> String {
     handle(SINGLETON, CONTEXT)
 }
 
-/// Fails for the context all scripts share, which nobody may end; `done` says how.
+/// Fails for the context shared by all scripts, which may not be ended; `done` is the verb of the message.
 pub(super) fn forbid_singleton(context: &str, done: &str) -> Result<()> {
     if number(context, CONTEXT)? == SINGLETON {
         return Err(ApiError::Other(format!("singleton context must not be {done}")));

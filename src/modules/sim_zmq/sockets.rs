@@ -51,7 +51,7 @@ fn unbind(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
     Ok(objects.done(objects.socket(cx, &socket)?.unbind(&endpoint)))
 }
 
-/// Connects to an address, now or as soon as somebody is there.
+/// Connects to an address, now or as soon as a peer binds it.
 ///
 /// @param socket the socket
 /// @param endpoint such as tcp://127.0.0.1:5555
@@ -102,7 +102,7 @@ fn getsockopt(cx: &Cx, socket: String, option_name: Number, option_len: Number) 
     })
 }
 
-/// Tells what happens to the connections of a socket.
+/// Reports connection events of a socket.
 ///
 /// @param socket the socket
 /// @param endpoint inproc address of the teller
@@ -152,7 +152,7 @@ fn recv(cx: &Cx, socket: String, flags: Number, max_buf_size: Option<Number>) ->
 ///
 /// @param sockets the sockets
 /// @param events what each is waited for
-/// @param timeout milliseconds, -1 for as long as it takes
+/// @param timeout milliseconds, -1 without limit
 /// @return result how many are ready, or -1
 /// @return revents what each is ready for
 #[api("simZMQ.poll")]

@@ -12,7 +12,7 @@ use crate::script::{ApiError, LuaNumber, LuaString, Results, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![bind, connect, receive, receivefrom, send, sendto];
 
-/// What `receive` takes at most, unless it is told otherwise.
+/// Default length limit of `receive`.
 const SIZE: f64 = 8192.0;
 
 /// A datagram object: 0 any, 1 unconnected, 2 connected.
@@ -40,7 +40,7 @@ impl<const STATE: u8> FromScript for DatagramArg<STATE> {
     }
 }
 
-/// Takes an address and a port (`*` and 0 for any), or a path.
+/// Binds to an address and a port (`*` and 0 for any), or to a path.
 #[api("socket.core.datagram:bind")]
 fn bind(cx: &Cx, object: Unconnected, host: LuaString, port: Option<LuaString>) -> Result<Done> {
     let mut datagram = object.0.borrow_mut();

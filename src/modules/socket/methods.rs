@@ -23,7 +23,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     getpeername
 ];
 
-/// Forgets an object nobody refers to any more; its socket is closed.
+/// Drops an object that is no longer referenced; its socket is closed.
 #[api("socket.core.collect")]
 fn collect(cx: &Cx, object: AnySocket) -> Result<()> {
     let sockets = cx.script_state::<Sockets>();
@@ -59,7 +59,7 @@ fn getfd(_cx: &Cx, object: AnySocket) -> Result<f64> {
     Ok(object.socket().map_or(-1.0, |socket| descriptor(&socket) as f64))
 }
 
-/// Gives the object another socket of this script, by its number; -1 takes it away without closing it.
+/// Assigns another socket of this script to the object, by its number; -1 detaches the socket without closing it.
 #[api("socket.core.any:setfd")]
 fn setfd(cx: &Cx, object: AnySocket, number: LuaNumber) -> Result<()> {
     let sockets = cx.script_state::<Sockets>();
@@ -84,7 +84,7 @@ fn not_ours(number: i64) -> ApiError {
     ApiError::NotImplemented(format!("setfd with {number}, which is no socket of this script"))
 }
 
-/// Whether something has arrived that nobody has asked for.
+/// Whether unread data have arrived.
 #[api("socket.core.any:dirty")]
 fn dirty(_cx: &Cx, object: AnySocket) -> Result<bool> {
     Ok(match object {

@@ -15,7 +15,7 @@ use crate::script::{ApiError, LuaNumber, LuaString};
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![bind, connect, listen, accept, receive, send, shutdown, getstats, setstats];
 
-/// LuaSocket's length of the queue of connections nobody has accepted.
+/// LuaSocket's length of the queue of pending connections.
 const BACKLOG: f64 = 32.0;
 
 /// A stream in a role: the numbers of [`Role`], or any.
@@ -62,7 +62,7 @@ impl<const ROLE: u8> FromScript for StreamArg<ROLE> {
     }
 }
 
-/// Takes an address and a port (`*` and 0 for any), or a path.
+/// Binds to an address and a port (`*` and 0 for any), or to a path.
 #[api("socket.core.stream:bind")]
 fn bind(cx: &Cx, object: Master, host: LuaString, port: Option<LuaString>) -> Result<Done> {
     let mut stream = object.stream.borrow_mut();

@@ -12,7 +12,7 @@ use crate::script::Table;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![wrap, dohandshake, info];
 
-/// A new object that takes over the socket of another, to speak TLS on it.
+/// Wraps the socket of another object in TLS.
 #[api("ssl.wrap")]
 fn wrap(cx: &Cx, object: Client) -> Result<Outcome<Created>> {
     let sockets = cx.script_state::<Sockets>();

@@ -39,7 +39,7 @@ fn iterate(cx: &mut Cx) -> Result<()> {
     if cx.is_interrupted() { Err(ApiError::Other("interrupted.".into())) } else { Ok(()) }
 }
 
-/// How many errors scripts have raised that nobody caught.
+/// Number of uncaught script errors.
 ///
 /// @return count
 #[api("swanilda.test.errors")]
