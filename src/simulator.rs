@@ -273,7 +273,7 @@ impl Simulator {
         self.sim.clock.steps()
     }
 
-    /// How many errors scripts have raised that nobody caught.
+    /// Number of uncaught script errors.
     pub fn errors(&self) -> u64 {
         self.sim.log.errors()
     }

@@ -27,7 +27,7 @@ function lfs.ispathabsolute(path) end
 --- Makes a folder and those above it. An existing one is an error unless exist_ok.
 function lfs.makedirs(path, exist_ok) end
 
---- Parts joined by separators; an absolute part begins anew.
+--- Parts joined by separators; an absolute part restarts the path.
 function lfs.pathjoin(...) end
 
 function lfs.pathparts(p) end

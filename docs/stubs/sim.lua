@@ -13,7 +13,7 @@ function addLog(verbosityLevel, logMessage) end
 --- Small services of the host: `headless`, `useBuffers`. Other commands return nothing.
 ---@param cmd string the service
 ---@param ... any
----@return any result what it gives
+---@return any result its result
 function auxFunc(cmd, ...) end
 
 --- Whether the running coroutine may be pre-empted.
@@ -70,7 +70,7 @@ function sim.addDrawingObject(objectType, size, duplicateTolerance, parentObject
 
 --- Adds items to a drawing object.
 ---@param drawingObjectHandle integer from sim.addDrawingObject
----@param itemData? any coordinates and more, as the type says; nil takes all items out
+---@param itemData? any coordinates and other numbers, depending on the type; nil removes all items
 ---@return integer result 1
 function sim.addDrawingObjectItem(drawingObjectHandle, itemData) end
 
@@ -193,7 +193,7 @@ function sim.alphaBetaGammaToYawPitchRoll(alpha, beta, gamma) end
 --- Small services of the host: `headless`, `useBuffers`. Other commands return nothing.
 ---@param cmd string the service
 ---@param ... any
----@return any result what it gives
+---@return any result its result
 function sim.auxFunc(cmd, ...) end
 
 --- Closes a console.
@@ -312,7 +312,7 @@ function sim.callScriptFunction(functionName, scriptHandle, ...) end
 ---@return boolean cancelled false if it has run already, or never existed
 function sim.cancelScheduledExecution(id) end
 
---- Gives the shapes of a collection, or one shape, a colour.
+--- Sets the colour of the shapes of a collection, or of one shape.
 ---@param entityHandle integer shape or collection
 ---@param color number[] red, green, blue
 ---@param component? integer sim.colorcomponent_*
@@ -361,7 +361,7 @@ function sim.clearIntegerSignal(signalName) end
 ---@return integer count how many there were
 function sim.clearStringSignal(signalName) end
 
---- Does nothing: there are no plugins to be told.
+--- Does nothing: there are no plugins to notify.
 ---@deprecated
 ---@param module any a name, or sim.handle_all
 ---@return integer count 0
@@ -374,7 +374,7 @@ function sim.closeModule(module) end
 ---@return number[] lengths with one more value
 function sim.closePath(path, lengths) end
 
---- Closes the scene: the default scene takes its place. For add-ons and the sandbox, while the simulation is stopped.
+--- Closes the scene and opens the default scene. For add-ons and the sandbox, while the simulation is stopped.
 ---@return integer result 1
 function sim.closeScene() end
 
@@ -585,7 +585,7 @@ function sim.displayDialog(title, text, style, modal, ...) end
 ---@return integer curveId number of the copy
 function sim.duplicateGraphCurveToStatic(graphHandle, curveId, curveName) end
 
---- Takes everything out of a collection.
+--- Removes all items from a collection.
 ---@deprecated sim.destroyCollection
 ---@param collectionHandle integer the collection
 function sim.emptyCollection(collectionHandle) end
@@ -635,7 +635,7 @@ function sim.floatingViewRemove(floatingViewHandle) end
 ---@param path number[] poses of 7 numbers, two at least
 ---@param section number[] points x and y, two at least; closed when the last is the first
 ---@param options? integer 4: the last pose is followed by the first
----@param upVector? number[] y of the section is turned towards it, z along the path; zeros: the poses say how the section lies
+---@param upVector? number[] y axis of the section points towards it, z along the path; zeros: the poses of the path define the orientation
 ---@return integer shapeHandle the shape
 function sim.generateShapeFromPath(path, section, options, upVector) end
 
@@ -1439,7 +1439,7 @@ function sim.getQuaternionInverse(quaternion) end
 ---@return number[] propertyState
 function sim.getQuaternionProperty(target, propertyName, options) end
 
---- A random number of this script's own sequence, which begins anew with each start of the script.
+--- A random number of this script's own sequence, which restarts with each start of the script.
 ---@param seed? integer begins another sequence
 ---@return number randomValue 0 to 1, 1 excluded
 function sim.getRandom(seed) end
@@ -1497,7 +1497,7 @@ function sim.getScriptAssociatedWithObject(objectHandle) end
 ---@return any attribute
 function sim.getScriptAttribute(scriptHandle, attributeId) end
 
---- How often the calling script has run, as it was last told by sim.setScriptAttribute: old scenes tell it so.
+--- Execution count of the calling script, as last set by sim.setScriptAttribute in old scenes.
 ---@return integer count 0 at first
 function sim.getScriptExecutionCount() end
 
@@ -1649,7 +1649,7 @@ function sim.getSimulationTime() end
 ---@return number timeStep seconds
 function sim.getSimulationTimeStep() end
 
---- The next thing the user did in the interface. Nobody does anything there.
+--- The next message of the user interface. There is none without a window.
 ---@return integer messageID -1: nothing
 ---@return integer[] auxiliaryData four zeros
 ---@return any auxiliaryData2 empty
@@ -1666,12 +1666,12 @@ function sim.getStackTraceback(scriptHandle) end
 ---@return string stringParam nothing if there is none
 function sim.getStringNamedParam(paramName) end
 
---- A string parameter; empty where Swanilda has nothing to tell.
+--- A string parameter; empty if it has no value in Swanilda.
 ---@param parameter integer sim.stringparam_*
 ---@return string parameterValue
 function sim.getStringParam(parameter) end
 
---- A string parameter; empty where Swanilda has nothing to tell.
+--- A string parameter; empty if it has no value in Swanilda.
 ---@deprecated properties
 ---@param parameter integer sim.stringparam_*
 ---@return string parameterValue
@@ -1792,7 +1792,7 @@ function sim.getVisionSensorResolution(sensorHandle) end
 ---@return boolean allowed
 function sim.getYieldAllowed() end
 
---- Makes one shape of several. The originals are removed; the last one gives its pose, place, name and flags.
+--- Groups or merges shapes into one. The originals are removed; pose, parent, alias and flags are those of the last one.
 ---@param shapeHandles integer[] the shapes
 ---@param merge? boolean whether the result is one mesh instead of a compound
 ---@return integer shapeHandle the new shape
@@ -1873,7 +1873,7 @@ function sim.handleMechanism(mechanismHandle) end
 ---@return integer result 0
 function sim.handleMill(millHandle) end
 
---- Does nothing: there are no plugins to be told.
+--- Does nothing: there are no plugins to notify.
 ---@deprecated
 ---@param module any a name, or sim.handle_all
 ---@param calledInSensingPart boolean any
@@ -1932,11 +1932,11 @@ function sim.includeAbs(path) end
 ---@return any result of the file
 function sim.includeRel(path) end
 
---- Ends a script and starts it anew at once.
+--- Resets a script and initialises it again.
 ---@param scriptHandle integer the script
 function sim.initScript(scriptHandle) end
 
---- Occupies the cells an object takes: those that the triangles of a shape touch, that voxels overlap, that points or a dummy are in.
+--- Occupies the cells of an object: cells touched by triangles of a shape, overlapped by voxels, or containing points or a dummy.
 ---@param octreeHandle integer the octree
 ---@param objectHandle integer a shape, octree, point cloud or dummy
 ---@param options integer not used
@@ -2158,7 +2158,7 @@ function sim.multiplyPoses(poseIn1, poseIn2) end
 ---@return number[] outVectors three numbers for each vector
 function sim.multiplyVector(matrix, inVectors) end
 
---- Does nothing: there are no plugins to be told.
+--- Does nothing: there are no plugins to notify.
 ---@deprecated
 ---@param module any a name, or sim.handle_all
 ---@return integer count 0
@@ -2245,7 +2245,7 @@ function sim.poseToMatrix(pose) end
 ---@param handle integer what it is about, or -1
 ---@param uid integer the identifier of what it is about, or -1
 ---@param eventData table its data
----@param options? integer bit 0: a later event of the same name and uid in the same batch takes its place
+---@param options? integer bit 0: a later event with the same name and uid in the same batch replaces it
 function sim.pushUserEvent(event, handle, uid, eventData, options) end
 
 --- Ends the program after the current loop iteration.
@@ -2313,7 +2313,7 @@ function sim.readForceSensor(objectHandle) end
 ---@return string|table textureData red, green, blue of each pixel, the bottom row first
 function sim.readTexture(textureId, options, posX, posY, sizeX, sizeY) end
 
---- Takes what sim.sendData left.
+--- Receives data sent by sim.sendData.
 ---@deprecated
 ---@param dataHeader integer as sent
 ---@param dataName string as sent
@@ -2367,7 +2367,7 @@ function sim.removeModel(objectHandle, delayedRemoval) end
 ---@return integer result 1
 function sim.removeObject(objectHandle) end
 
---- Takes objects out of the selection.
+--- Removes objects from the selection.
 ---@deprecated sim.setObjectSel
 ---@param what integer sim.handle_single, _tree, _chain or _all
 ---@param objectHandle? integer the object meant
@@ -2442,7 +2442,7 @@ function sim.resetCollision(collisionObjectHandle) end
 ---@return integer result 0
 function sim.resetDistance(distanceObjectHandle) end
 
---- Makes the physics take an object up anew at the next dynamics call: it loses its velocity.
+--- Resets an object in the physics at the next dynamics call: it loses its velocity.
 ---@param objectHandle integer the object, with sim.handleflag_model also everything below it, or sim.handle_all
 ---@return integer result
 function sim.resetDynamicObject(objectHandle) end
@@ -2601,12 +2601,12 @@ function sim.ruckigVel(dofs, baseCycleTime, flags, currentPosVelAccel, maxAccelJ
 ---@param image string|table rows of pixels, the top row first
 ---@param resolution number[] width and height
 ---@param options integer 0: red, green, blue; 1: with an alpha channel; 2: grey
----@param filename string its ending tells the kind: png, jpg, bmp, tga. An ending alone (`.png`) makes the function return the content of the file
+---@param filename string its extension selects the format: png, jpg, bmp, tga. An extension alone (`.png`) makes the function return the content of the file
 ---@param quality? integer of JPEG, 1 to 100; -1 for the usual one
 ---@return string|table serializedImage
 function sim.saveImage(image, resolution, options, filename, quality) end
 
---- Writes a model to a file, or returns its bytes. It is saved where it stands in the world.
+--- Writes a model to a file, or returns its bytes. It is saved with its pose in the world.
 ---@param modelBaseHandle integer an object that is marked as the base of a model
 ---@param filename? string a `.ttm` file, or a `.simmodel.xml` file, with `@simpleXml` behind it for the simple variant; nothing for the bytes
 ---@return any result 1, or a buffer with the bytes
@@ -2783,7 +2783,7 @@ function sim.setEngineInt32Param(paramId, objectHandle, int32Param) end
 ---@param int32Param integer the value
 function sim.setEngineInt32Parameter(paramId, objectHandle, int32Param) end
 
---- Chooses which events `sysCall_event` of this script is told. The choice ends with the script's Lua state.
+--- Selects the events delivered to `sysCall_event` of this script. The filter ends with the script's Lua state.
 ---@param filters? any from handles (of objects, `sim.handle_app`, `sim.handle_scene`, `sim.handle_sceneobject` for all other objects, ...) to lists of property names; an empty list means all of them. An empty table removes all filters
 function sim.setEventFilters(filters) end
 
@@ -3251,7 +3251,7 @@ function sim.setShapeMass(shapeHandle, mass) end
 ---@param transformation? number[] frame of the values, in the world; the world if missing
 function sim.setShapeMassAndInertia(shapeHandle, mass, inertiaMatrix, centerOfMass, transformation) end
 
---- Gives a shape a preset material, or the one of another shape.
+--- Assigns a preset material to a shape, or the material of another shape.
 ---@param shapeHandle integer the shape
 ---@param materialIdOrShapeHandle integer sim.dynmat_* or a shape
 ---@return integer result -1 for a preset, 1 for another shape
@@ -3259,7 +3259,7 @@ function sim.setShapeMaterial(shapeHandle, materialIdOrShapeHandle) end
 
 --- Puts an image on all meshes of a shape.
 ---@param shapeHandle integer the shape
----@param textureId integer a texture, or a vision sensor whose picture it is; -1 takes the image away
+---@param textureId integer a texture, or a vision sensor whose image is used; -1 removes the texture
 ---@param mappingMode integer sim.texturemap_*
 ---@param options integer 1: pixels are not interpolated, 2: applied as a decal, 4: repeated along u, 8: repeated along v
 ---@param uvScaling number[] size of the image, metres
@@ -3267,7 +3267,7 @@ function sim.setShapeMaterial(shapeHandle, materialIdOrShapeHandle) end
 ---@param orientation? number[] of the projection, Euler angles
 function sim.setShapeTexture(shapeHandle, textureId, mappingMode, options, uvScaling, position, orientation) end
 
---- Gives an object the name of another one with something appended.
+--- Names an object after another one, with a suffix.
 ---@param handle integer the object
 ---@param original string name of the other
 ---@param suffix string appended unless there already
@@ -3379,7 +3379,7 @@ function sim.step() end
 ---@param wait? boolean wait until stopped, at most 20 steps; not possible in main and simulation scripts
 function sim.stopSimulation(wait) end
 
---- Empties the cells an object takes, as `sim.insertObjectIntoOctree` would occupy them.
+--- Empties the cells that `sim.insertObjectIntoOctree` would occupy.
 ---@param octreeHandle integer the octree
 ---@param objectHandle integer a shape, octree, point cloud or dummy
 ---@param options integer not used
@@ -3398,7 +3398,7 @@ function sim.subtractObjectFromPointCloud(pointCloudHandle, objectHandle, option
 ---@deprecated sim.step
 function sim.switchThread() end
 
---- Takes or gives back a semaphore all programs on the machine share. Taking waits until no other one has it.
+--- Acquires or releases a semaphore shared by all programs on the machine. Acquiring waits until it is free.
 ---@param key string|table its name
 ---@param acquire boolean true to take it, false to give it back
 function sim.systemSemaphore(key, acquire) end
@@ -3439,7 +3439,7 @@ function sim.tubeClose(tubeHandle) end
 ---@return integer tubeHandle
 function sim.tubeOpen(dataHeader, dataName, readBufferSize) end
 
---- Takes the oldest packet out of a tube.
+--- Reads and removes the oldest packet of a tube.
 ---@param tubeHandle integer from sim.tubeOpen
 ---@return string|table data nothing if no packet waits
 function sim.tubeRead(tubeHandle) end
@@ -3454,10 +3454,10 @@ function sim.tubeStatus(tubeHandle) end
 --- Writes a packet into a tube.
 ---@param tubeHandle integer from sim.tubeOpen
 ---@param data string|table the packet
----@return integer result 1, 0 if nobody has opened the other end (the packet is lost), -1 if there is no such tube
+---@return integer result 1, 0 if the other end is not open (the packet is lost), -1 if there is no such tube
 function sim.tubeWrite(tubeHandle, data) end
 
---- Takes a compound apart into the shapes it was made of.
+--- Splits a compound into its members.
 ---@param shapeHandle integer the shape; -2 minus the handle divides a single mesh into its islands
 ---@return integer[] simpleShapeHandles the new shapes, or the shape itself when there is nothing to take apart
 function sim.ungroupShape(shapeHandle) end

@@ -25,15 +25,15 @@
 ---     has(capability) -> 0 or 1                         version() -> major, minor, patch
 ---     z85_encode(data) -> text                          z85_decode(text) -> data
 ---
---- Failures are results, -1, and errnum() tells why. __raiseErrors(true) makes errors of them for the calling script; __noError.name and
+--- Failures return -1 and set errnum(). __raiseErrors(true) turns them into errors for the calling script; __noError.name and
 --- __raiseError.name are the two forms of each function. Options are bytes: sim.packInt32Table{0} for most.
 ---
---- send, recv, msg_send, msg_recv and poll wait when they are told to. In a thread the simulation goes on meanwhile; elsewhere it waits
---- too, but not longer than __patience seconds, 60 if the script sets no other number: then send and recv return -1 with EAGAIN, poll 0,
---- proxies -1, and a warning is logged. Ctrl-c makes an error of a wait. __send, __recv, __msg_send and __msg_recv obey the options SNDTIMEO and RCVTIMEO.
+--- send, recv, msg_send, msg_recv and poll may block. In a thread the simulation continues meanwhile; elsewhere it is blocked
+--- too, but at most for __patience seconds (default 60): then send and recv return -1 with EAGAIN, poll 0,
+--- proxies -1, and a warning is logged. Ctrl-c ends a wait with an error. __send, __recv, __msg_send and __msg_recv obey the options SNDTIMEO and RCVTIMEO.
 --- ctx_term gives up after two seconds outside of threads, and at once while there are open sockets: -1 with EINTR; call it again.
 ---
---- Events of a monitor wait for a reader, some thousand of them; what comes beyond is lost, and told once.
+--- Several thousand events of a monitor are queued; further ones are dropped, with one warning.
 ---
 --- Of drafts of libzmq nothing is built: ctx_set_ext, ctx_get_ext, join, leave, connect_peer, msg_set_routing_id, msg_routing_id,
 --- msg_set_group and msg_group do nothing.

@@ -43,7 +43,7 @@ function M.find(t, item, equals) end
 --- Nested maps become one map with keys like a.b.c.
 function M.flatten(t, opts, prefix, result) end
 
---- A table of what an iterator such as ipairs(t) gives.
+--- A table of the values of an iterator such as ipairs(t).
 function M.fromipairs(iterator, state, index) end
 
 function M.frompairs(items) end
@@ -79,7 +79,7 @@ function M.slice(t, first, last, step) end
 
 function M.sorted(t, compare) end
 
---- Text of a table; with sep between its entries where that is given.
+--- Text of a table; with sep between its entries if it is passed.
 function M.tostring(t, sep) end
 
 --- The reverse of flatten.

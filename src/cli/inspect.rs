@@ -1,4 +1,4 @@
-//! `swanilda inspect`: what is in a scene, and whether its scripts find here what they need.
+//! `swanilda inspect`: contents of a scene, and whether its scripts are supported.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -80,7 +80,7 @@ impl Bodies {
         self.all.iter_mut().map(|(shape, body)| (*shape, body))
     }
 
-    /// Whether a script moved a shape, or asks for it to be built anew.
+    /// Whether a script moved a shape or requested a reset.
     pub(super) fn were_touched(&self, scene: &Scene) -> bool {
         self.iter().any(|(shape, body)| match scene.object(shape) {
             Ok(object) => {
@@ -275,7 +275,7 @@ impl Bodies {
         }
     }
 
-    /// Gives the bodies the forces scripts ask for, in place of those of the pass before. rapier looks again at every body it is asked
+    /// Gives the bodies the forces scripts ask for, in place of those of the sub-step before. rapier looks again at every body it is asked
     /// to change, so that those without forces are not touched.
     pub(super) fn apply_forces(&self, world: &mut World, scene: &Scene) {
         for (shape, body) in self.iter().filter(|(_, body)| body.build.dynamic) {

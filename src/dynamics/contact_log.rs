@@ -40,7 +40,7 @@ impl Contact {
     }
 }
 
-/// The contacts of the passes of one call.
+/// The contacts of the sub-steps of one call.
 #[derive(Default)]
 pub(super) struct ContactLog {
     awake: Batch,
@@ -122,7 +122,7 @@ impl ContactLog {
         self.passes.push(SubStep { touches, resting: self.resting.contacts.clone() });
     }
 
-    /// All contacts, in the order of the passes.
+    /// All contacts, in the order of the sub-steps.
     pub(super) fn iter(&self) -> impl Iterator<Item = Contact> {
         (0..).zip(&self.passes).flat_map(move |(number, pass)| {
             let awake = self.awake.contacts(pass.touches.clone(), number);

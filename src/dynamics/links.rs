@@ -28,7 +28,7 @@ const SOFTNESS: SpringCoefficients<f64> = SpringCoefficients { natural_frequency
 /// A revolute joint with a wider range has no stops, radians.
 const WIDEST_STOPS: f64 = 359.0 * std::f64::consts::PI / 180.0;
 
-/// The links by the object that stands for them.
+/// The links by their object.
 pub(super) type Links = BTreeMap<Handle, Link>;
 
 /// A constraint in the engine.
@@ -174,7 +174,7 @@ impl Link {
         }
     }
 
-    /// Whether rapier takes part in holding the link.
+    /// Whether rapier solves the link as well.
     pub(super) fn share(&mut self, with_engine: bool, world: &mut World) {
         if self.shared != with_engine
             && let Some(link) = world.joints.get_mut(self.joint, false)
@@ -258,7 +258,7 @@ fn locked_axes(plan: &LinkPlan) -> JointAxesMask {
     }
 }
 
-/// Notes that the links scripts asked for were built anew.
+/// Clears the reset requests of links that were rebuilt.
 pub(super) fn take_resets(links: &Links, scene: &mut Scene) {
     for &handle in links.keys() {
         if scene.object(handle).is_ok_and(|object| object.dynamics_reset) {
@@ -268,7 +268,7 @@ pub(super) fn take_resets(links: &Links, scene: &mut Scene) {
     }
 }
 
-/// Whether a script moved a link, or asks for it to be built anew.
+/// Whether a script moved a link or requested a reset.
 pub(super) fn were_touched(links: &Links, scene: &Scene) -> bool {
     links.iter().any(|(&handle, link)| {
         scene.object(handle).map_or(true, |object| object.pose() != link.plan.base || object.dynamics_reset)

@@ -1,9 +1,9 @@
 //! The scene's physics, by rapier. The only place that names rapier.
 //!
-//! A dynamics call is divided into passes. [`Dynamics::begin`] brings the engine up to date with the scene, then every pass is
+//! A dynamics call is divided into sub-steps. [`Dynamics::begin`] brings the engine up to date with the scene, then every sub-step is
 //! [`prepare`](Dynamics::prepare) (static bodies and motors), [`start_pass`](Dynamics::start_pass), [`Pass::run`] and
 //! [`finish_pass`](Dynamics::finish_pass) (the scene learns the result), and [`end`](Dynamics::end) closes the call. Between these the
-//! scene and the dynamics are nobody's, so that scripts may run; while a pass runs the scene may be read and written, and the engine
+//! scene and the dynamics are nobody's, so that scripts may run; while a sub-step runs the scene may be read and written, and the engine
 //! takes notice at the next call.
 //!
 //! - `plan`: who takes part, decided over the scene alone; compared with what exists, so that only changes touch the engine.
@@ -48,7 +48,7 @@ use world::World;
 use crate::scene::joint::{Joint, JointMode};
 use crate::scene::{Field, Handle, Mark, Scene, Topics};
 
-/// Changes that can alter what takes part, and how.
+/// Changes that can alter bodies and constraints.
 const PLANNED: Topics = Topics::TREE.with_fields(&[
     Field::Layer,
     Field::ObjectProperty,
@@ -64,7 +64,7 @@ const PLANNED: Topics = Topics::TREE.with_fields(&[
 /// The physics world that belongs to a scene.
 #[derive(Default)]
 pub(crate) struct Dynamics {
-    /// Out while a pass runs.
+    /// None while a sub-step runs.
     world: Option<World>,
     bodies: Bodies,
     links: Links,
@@ -84,11 +84,11 @@ pub(crate) struct Dynamics {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Call {
     pub passes: u32,
-    /// Length of a pass, seconds.
+    /// Length of a sub-step, seconds.
     pub step: f64,
 }
 
-/// A call asked for during another one.
+/// A call requested during another one.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Busy;
 
@@ -96,43 +96,43 @@ pub(crate) struct Busy;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct JointRequest {
     pub joint: Handle,
-    /// No pass has run yet with this joint.
+    /// No sub-step has run yet with this joint.
     pub first: bool,
     pub position: f64,
     pub velocity: f64,
     /// Target minus position, the shortest way.
     pub error: f64,
-    /// Of the last pass, on the parent.
+    /// Of the last sub-step, on the parent.
     pub effort: f64,
 }
 
-/// Which scripts take part in a pass.
+/// Involvement of scripts in a sub-step.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Attention {
     /// Scripts judge contacts.
     pub judged: bool,
-    /// Scripts run before, during or after the pass, so that they may look at the scene and change it.
+    /// Scripts run before, during or after the sub-step, so that they may look at the scene and change it.
     pub watched: bool,
 }
 
-/// A pass ready to run. Holds the engine, so that a script called meanwhile finds no physics to disturb.
+/// A sub-step ready to run. Holds the engine, so that a script called meanwhile finds no physics to disturb.
 pub(crate) struct Pass {
     world: World,
     gravity: Vector,
     step: f64,
-    /// Whether somebody can see the scene before the next pass.
+    /// Whether scripts can read the scene before the next sub-step.
     seen: bool,
 }
 
 impl Pass {
-    /// Advances the engine; `judge` is asked about pairs of shapes that may touch.
+    /// Advances the engine; `judge` decides about pairs of shapes that may touch.
     pub(crate) fn run(&mut self, judge: Option<Judge<'_>>) {
         self.world.step(self.step, self.gravity, &contacts::Rules::new(judge));
     }
 }
 
 impl Dynamics {
-    /// Forgets the world: it is built anew at the next step.
+    /// Drops the world; it is rebuilt at the next step.
     pub(crate) fn reset(&mut self) {
         *self = Self::default();
     }
@@ -194,7 +194,7 @@ impl Dynamics {
         scene.journal().changed_since(self.known.get_or_insert(Mark::new(PLANNED)))
     }
 
-    /// Before pass number `pass` (from 1): moves the static bodies and sets the motors. Returns the joints only a script can drive.
+    /// Before sub-step number `pass` (from 1): moves the static bodies and sets the motors. Returns the joints only a script can drive.
     pub(crate) fn prepare(&mut self, scene: &Scene, pass: u32) -> Vec<JointRequest> {
         let (Some(world), Some(call)) = (self.world.as_mut(), self.call) else { return Vec::new() };
         self.bodies.sweep(f64::from(pass) / f64::from(call.passes), world);
@@ -219,14 +219,14 @@ impl Dynamics {
         requests
     }
 
-    /// Gives a joint in callback control what its script answered.
+    /// Sets the motor of a joint in callback control to the result of its script.
     pub(crate) fn drive(&mut self, joint: Handle, velocity: Option<f64>, force: Option<f64>) {
         if let (Some(link), Some(world)) = (self.links.get_mut(&joint), self.world.as_mut()) {
             link.set_drive(motors::answered(velocity, force), world);
         }
     }
 
-    /// Readies pass number `pass` (from 1): forces of scripts, gravity.
+    /// Readies sub-step number `pass` (from 1): forces of scripts, gravity.
     pub(crate) fn start_pass(&mut self, scene: &Scene, pass: u32, attention: Attention) -> Option<Pass> {
         let mut world = self.world.take()?;
         let call = self.call?;
@@ -235,7 +235,7 @@ impl Dynamics {
             contacts::ask_about_all(&mut world, self.asks);
             let_sleep(&self.bodies, &self.links, &mut world, self.asks);
         }
-        // Nobody else can have changed the forces since the first pass.
+        // Nobody else can have changed the forces since the first sub-step.
         if pass == 1 || attention.watched {
             self.bodies.apply_forces(&mut world, scene);
         }
@@ -262,13 +262,13 @@ impl Dynamics {
         self.frozen.take_unreported()
     }
 
-    /// The contacts of the last call, in the order of its passes.
+    /// The contacts of the last call, in the order of its sub-steps.
     pub(crate) fn contacts(&self) -> impl Iterator<Item = Contact> {
         self.contacts.iter()
     }
 }
 
-/// Bodies on links stay awake, and all do while scripts judge contacts: they expect to be asked in every pass.
+/// Bodies with links stay awake, and all do while scripts decide about contacts, since they are called in every sub-step.
 fn let_sleep(bodies: &Bodies, links: &Links, world: &mut World, asks: bool) {
     let linked: BTreeSet<Handle> = links.values().flat_map(|link| [link.plan.first, link.plan.second]).collect();
     bodies.let_sleep(world, |shape| asks || linked.contains(&shape));

@@ -1,4 +1,4 @@
-//! What a joint's motor is asked to do in a sub-step: the control law (spec: joints 7).
+//! Motor control law of joints, per sub-step (spec: joints 7).
 //!
 //! Pure functions; values in rad or m, N m or N, seconds.
 

@@ -1,4 +1,4 @@
-//! Who takes part in the dynamics: which shapes own bodies, and what links them (spec: dynamics 3).
+//! Which shapes are bodies, and which constraints connect them (spec: dynamics 3).
 //!
 //! Pure decisions over the scene; nothing here knows rapier. A plan is made anew whenever something it depends on has changed, and
 //! compared with what exists.
@@ -28,7 +28,7 @@ const ACTIVITY_RANGE: f64 = 1000.0;
 pub(super) struct Plan {
     /// Base-to-tip.
     pub bodies: Vec<(Handle, BodyPlan)>,
-    /// By the joint, force sensor or (smaller) dummy that stands for the link.
+    /// Handle of the joint, force sensor or (smaller) dummy of the link.
     pub links: BTreeMap<Handle, LinkPlan>,
     /// Roots out of the range of the physics.
     pub far: Vec<Handle>,
@@ -42,7 +42,7 @@ pub(super) struct BodyPlan {
     pub asleep: bool,
 }
 
-/// What a body is made of: when any of it changes, the body is built anew and loses its velocity.
+/// The ingredients of a body: when one changes, the body is rebuilt and loses its velocity.
 #[derive(PartialEq)]
 pub(super) struct BodyBuild {
     pub uid: Uid,
@@ -251,7 +251,7 @@ fn welded_to<'a>(scene: &'a Scene, dummy: &Object) -> Option<&'a Object> {
     closes.then_some(partner)
 }
 
-/// The link an object stands for, if all its conditions hold. `roles`: the bodies, and whether they are dynamic.
+/// The link of an object, if all its conditions hold. `roles`: the bodies, and whether they are dynamic.
 fn link(scene: &Scene, handle: Handle, roles: &BTreeMap<Handle, bool>) -> Option<LinkPlan> {
     let object = scene.object(handle).ok()?;
     let first = object.parent().filter(|parent| roles.contains_key(parent))?;
@@ -292,7 +292,7 @@ fn link(scene: &Scene, handle: Handle, roles: &BTreeMap<Handle, bool>) -> Option
     })
 }
 
-/// Two dummies right below shapes: the first of the two stands for the link.
+/// Two dummies directly below shapes; the link is identified by the first.
 fn weld(scene: &Scene, dummy: &Object, first: Handle, roles: &BTreeMap<Handle, bool>) -> Option<LinkPlan> {
     let partner = welded_to(scene, dummy)?;
     let second = partner.parent()?;

@@ -1,4 +1,4 @@
-//! The way back: what the scene learns after a pass and at the end of a call.
+//! Results for the scene: after a sub-step and at the end of a call.
 
 use articulation::wrap_angle;
 use nalgebra::UnitQuaternion;
@@ -29,14 +29,14 @@ const DUMMY: i64 = 64;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Trigger {
     pub sensor: Handle,
-    /// Mean over the passes of the last call: force and torque.
+    /// Mean over the sub-steps of the last call: force and torque.
     pub raw: Load,
     pub filtered: Load,
 }
 
 impl Dynamics {
-    /// Takes the engine back after a pass and tells the scene: joints and force sensors first, then shapes, base-to-tip. Shapes only
-    /// when somebody can see them before the next pass, or when the engine gave up on one.
+    /// Takes the engine back after a sub-step and tells the scene: joints and force sensors first, then shapes, base-to-tip. Shapes only
+    /// when somebody can see them before the next sub-step, or when the engine gave up on one.
     pub(crate) fn finish_pass(&mut self, pass: Pass, scene: &mut Scene) {
         let Pass { mut world, step, seen, .. } = pass;
         if self.call.is_none() {
@@ -90,7 +90,7 @@ impl Dynamics {
         }
     }
 
-    /// Ends the call: forces are used up, readings are averaged, flags tell who took part. Returns the force sensors that trigger.
+    /// Ends the call: clears forces, averages readings, sets the dynamic flags. Returns the force sensors that trigger.
     pub(crate) fn end(&mut self, scene: &mut Scene) -> Vec<Trigger> {
         self.call = None;
         let forced: Vec<Handle> = scene.objects().filter(|o| is_forced(o)).map(|o| o.handle()).collect();

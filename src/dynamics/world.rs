@@ -98,7 +98,7 @@ impl World {
         self.bodies.iter_mut().for_each(|(_, rigid)| rigid.wake_up(true));
     }
 
-    /// Makes the engine look anew at the contacts of a collider that changed; what touches it wakes up.
+    /// Recomputes the contacts of a collider that changed; what touches it wakes up.
     pub(super) fn renew_contacts(&mut self, collider: ColliderHandle) {
         if let Some(collider) = self.colliders.get_mut(collider)
             && let Some(&pose) = collider.position_wrt_parent()

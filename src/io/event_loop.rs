@@ -138,7 +138,7 @@ impl<T> Clone for Deliver<T> {
 }
 
 impl<T> Deliver<T> {
-    /// Waits for room. Lost when nobody will fetch it any more.
+    /// Waits for room. Dropped when the receiver is gone.
     pub(super) async fn deliver(&self, arrival: T) {
         if let Ok(room) = self.sender.reserve().await {
             self.waiting.count.fetch_add(1, Ordering::Relaxed);

@@ -68,7 +68,7 @@ impl Program {
         Ok(Process(self.command()?.stdin(Stdio::piped()).spawn()?))
     }
 
-    /// Starts it for good: it outlives whoever started it.
+    /// Starts it detached: it outlives the simulator.
     pub(crate) fn launch(&self) -> io::Result<()> {
         let mut child = self.command()?.stdin(Stdio::null()).spawn()?;
         // When it ends, somebody has to take note of it.

@@ -25,7 +25,7 @@ use super::zmtp::{self, Decoder, Said};
 
 /// Requests that may wait for the simulator; clients have one each, so more are a sign of something else.
 const MOST_REQUESTS: usize = 1024;
-/// Connections at a time; whoever else connects is turned away.
+/// Limit of connections; further ones are rejected.
 const MOST_CONNECTIONS: usize = 512;
 /// Bytes that may wait for a client to read them, beyond the answer that made it so many.
 const MOST_UNREAD: usize = 64 << 20;
@@ -64,7 +64,7 @@ struct Connections(Mutex<HashMap<Peer, Arc<Connection>>>);
 struct Connection {
     stream: OwnedWriteHalf,
     outgoing: Mutex<Outgoing>,
-    /// Tells the connection's task that there is something to send.
+    /// Wakes the connection's task when there is something to send.
     more: Notify,
 }
 
@@ -79,7 +79,7 @@ struct Outgoing {
 }
 
 impl ZmqServer {
-    /// Serves the connections `listener` accepts. Once `stop` is set, nobody is waited for.
+    /// Serves the connections that `listener` accepts. Once `stop` is set, waits end.
     ///
     /// # Errors
     /// When the listener cannot be used.
@@ -97,12 +97,12 @@ impl ZmqServer {
         self.event_loop.fetch(&mut self.inbox.borrow_mut(), patience)
     }
 
-    /// Whether the program is about to end, so that nobody must be waited for.
+    /// Whether the program is about to end, so that waits must end.
     pub(crate) fn is_closed(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// Whether something has come in by other sockets of the event loop.
+    /// Whether other sockets of the event loop have received data.
     pub(crate) fn others_wait(&self) -> bool {
         self.event_loop.arrivals() > self.inbox.borrow().len()
     }

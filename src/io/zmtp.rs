@@ -68,7 +68,7 @@ pub(super) struct Decoder {
     used: usize,
 }
 
-/// One frame: its flags, where its body lies, where the next one begins.
+/// One frame: flags, range of its body, start of the next one.
 struct Frame {
     flags: u8,
     body: std::ops::Range<usize>,
@@ -129,7 +129,7 @@ impl Decoder {
         self.bytes.extend_from_slice(bytes);
     }
 
-    /// Goes on with the handshake as far as the bytes allow.
+    /// Continues the handshake as far as the received bytes allow.
     ///
     /// # Errors
     /// When this is no peer of ours.
@@ -229,7 +229,7 @@ impl Decoder {
         }
     }
 
-    /// An envelope that ends with an empty part, and one part after it; anything else is nobody's request.
+    /// An envelope that ends with an empty part, and one part after it; anything else is not a request.
     fn request(&self, parts: &[std::ops::Range<usize>]) -> Option<Request> {
         let (content, envelope) = parts.split_last()?;
         let delimiter = envelope.last().filter(|last| last.is_empty())?;

@@ -75,7 +75,7 @@ fn reply(cx: &mut Cx, peer: i64, message: Bytes) -> Result<()> {
     Ok(())
 }
 
-/// Whether the program is about to end, so that nobody must be waited for.
+/// Whether the program is about to end, so that waits must end.
 ///
 /// @return closed
 #[api("remote.zmq.closed")]

@@ -92,7 +92,7 @@ impl Scene {
         self.name_meshes(object);
     }
 
-    /// Gives the meshes of a shape that comes into the scene their identifiers.
+    /// Assigns identifiers to the meshes of a shape that is added to the scene.
     fn name_meshes(&mut self, object: &mut Object) {
         let handle = object.handle;
         if let Kind::Shape(shape) = &mut object.kind {
@@ -107,7 +107,7 @@ impl Scene {
         }
     }
 
-    /// Gives a shape other parts: the object stays, its meshes are new ones.
+    /// Replaces the parts of a shape: the object stays, its meshes are new.
     ///
     /// # Errors
     /// When the object is no shape.

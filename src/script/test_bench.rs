@@ -101,7 +101,7 @@ pub struct RunRequest {
 #[derive(Debug, Clone, Default)]
 pub struct RunReport {
     pub lines: Vec<ConsoleLine>,
-    /// Errors of scripts that nobody caught.
+    /// Uncaught script errors.
     pub errors: u64,
     pub steps: u64,
     /// Simulated seconds.
@@ -130,7 +130,7 @@ pub struct TestBench {
     lines: RefCell<Vec<ConsoleLine>>,
     /// Lines of standard output and error that have no end so far.
     unfinished: [RefCell<Vec<u8>>; 2],
-    /// Where Lua code was when it was told to stop.
+    /// Position of the Lua code when it was stopped.
     interruption: RefCell<Option<String>>,
     size: Cell<usize>,
     lost: Cell<usize>,
@@ -159,12 +159,12 @@ impl TestBench {
         begun.map(|(text, level)| ConsoleLine::printed(level, &text, time)).collect()
     }
 
-    /// Lua code was told to stop; the first time counts, since what catches errors is stopped again.
+    /// Lua code was stopped; the first time counts, since code that catches the error is stopped again.
     pub(crate) fn note_interruption(&self, trace: impl FnOnce() -> String) {
         self.interruption.borrow_mut().get_or_insert_with(trace);
     }
 
-    /// Lua's traceback of where it was when it was told to stop.
+    /// Lua's traceback when it was stopped.
     pub fn take_interruption(&self) -> Option<String> {
         self.interruption.take()
     }

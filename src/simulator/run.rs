@@ -10,7 +10,7 @@ pub struct RunLimits {
     pub steps: Option<u64>,
     /// Simulated time, seconds.
     pub time: Option<f64>,
-    /// Loop iterations of a paused simulation, which nobody resumes.
+    /// Loop iterations of a paused simulation before it is stopped.
     pub idle: u64,
     /// A simulation that a script starts anew is another run, and this one is over.
     pub once: bool,

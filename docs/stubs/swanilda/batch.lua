@@ -4,11 +4,11 @@
 
 --- Parameters and results of a scene that `swanilda batch` runs many times.
 ---
----     batch.param(name, default)     the value of this run: a number where it is one; the default where the name is not given
+---     batch.param(name, default)     the value for this run, as a number if possible; the default if it is not set
 ---     batch.result(name, value)      a number, a text or a truth value for the table; the last one counts
 ---
---- Both are named parameters (sim.getNamedStringParam, sim.setNamedStringParam), results with `result.` before their name, so that a scene can do
---- without this file: in CoppeliaSim, say. Outside of a batch, `-D name=value` gives parameters.
+--- Both are named parameters (sim.getNamedStringParam, sim.setNamedStringParam), results with `result.` before their name, so a scene also works
+--- without this file, for example in CoppeliaSim. Outside a batch, `-D name=value` sets parameters.
 local batch = {}
 
 function batch.param(name, default) end

@@ -56,7 +56,7 @@ function t.allow_script_errors(allowed) end
 
 function t.at(time, fn) end
 
---- How many errors scripts have raised that nobody caught.
+--- Number of uncaught script errors.
 function t.errors() end
 
 function t.file(name) end

@@ -1,4 +1,4 @@
-//! `sim.*`: what the original shows in windows of its own, and hears from its user: consoles, messages; and semaphores.
+//! `sim.*`: auxiliary consoles, messages of the user interface, semaphores.
 //!
 //! There are no windows here: the text of a console goes to the log for those who ask for it, and the user says nothing.
 

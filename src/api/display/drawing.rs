@@ -1,4 +1,4 @@
-//! `sim.*`: drawing objects, floating views, particles: what only a display shows, or is not simulated.
+//! `sim.*`: drawing objects, floating views, particles: shown on a display only, or not simulated.
 //!
 //! There is no display. Handles are given out and checked, so that scripts find their mistakes; what would be drawn is dropped.
 

@@ -1,4 +1,4 @@
-//! `sim.*`: graphs: what their streams record, and what curves make of it. Nothing is drawn.
+//! `sim.*`: graphs: streams, curves. Nothing is drawn.
 
 use std::f64::consts::PI;
 

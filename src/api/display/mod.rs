@@ -1,4 +1,4 @@
-//! `sim.*`: what a display would show: drawing objects, graphs, consoles, images.
+//! `sim.*`: display functions: drawing objects, graphs, consoles, images.
 
 pub(in crate::api) mod auxiliary_console;
 pub(in crate::api) mod drawing;

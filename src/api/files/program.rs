@@ -1,4 +1,4 @@
-//! Programs that go on by themselves.
+//! `sim.*`: starting programs.
 
 use api_macro::api;
 

@@ -1,4 +1,4 @@
-//! `sim.*`: where objects are and how fast they move.
+//! `sim.*`: poses and velocities of objects.
 //!
 //! Setters also accept the argument order of releases before 4.3: object, frame, data.
 

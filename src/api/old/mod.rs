@@ -1,4 +1,4 @@
-//! `sim.*`: what is old: functions with a newer way that differs in more than its name.
+//! `sim.*`: old functions whose replacement differs in more than its name.
 
 pub(in crate::api) mod engine_param;
 pub(in crate::api) mod joint_shape;

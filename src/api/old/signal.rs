@@ -1,4 +1,4 @@
-//! `sim.*`: the old signals: values of the whole scene in four kinds that do not see each other.
+//! `sim.*`: the old signals: scene-wide values in four independent kinds.
 //!
 //! They are signal properties of the scene under names of their own, so they have owners as those do.
 

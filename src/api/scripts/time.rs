@@ -1,4 +1,4 @@
-//! `sim.*`: the wall clock, random numbers, and where a script is.
+//! `sim.*`: wall clock, random numbers, source position of a script.
 
 use api_macro::api;
 

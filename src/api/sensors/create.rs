@@ -1,4 +1,4 @@
-//! `sim.*`: making sensors, voxels and point clouds, which exist as data; lights.
+//! `sim.*`: creating sensors, octrees and point clouds; lights.
 
 use api_macro::api;
 

@@ -1,4 +1,4 @@
-//! `sim.*`: objects as a whole in octrees and point clouds.
+//! `sim.*`: inserting whole objects into octrees and point clouds.
 
 use api_macro::api;
 

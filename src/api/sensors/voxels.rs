@@ -1,4 +1,4 @@
-//! `sim.*`: what octrees and point clouds hold.
+//! `sim.*`: content of octrees and point clouds.
 
 use api_macro::api;
 

@@ -1,4 +1,4 @@
-//! `sim.*`: joining shapes into one, and taking them apart.
+//! `sim.*`: grouping, merging and splitting shapes.
 
 use api_macro::api;
 

@@ -1,4 +1,4 @@
-//! `sim.*`: images on shapes. They are kept for scripts and files; nothing is drawn.
+//! `sim.*`: textures of shapes. Stored for scripts and files; nothing is drawn.
 
 use std::rc::Rc;
 

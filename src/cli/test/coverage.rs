@@ -1,4 +1,4 @@
-//! What the terminal shows of the coverage.
+//! Coverage table on the terminal.
 
 use std::fmt::Write;
 use std::path::Path;

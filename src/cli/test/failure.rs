@@ -1,4 +1,4 @@
-//! All that is known of a test that failed, for people at a terminal.
+//! Description of a failed test for the terminal.
 
 use super::paint::{DIM, Paint, RED, harmless};
 use crate::testing::report::{console_line, moment};

@@ -1,4 +1,4 @@
-//! `swanilda test --init`: a first test, and a workflow that runs it.
+//! `swanilda test --init`: an example test, and a workflow that runs it.
 
 use std::fs;
 use std::io;

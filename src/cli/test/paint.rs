@@ -1,4 +1,4 @@
-//! Colours on a terminal, and what must not reach one.
+//! Terminal colours, and removal of control characters.
 
 use crate::testing::Status;
 

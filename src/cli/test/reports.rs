@@ -1,4 +1,4 @@
-//! Which reports of a test run are wanted, and where they go.
+//! Requested report files and their paths.
 
 use std::fs;
 use std::io::{IsTerminal, Write};

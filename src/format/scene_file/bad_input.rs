@@ -1,4 +1,4 @@
-//! Damaged files: an error that says where, or a scene; never a panic, never memory beyond what the file can hold.
+//! Damaged files yield an error with a position, or a scene; never a panic or excessive memory use.
 
 use super::SceneFile;
 use super::tests::own_files;

@@ -1,4 +1,4 @@
-//! Scenes and models between files and the scene: what `sim.loadScene`, `sim.loadModel` and their savers do.
+//! Scenes and models between files and the scene: the implementation of `sim.loadScene`, `sim.loadModel` and saving.
 //!
 //! [`SceneFile`] puts what a file holds into a scene, [`save`] makes a file of a scene. The scripts of a file are handed on: running them
 //! is not known here.

@@ -1,4 +1,4 @@
-//! Files of either format, known by their first bytes.
+//! Files of either format, recognised by their first bytes.
 
 use std::path::Path;
 

@@ -1,9 +1,9 @@
-//! Files on disk: complete or not at all.
+//! Atomic writing of files.
 
 use std::io::Write;
 use std::path::Path;
 
-/// Writes a file so that whoever looks sees the old one or the new one, never a part.
+/// Writes a file atomically: readers see the old or the new one.
 ///
 /// # Errors
 /// When the folder is not there or cannot be written.

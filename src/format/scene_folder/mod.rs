@@ -21,7 +21,7 @@ const TREE: &str = "scene.json";
 /// Folders that belong to a scene; what is in them is replaced.
 const PARTS: [&str; 3] = [SCRIPTS, "meshes", "data"];
 const SCRIPTS: &str = "scripts";
-/// Bytes up to this number stand in the tree.
+/// Byte strings up to this length are stored in the tree.
 const SHORT: usize = 64;
 
 /// Whether a folder is an unpacked scene.

@@ -1,8 +1,8 @@
-//! Texts compared line by line, in the unified format.
+//! Line-by-line comparison of texts, in the unified format.
 
 /// Equal lines around a difference.
 const AROUND: usize = 3;
-/// Beyond this many pairs of lines, what lies between the first and the last difference is told as a whole.
+/// Beyond this many pairs of lines, everything between the first and the last difference is one change.
 const MAX_PAIRS: usize = 16_000_000;
 
 #[derive(Clone, Copy, PartialEq)]

@@ -32,12 +32,12 @@ use tree::Contents;
 use value::Value;
 use write::Writer;
 
-/// A scene or model as it stands in a file.
+/// The content of a scene or model file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct File {
     pub header: Header,
     pub contents: Contents,
-    /// The chunks nobody knows; they are not written again.
+    /// Unknown chunks; they are not written again.
     pub skipped: Vec<Skipped>,
 }
 

@@ -91,7 +91,7 @@ impl Node {
         }
     }
 
-    /// As JSON: what fits into a line stands in a line.
+    /// As JSON: short values on one line.
     pub fn print(&self) -> String {
         let mut out = String::new();
         self.print_at(&mut out, 0);

@@ -1,4 +1,4 @@
-//! A place in the body of a file: bounded reads, and errors that say where.
+//! A position in the body of a file: bounded reads, and errors with positions.
 
 use std::cell::RefCell;
 
@@ -17,7 +17,7 @@ pub enum Real {
     Double,
 }
 
-/// A chunk nobody knows.
+/// An unknown chunk.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Skipped {
     /// Bytes from the beginning of the uncompressed body.
@@ -118,7 +118,7 @@ impl<'a> Reader<'a> {
         self.bytes.starts_with(b"3do\x03\0\0\0\x39\x3a\x3b")
     }
 
-    /// Notes that nobody knows this chunk.
+    /// Records an unknown chunk.
     pub fn skip(&self) {
         let note = Skipped { offset: self.offset, path: self.trail.path(), size: self.bytes.len() };
         self.skipped.borrow_mut().push(note);

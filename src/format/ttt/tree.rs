@@ -1,4 +1,4 @@
-//! What a file holds, in the order of the file: objects, their geometry, and the rest of the top level.
+//! The content of a file, in file order: objects, their geometry, and the rest of the top level.
 
 use super::chunks::{
     Camera, Collection, Collision, Common, CustomData, CustomObjects, CustomSceneObject, Distance, Dummy, Dynamics,

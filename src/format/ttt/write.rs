@@ -1,4 +1,4 @@
-//! The body of a file, as it grows.
+//! The body of a file under construction.
 
 use super::read::Tag;
 

@@ -65,7 +65,7 @@ impl Document {
         Element { document: self, at: 0 }
     }
 
-    /// The outermost elements nobody asked for.
+    /// The outermost elements that were not read.
     pub(super) fn unused(&self) -> impl Iterator<Item = Element<'_>> {
         let unused = self
             .nodes
@@ -190,7 +190,7 @@ impl<'a> Element<'a> {
         self.children().filter(move |child| child.name() == name)
     }
 
-    /// Notes that somebody has read it.
+    /// Marks it as read.
     pub(super) fn mark(self) -> Self {
         self.node().used.set(true);
         self

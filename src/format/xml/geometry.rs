@@ -14,7 +14,7 @@ use super::write::{Item, Writing, number};
 use crate::format::ttt::{FileResult, Node, PositionFirst, unit_quaternion};
 use crate::scene::Pose;
 
-/// Of a body whose mass is not told, kg/m3.
+/// Default density, kg/m3.
 const DENSITY: f64 = 1000.0;
 /// The elements that are a geometry.
 const GEOMETRIES: [&str; 4] = ["primitive", "heightfield", "mesh", "compound"];
@@ -97,7 +97,7 @@ impl Reading<'_> {
     }
 }
 
-/// The triangles of a part in its own frame; what it is goes into `data`.
+/// The triangles of a part in its own frame; its type is stored in `data`.
 fn triangles(element: Element<'_>, data: &mut Node) -> Words<Mesh> {
     match element.name() {
         "primitive" => {
@@ -185,7 +185,7 @@ fn frame(element: Element<'_>, name: &str) -> Words<Pose> {
     Ok(Pose::from_parts(position.into(), rotation))
 }
 
-/// Mass, centre and inertia per kilogram of the shape, as told or those of a solid body.
+/// Mass, centre and inertia per kilogram of the shape, as specified or those of a solid body.
 fn mass(root: &mut Node, shape: Element<'_>, all: &Mesh) -> Words<()> {
     let mut properties = solid(all, DENSITY).unwrap_or_default();
     if let Some(dynamics) = shape.find(&["dynamics"]) {

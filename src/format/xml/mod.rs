@@ -1,7 +1,7 @@
-//! Scenes and models as XML, in both variants: exhaustive, which says all, and simple, which people write by hand (section 12 of the format).
+//! Scenes and models as XML, in both variants: exhaustive, and simple for editing by hand (spec: scene-files 12).
 //!
-//! An XML file becomes the tree of chunks that a binary file is read as, so that nothing behind it knows the difference. Which element says
-//! which field stands in `fields.tsv`; reader and writer go by the same rows. Elements nobody knows are reported like unknown chunks.
+//! An XML file becomes the same tree of chunks as a binary file. `fields.tsv` maps elements to fields, for reader and writer; unknown
+//! elements are reported like unknown chunks.
 
 mod arrays;
 mod document;

@@ -1,4 +1,4 @@
-//! Out of elements into nodes of chunks, by the tables.
+//! Converts elements to nodes of chunks, by the tables.
 
 use std::collections::BTreeMap;
 
@@ -171,7 +171,7 @@ impl Reading<'_> {
     }
 }
 
-/// A text that XML cannot hold stands in an element of its own.
+/// Text that XML cannot represent is in an element of its own.
 fn coded<'a>(row: &Row, element: Element<'a>) -> Option<Element<'a>> {
     let (last, groups) = row.elements.first().filter(|_| row.kind == Kind::Text)?.split_last()?;
     element.find(groups)?.named(&format!("{last}{CODED}")).next()

@@ -1,4 +1,4 @@
-//! The tables that tell which element says which field: `fields.tsv`, `engines.tsv`, `words.tsv`. Reader and writer share them.
+//! The tables that map elements to fields: `fields.tsv`, `engines.tsv`, `words.tsv`. Reader and writer share them.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;

@@ -1,4 +1,4 @@
-//! Scenes that come back from XML.
+//! Round trips of scenes through XML.
 
 use super::{Variant, read, write};
 use crate::format::scene_file::tests::{assert_same, load, own_files, real_files};

@@ -1,4 +1,4 @@
-//! Out of nodes of chunks into the text of elements, by the tables.
+//! Converts nodes of chunks to elements, by the tables.
 
 use base64::Engine;
 use geometry::pose::euler::rotation_to_euler;
@@ -17,7 +17,7 @@ const REVOLUTE: i64 = 10;
 pub(super) struct Item {
     name: String,
     text: String,
-    /// The text stands in CDATA sections.
+    /// The text is in CDATA sections.
     is_data: bool,
     children: Vec<Item>,
 }

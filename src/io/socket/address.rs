@@ -1,4 +1,4 @@
-//! Addresses of sockets, and how scripts see them.
+//! Socket addresses, and their form in scripts.
 
 use std::io;
 use std::net::SocketAddr;

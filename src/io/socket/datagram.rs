@@ -43,7 +43,7 @@ impl Datagram {
         self.socket = None;
     }
 
-    /// Takes the first of these places that is free.
+    /// Binds to the first of these addresses that is free.
     pub(crate) fn bind(&mut self, places: &[Place]) -> Result<(), Failure> {
         self.try_each(places, |socket, place| Ok(socket.bind(&place.address()?)?))
     }

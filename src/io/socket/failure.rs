@@ -1,4 +1,4 @@
-//! Why an operation on a socket failed, in LuaSocket's words.
+//! Socket errors, with LuaSocket's messages.
 
 use std::io;
 

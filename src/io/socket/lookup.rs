@@ -19,7 +19,7 @@ pub(crate) struct Lookup<'a> {
     pub family: Family,
     /// Datagrams; otherwise streams.
     pub datagrams: bool,
-    /// Once set, nobody waits for an answer.
+    /// Set when the result is no longer needed.
     pub stop: &'a AtomicBool,
 }
 

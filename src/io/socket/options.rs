@@ -117,7 +117,7 @@ fn change_membership(socket: &Socket, name: &str, group: &str, interface: &str) 
     })
 }
 
-/// A number of a script as the system takes it.
+/// A number of a script in the system's form.
 fn whole(number: f64) -> u32 {
     number.clamp(0.0, i32::MAX.into()) as u32
 }

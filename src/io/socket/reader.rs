@@ -9,7 +9,7 @@ const BUFFER_SIZE: usize = 8192;
 /// The most one call receives: what a Lua string may hold. LuaSocket's limit is the memory.
 const LONGEST: usize = 1 << 29;
 
-/// What `receive` is asked for.
+/// The pattern of `receive`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Pattern {
     /// Up to the next LF, which is dropped with every CR.
@@ -20,7 +20,7 @@ pub(crate) enum Pattern {
     Count(usize),
 }
 
-/// What has arrived and nobody has asked for.
+/// Data that have arrived and were not read.
 #[derive(Default)]
 pub(super) struct Reader {
     buffer: Vec<u8>,

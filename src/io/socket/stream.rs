@@ -1,4 +1,4 @@
-//! Connections and those who wait for them: TCP, local streams, TLS.
+//! Connections and listeners: TCP, local streams, TLS.
 
 use std::io::{ErrorKind, Read, Write};
 use std::time::Instant;
@@ -24,7 +24,7 @@ pub(crate) struct Stream {
     pub role: Role,
     pub timeout: Timeout,
     pub family: Family,
-    /// Bytes sent so far, as `getstats` tells.
+    /// Bytes sent so far, for `getstats`.
     pub sent: f64,
     /// Added to the bytes received.
     received_before: f64,
@@ -71,7 +71,7 @@ impl Stream {
         std::mem::replace(&mut self.socket, socket)
     }
 
-    /// The stream goes on in another object; this one has no socket any more.
+    /// Moves the stream to another object; this one has no socket any more.
     pub(crate) fn handed_over(&mut self) -> Self {
         let empty = Self { role: self.role, timeout: self.timeout, ..Self::unopened(self.family) };
         std::mem::replace(self, empty)
@@ -85,7 +85,7 @@ impl Stream {
         self.socket.as_ref().ok_or_else(Failure::not_open)
     }
 
-    /// Whether something has arrived that nobody has asked for.
+    /// Whether unread data have arrived.
     pub(crate) fn is_dirty(&self) -> bool {
         !self.reader.is_empty() || self.tls.as_ref().is_some_and(|tls| tls.has_plaintext())
     }
@@ -192,7 +192,7 @@ impl Stream {
         })
     }
 
-    /// Sends everything, or tells how much was.
+    /// Sends everything, or returns how much was sent.
     pub(crate) fn send(&mut self, data: &[u8], wait: &Wait<'_>) -> (usize, Result<(), Failure>) {
         let Some(socket) = &self.socket else { return (0, Err(Failure::Closed)) };
         let mut count = 0;
@@ -232,7 +232,7 @@ impl Stream {
         (received, self.sent, self.age_before + self.birth.elapsed().as_secs_f64())
     }
 
-    /// What [`stats`](Self::stats) tells from now on.
+    /// Sets the values of [`stats`](Self::stats).
     pub(crate) fn set_stats(&mut self, received: f64, sent: f64, age: f64) {
         self.received_before = received - self.reader.received as f64;
         self.sent = sent;

@@ -1,4 +1,4 @@
-//! TLS on a stream: rustls, with the certificates the system trusts.
+//! TLS on a stream: rustls, with the certificates trusted by the system.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Write};
@@ -41,12 +41,12 @@ pub(crate) struct TlsSettings {
 /// The state of a connection.
 pub(crate) struct Tls {
     connection: Connection,
-    /// Decrypted bytes nobody has asked for.
+    /// Decrypted bytes that were not read.
     waiting: usize,
 }
 
 impl Tls {
-    /// Whether something has been decrypted that nobody has asked for.
+    /// Whether there are unread decrypted bytes.
     pub(super) fn has_plaintext(&self) -> bool {
         self.waiting > 0
     }
@@ -125,7 +125,7 @@ impl Tls {
         }
     }
 
-    /// Tells the other side that no more follows, if it takes that at once.
+    /// Notifies the peer of the end of the stream, if that does not block.
     pub(super) fn say_goodbye(&mut self, socket: &Socket) {
         self.connection.send_close_notify();
         while self.connection.wants_write() {

@@ -71,7 +71,7 @@ impl<'a> Wait<'a> {
     }
 }
 
-/// Waits until one of `readers` can be read or one of `writers` written, at most `limit` seconds. Tells which are ready.
+/// Waits until one of `readers` can be read or one of `writers` written, at most `limit` seconds. Returns those that are ready.
 pub(crate) fn select(
     readers: &[Socket],
     writers: &[Socket],

@@ -1,4 +1,4 @@
-//! Bodies of HTTP requests that come in chunks (RFC 9112, section 7.1).
+//! Chunked bodies of HTTP requests (RFC 9112, section 7.1).
 
 use httparse::Status;
 use tokio_tungstenite::tungstenite::http::StatusCode;

@@ -1,4 +1,4 @@
-//! The client's side of a connection's beginning.
+//! Client side of the WebSocket handshake.
 
 use tokio::net::TcpStream;
 use tokio::time::timeout;

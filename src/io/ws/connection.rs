@@ -103,7 +103,7 @@ pub(super) async fn converse(socket: Socket, connection: Connection, reports: &R
     tokio::join!(reports.tell(WsEvent::Close(connection)), farewell);
 }
 
-/// Until the peer closes, vanishes or breaks the protocol; then with what it is to be told.
+/// Runs until the peer closes, disconnects or violates the protocol; returns the close frame to send.
 async fn read_all(source: &mut SplitStream<Socket>, connection: Connection, reports: &Reports) -> Option<CloseFrame> {
     while let Some(message) = source.next().await {
         match message {

@@ -1,4 +1,4 @@
-//! Plain HTTP, as far as a page and its parts need it: heads of requests, and answers.
+//! Plain HTTP for web pages: request heads and responses.
 
 use tokio::sync::oneshot;
 use tokio_tungstenite::tungstenite::http::header::{CONTENT_LENGTH, TRANSFER_ENCODING, UPGRADE};
@@ -101,7 +101,7 @@ impl Head {
         Ok(request)
     }
 
-    /// Whether the body comes in chunks.
+    /// Whether the body is chunked.
     ///
     /// # Errors
     /// The status to answer with: other encodings are not known, and a length besides says something else.
@@ -115,7 +115,7 @@ impl Head {
         }
     }
 
-    /// Length of a body that does not come in chunks.
+    /// Length of a body that is not chunked.
     ///
     /// # Errors
     /// The status to answer with.

@@ -1,4 +1,4 @@
-//! Which web pages may connect to a server. A browser lets any page connect to this machine, and says where the page comes from.
+//! Origin check of web pages. A browser lets any page connect to this machine, and sends the origin of the page.
 
 use std::net::IpAddr;
 

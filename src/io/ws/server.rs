@@ -1,4 +1,4 @@
-//! The server's side of a connection's beginning, and plain HTTP requests.
+//! Server side of the WebSocket handshake, and plain HTTP requests.
 
 use std::sync::Arc;
 use std::time::Duration;

@@ -1,4 +1,4 @@
-//! Contexts: what sockets live in, and how they end.
+//! Contexts of sockets, and their termination.
 
 use std::ffi::{c_int, c_void};
 use std::mem;
@@ -14,7 +14,7 @@ const MAX_IO_THREADS: c_int = 32;
 /// What libzmq gives as its limit. It makes room for that many at once.
 const MAX_SOCKETS: c_int = 65_535;
 
-/// How long the end of a context waits for messages on their way where nobody asked for more.
+/// Default time that terminating a context waits for unsent messages.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// A context. It ends when it is dropped, and its sockets must be closed by then; [`super::Socket`] sees to that.
@@ -95,7 +95,7 @@ impl Ending {
 }
 
 impl Termination {
-    /// On a thread of its own: nobody has to wait until all messages are sent.
+    /// On a separate thread, so that callers need not wait until all messages are sent.
     fn begin(context: *mut c_void) -> Self {
         let (tell, done) = mpsc::channel();
         let ending = Ending(context);

@@ -1,4 +1,4 @@
-//! Messages, or parts of them.
+//! Messages and message parts.
 
 use std::ffi::{CStr, c_int};
 
@@ -7,7 +7,7 @@ use zmq_sys as ffi;
 use super::socket::Socket;
 use super::{Errno, ZmqResult, c_text, check};
 
-/// Longest message that can be asked for: no value of a script is longer.
+/// Longest message that can be allocated: no value of a script is longer.
 const MAX_SIZE: i64 = 1 << 30;
 
 /// A message. While it is closed, as it is at first, libzmq has an empty one in its place: it ends the program when it is asked

@@ -17,7 +17,7 @@ pub(crate) use context::{Context, Termination};
 pub(crate) use message::Message;
 pub(crate) use socket::{Socket, poll};
 
-/// Why libzmq did not do as it was told: one of [`ERRORS`], or a number of the system.
+/// Why libzmq failed: one of [`ERRORS`], or a number of the system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Errno(pub c_int);
 

@@ -26,7 +26,7 @@ const SNDMORE: c_int = ffi::ZMQ_SNDMORE as c_int;
 const STOPPED: c_int = ffi::ZMQ_EVENT_MONITOR_STOPPED as c_int;
 /// An event is a number of 16 bits and a value of 32.
 const HEAD: usize = 6;
-/// The longest address told.
+/// Longest address in an event.
 const MAX_ADDRESS: usize = 4096;
 
 /// Names for the ends of relays, which all contexts of the program share.
@@ -39,7 +39,7 @@ pub(super) struct Monitor {
 }
 
 impl Monitor {
-    /// Tells of a socket's connections at `endpoint`.
+    /// Reports a socket's connection events at `endpoint`.
     ///
     /// # Errors
     /// When the address is none of `inproc`, or in use.
@@ -114,7 +114,7 @@ impl End {
         Ok(bytes)
     }
 
-    /// Sends a part of a message, if somebody takes it.
+    /// Sends a part of a message, if there is a receiver.
     fn send(&self, bytes: &[u8], flags: c_int) -> ZmqResult<()> {
         // SAFETY: the socket lives, the bytes are copied.
         check(unsafe { ffi::zmq_send(self.0, bytes.as_ptr().cast(), bytes.len(), flags | DONTWAIT) }).map(drop)
@@ -141,7 +141,7 @@ impl Event {
     }
 }
 
-/// Listens to libzmq's monitor and tells the script's socket.
+/// Forwards events of libzmq's monitor to the script's socket.
 struct Relay {
     listener: End,
     teller: End,
@@ -165,7 +165,7 @@ impl Relay {
         unsafe { ffi::zmq_unbind(self.teller.0, self.endpoint.as_ptr()) };
     }
 
-    /// Waits until there is something to hear, or to be told to somebody.
+    /// Waits until an event arrives or can be forwarded.
     ///
     /// # Errors
     /// When the context is over.
@@ -180,7 +180,7 @@ impl Relay {
         }
     }
 
-    /// Takes what the monitor has told; whether it will tell more.
+    /// Receives events of the monitor; returns whether more may follow.
     fn listen(&mut self) -> bool {
         while let Ok(head) = self.listener.receive(HEAD) {
             let event = Event { head, address: self.listener.receive(MAX_ADDRESS).unwrap_or_default() };

@@ -1,4 +1,4 @@
-//! Sockets, and waiting until they are ready.
+//! Sockets, and waiting for readiness.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
@@ -24,11 +24,11 @@ const MAX_LINGER: c_int = 30_000;
 /// A socket. One that is dropped forgets what it has not sent yet, unless it is closed before.
 pub(crate) struct Socket {
     raw: *mut c_void,
-    /// Whether it was told to send what is left.
+    /// Whether it is draining unsent messages.
     is_closed: Cell<bool>,
     /// Names given to connections to be made; libzmq ends the program at the second of the same name.
     connection_names: RefCell<BTreeSet<Vec<u8>>>,
-    /// Where it tells of its connections.
+    /// Endpoint of its monitor.
     monitor: RefCell<Option<Monitor>>,
     /// Goes after the socket: a context must not end before its sockets.
     context: Rc<Context>,
@@ -68,7 +68,7 @@ impl Socket {
         self.is_closed.set(true);
     }
 
-    /// Sees to it that its end comes one day, even if nobody ever takes its messages.
+    /// Limits its lifetime, even if its messages are never delivered.
     pub(crate) fn limit_linger(&self) {
         let linger = self.get(LINGER, size_of::<c_int>()).ok().and_then(|bytes| bytes.try_into().ok());
         if linger.is_some_and(|linger| !(0..=MAX_LINGER).contains(&c_int::from_ne_bytes(linger))) {
@@ -112,7 +112,7 @@ impl Socket {
         Ok(())
     }
 
-    /// Whether events of its monitor were lost since this was last asked, since nobody read them.
+    /// Whether unread events of its monitor were dropped since the last call.
     pub(crate) fn has_lost_events(&self) -> bool {
         self.monitor.borrow().as_ref().is_some_and(Monitor::has_lost)
     }

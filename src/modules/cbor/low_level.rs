@@ -1,4 +1,4 @@
-//! Heads of CBOR items for Lua code that puts items together itself.
+//! Heads of CBOR items, for Lua code that assembles items itself.
 
 use std::ffi::c_int;
 

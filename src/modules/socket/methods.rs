@@ -1,4 +1,4 @@
-//! Methods that streams and datagrams have in common.
+//! Methods shared by streams and datagrams.
 
 use api_macro::api;
 

@@ -1,4 +1,4 @@
-//! What the functions of sockets return.
+//! Results of socket functions.
 
 use std::rc::Rc;
 

@@ -1,4 +1,4 @@
-//! The native part of `swanilda.test`: what a test may do to the simulator it runs in.
+//! The native part of `swanilda.test`: control of the simulator by a test.
 
 mod run;
 
@@ -35,7 +35,7 @@ fn iterate(cx: &mut Cx) -> Result<()> {
         return Err(ApiError::Other("a step cannot be made from within a step.".into()));
     }
     cx.run_loop_iteration();
-    // Long iterations run few Lua instructions, between which nobody would look.
+    // Long steps execute few Lua instructions, so the limits would not be checked.
     if cx.is_interrupted() { Err(ApiError::Other("interrupted.".into())) } else { Ok(()) }
 }
 

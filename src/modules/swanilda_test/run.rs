@@ -1,4 +1,4 @@
-//! The native part of `swanilda.test`: running a scene by itself.
+//! The native part of `swanilda.test`: running a scene in a separate simulator.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

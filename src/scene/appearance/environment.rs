@@ -1,9 +1,9 @@
-//! What surrounds the objects of a scene. Kept for files: nothing is drawn.
+//! The environment of a scene: ambient light, fog, background. Stored for files; nothing is drawn.
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surroundings {
     pub fog: Fog,
-    /// Colours of the background, above and below; none where the file does not tell.
+    /// Background colours, upper and lower; None if the file has none.
     pub background: Option<[[f32; 3]; 2]>,
     /// Bits of a file for what is shown: textures, emitters, receivers.
     pub display: u8,

@@ -1,4 +1,4 @@
-//! Images that lie on meshes. They are kept for files and for scripts that ask: nothing is drawn.
+//! Texture images. Stored for files and scripts; nothing is drawn.
 
 use std::rc::Rc;
 

@@ -1,4 +1,4 @@
-//! How images lie on meshes, and the images of a scene.
+//! Texture mapping on meshes, and the images of a scene.
 
 use std::rc::Rc;
 
@@ -10,7 +10,7 @@ use crate::scene::{Field, Handle, Object, Pose, Scene, SceneError, SceneResult};
 const FIRST: i64 = 2_180_009;
 const END: i64 = 2_280_009;
 
-/// How an image lies on a mesh.
+/// Texture mapping on a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextureMapping {
     pub source: TextureSource,
@@ -129,7 +129,7 @@ impl Scene {
         self.textures.iter().map(|(id, texture)| (*id, texture))
     }
 
-    /// Changes an image, on all meshes it lies on.
+    /// Changes an image on all meshes that use it.
     ///
     /// # Errors
     /// When there is no such texture, or `change` refuses.

@@ -52,7 +52,7 @@ pub struct Stream {
     pub source: Option<OldSource>,
 }
 
-/// What a stream from before 4.2 told of: it is kept for files.
+/// Source of a stream from before 4.2, stored for files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OldSource {
     pub data_type: i32,

@@ -1,4 +1,4 @@
-//! What graphs record, and what their streams and curves make of it.
+//! Recording of graph streams, their transformations and curves.
 
 use super::{Curve, Graph, Sample, Stream, Transformation, TransformationKind};
 

@@ -1,6 +1,6 @@
-//! What scripts do to joints: mode, interval, position, targets, ways of control (spec: joints 4, joints 5, joints 6, joints 7).
+//! Setters of joints: mode, interval, position, targets, control (spec: joints 4, joints 5, joints 6, joints 7).
 //!
-//! Motions are started and ended here; stepping them is `joint_motion`, following a master `joint_dependency`.
+//! Motions are started and ended here; `motion` steps them, `dependency` moves dependent joints.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -65,7 +65,7 @@ impl Control {
 }
 
 impl Joint {
-    /// The position the joint takes when asked for `position`: wrapped when cyclic, else within the interval.
+    /// The position that results from setting `position`: wrapped if cyclic, else limited to the interval.
     pub fn limited(&self, position: f64) -> f64 {
         if self.cyclic { wrap_angle(position) } else { position.max(self.min).min(self.min + self.range) }
     }
@@ -129,7 +129,7 @@ impl Joint {
         }
     }
 
-    /// Changes the way of control and the target velocity that goes with it.
+    /// Changes the control mode, and the target velocity that belongs to it.
     pub fn set_control(&mut self, control: Control) {
         self.control = control;
         if control == Control::Velocity {

@@ -1,4 +1,4 @@
-//! Joints that follow other joints: q = offset + coefficient * q of the master (spec: joints 5).
+//! Dependent joints: q = offset + coefficient * q of the master (spec: joints 5).
 
 use std::collections::BTreeMap;
 
@@ -90,7 +90,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Collects anew who follows whom, when a joint may have changed that.
+    /// Rebuilds the dependency graph when a joint may have changed it.
     fn refresh_followers(&mut self) {
         if !self.journal.changed_since(self.followers.known.get_or_insert(Mark::new(LAWS))) {
             return;

@@ -183,7 +183,7 @@ impl Joint {
         self.error.map_or(ideal, |error| ideal * error)
     }
 
-    /// Transform from the joint frame to its moving side as the joint position alone tells.
+    /// Transform from the joint frame to its moving side, by the joint position alone.
     pub fn ideal_pose(&self) -> Pose {
         match self.joint_type {
             JointType::Revolute => Isometry3::from_parts(

@@ -1,4 +1,4 @@
-//! Kinematic motion of joints: which joints move, and what a step of somebody's making does to them (spec: joints 6).
+//! Kinematic motion of joints: which joints move, and the effect of a step computed by a script (spec: joints 6).
 //!
 //! The steps themselves come from scripts (`sysCall_joint`).
 

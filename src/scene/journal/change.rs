@@ -1,4 +1,4 @@
-//! What can change in a scene, and sorts of changes.
+//! Changes of a scene, and their topics.
 
 use crate::scene::{Handle, Holder, Namespace, Uid};
 
@@ -22,7 +22,7 @@ pub enum Field {
     Texture,
     /// What kind of joint it is: mode, limits, master.
     Joint,
-    /// What a joint is to do: targets, gains, limits of its motor. The physics reads these in every pass.
+    /// Motor of a joint: targets, gains, limits. The physics reads these in every sub-step.
     JointControl,
     JointPosition,
     Sensor,

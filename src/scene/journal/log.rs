@@ -1,4 +1,4 @@
-//! The stored changes, and who has read how far.
+//! The stored changes, and the position of each reader.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{VecDeque, vec_deque};
@@ -18,7 +18,7 @@ const NOWHERE: u64 = u64::MAX;
 pub struct Cursor {
     journal: Rc<()>,
     topics: Topics,
-    /// Number of the next change to read; the journal looks at it to see what nobody needs any more.
+    /// Number of the next change to read; the journal uses it to drop changes that all readers have read.
     next: Rc<Cell<u64>>,
 }
 
@@ -67,7 +67,7 @@ struct Reader {
 /// Changes that some cursor wants and has not read, and some that all have read.
 #[derive(Debug)]
 pub(super) struct Log {
-    /// Tells the cursors and marks of this journal from those of another.
+    /// Distinguishes cursors and marks of this journal from those of another.
     identity: Rc<()>,
     stored: VecDeque<Change>,
     /// Number of the first change stored.
@@ -102,7 +102,7 @@ impl Log {
         self.wanted.get().contains(topic)
     }
 
-    /// Stores a change if anybody wants it.
+    /// Stores a change if any reader wants it.
     pub(super) fn push(&mut self, topic: Topic, change: Change) {
         if self.stores(topic) {
             self.stored.push_back(change);
@@ -131,7 +131,7 @@ impl Log {
         Unread::Changes(Changes { stored, topics: cursor.topics })
     }
 
-    /// Drops what nobody needs any more: readers that are gone, changes everybody has read, and the older half of a full log.
+    /// Drops readers that are gone, changes that all have read, and the older half of a full log.
     fn trim(&mut self) {
         let readers = self.readers.get_mut();
         readers.retain(|reader| reader.next.strong_count() > 0);

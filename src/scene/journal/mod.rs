@@ -45,7 +45,7 @@ pub struct Counters {
     pub hierarchy: i64,
 }
 
-/// How much somebody knows of the changes about some topics who need not know which they were.
+/// State of a reader that only needs to know whether anything changed about some topics.
 #[derive(Debug, Clone)]
 pub struct Mark {
     topics: Topics,
@@ -101,7 +101,7 @@ impl Journal {
         self.changed_data.take()
     }
 
-    /// Begins to store changes about `topics` for a new reader. What it is told first is that everything may have changed.
+    /// Registers a reader for changes about `topics`. Its first read reports that everything may have changed.
     pub fn follow(&self, topics: Topics) -> Cursor {
         self.log.follow(topics)
     }
@@ -117,7 +117,7 @@ impl Journal {
         let _ = self.log.read(cursor);
     }
 
-    /// Whether changes about `topic` are stored for anybody.
+    /// Whether any reader wants changes about `topic`.
     pub fn is_followed(&self, topic: Topic) -> bool {
         self.log.stores(topic)
     }

@@ -1,4 +1,4 @@
-//! Readers of all speeds, and what they are told.
+//! Readers of different speeds.
 
 use super::*;
 use crate::scene::tree::dummy::Dummy;

@@ -106,7 +106,7 @@ fn owner_of(part: &str) -> Option<EngineOwner> {
     })
 }
 
-/// What `number` stands for (`sim.bullet_*`, `sim.ode_*` and so on).
+/// The parameter with that number (`sim.bullet_*`, `sim.ode_*` and so on).
 pub(in crate::scene) fn numbered(number: i64) -> Option<&'static Numbered> {
     static NUMBERS: LazyLock<BTreeMap<i64, Numbered>> = LazyLock::new(numbers);
     NUMBERS.get(&number)

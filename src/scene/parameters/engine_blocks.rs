@@ -53,7 +53,7 @@ pub trait EngineValues {
     fn value(&self, param: &EngineParam) -> Data;
     fn set(&mut self, param: &'static EngineParam, value: Data);
 
-    /// Takes the rows of one engine.
+    /// Sets the parameters of one engine from the rows of a file.
     fn load_engine(&mut self, engine: usize, reals: &[f64], ints: &[i32]) {
         let Some(Rows { reals: (first_real, _), ints: (first_int, _) }) = self.rows(engine) else { return };
         for (number, real) in (first_real..).zip(reals) {

@@ -79,7 +79,7 @@ impl Scene {
         }
     }
 
-    /// Gives a shape a preset material, or that of another shape; tells whether it was another shape's.
+    /// Assigns a preset material or that of another shape; returns whether it was another shape's.
     ///
     /// # Errors
     /// When `source` is neither a preset nor a shape.
@@ -100,7 +100,7 @@ impl Scene {
     }
 }
 
-/// A value nobody set is the default.
+/// Values that were not set are the default.
 pub(in crate::scene) fn value_in(values: &Kept, param: &EngineParam) -> Data {
     values.get(param.name).unwrap_or(&param.default).clone()
 }

@@ -1,4 +1,4 @@
-//! Numbered parameters that depend on the type of an object: where a number goes, and what follows from a change.
+//! Numbered parameters by object type: where a value is stored, and side effects of a change.
 
 use crate::scene::tree::dummy::LinkType;
 use crate::scene::{Field, Handle, Kind, Scene, SceneResult};

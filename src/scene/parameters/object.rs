@@ -125,7 +125,7 @@ impl Scene {
 }
 
 impl Object {
-    /// Box around the object in its own frame: around the meshes of a shape, otherwise around what stands for the object in displays.
+    /// Bounding box in the object's frame: of the meshes of a shape, otherwise of its graphical representation.
     pub fn bounding_box(&self) -> BoundingBox {
         let size = match &self.kind {
             Kind::Shape(shape) => return shape.bounding_box,

@@ -1,4 +1,4 @@
-//! Poses of objects: in the world, in a frame of one's choice, and how fast they change.
+//! Poses of objects: in the world, relative to a frame, and their rate of change.
 
 pub mod placement;
 pub(in crate::scene) mod world;

@@ -1,4 +1,4 @@
-//! Where objects are: local poses, relative frames, placing. World poses are next door, in `world`.
+//! Poses of objects: local poses, relative frames, setting poses. World poses are next door, in `world`.
 
 use geometry::pose::velocity;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
@@ -140,7 +140,7 @@ impl Scene {
         })
     }
 
-    /// Asks the physics to build `handle` and all below it anew.
+    /// Requests that the physics rebuilds `handle` and all below it.
     pub fn reset_dynamics_below(&mut self, handle: Handle) -> SceneResult<()> {
         for object in self.subtree(handle) {
             self.modify(object, Field::Dynamics, |object| object.dynamics_reset = true)?;

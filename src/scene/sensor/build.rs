@@ -1,4 +1,4 @@
-//! Making sensors from the numbers scripts give.
+//! Creation of sensors from the parameters of scripts.
 
 use super::volume::{CONE, CYLINDER, DISC, PYRAMID, RAY, Volume};
 use super::{ProximitySensor, View, VisionSensor};
@@ -9,7 +9,7 @@ const DISPLAY_SIZE: f64 = 0.01;
 const RAY_GLOW: [f32; 3] = [1.0, 1.0, 0.0];
 
 impl ProximitySensor {
-    /// The integers of a sensor nobody gave any: faces, subdivisions, samples.
+    /// Default integer parameters of a sensor: faces, subdivisions, samples.
     pub const INTEGERS: [i64; 8] = [32, 32, 1, 16, 1, 1, 0, 0];
 
     /// A sensor of a volume type (`sim.proximitysensor_*`); None for unknown types. `floats`: offset, range, x and y size, far x and
@@ -57,7 +57,7 @@ fn volume_of(integers: &[i64; 8], floats: &[f64; 15], close_threshold: f64) -> V
     }
 }
 
-/// The numbers of a volume nobody described.
+/// Default parameters of a volume.
 fn usual_volume(volume_type: i64) -> Option<[f64; 15]> {
     let [offset, range, x, y, far_x, far_y, radius, far_radius, angle] = match volume_type {
         PYRAMID => [0.1, 0.2, 0.2, 0.1, 0.4, 0.2, 0.0, 0.0, 0.0],

@@ -1,4 +1,4 @@
-//! Objects that exist as data until their behaviour is built: sensors, cameras, lights, graphs.
+//! Data of objects whose behaviour is not implemented yet: sensors, cameras, lights.
 
 pub(in crate::scene) mod build;
 pub mod force_sensor;

@@ -1,4 +1,4 @@
-//! What bounds the volume of a proximity sensor: numbers that follow from the volume, and stand in files beside it.
+//! Faces of the volume of a proximity sensor: derived numbers that files store beside it.
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,4 @@
-//! Making shapes: primitives, meshes, height fields.
+//! Creation of shapes: primitives, meshes, height fields.
 
 use std::rc::Rc;
 

@@ -1,4 +1,4 @@
-//! Joining shapes into one and taking them apart (spec: shapes 5).
+//! Grouping, merging and splitting of shapes (spec: shapes 5).
 //!
 //! A shape keeps a flat list of parts; each knows the groups it is in. The frame of a group is that of its last part.
 
@@ -75,7 +75,7 @@ impl Scene {
         shapes
     }
 
-    /// A new object with the given shape that takes the place, name, flags and children of `old`.
+    /// A new object with the given shape and the place, name, flags and children of `old`.
     fn replace_shape(&mut self, old: Handle, shape: Shape) -> SceneResult<Handle> {
         let new = self.add_beside(old, shape)?;
         for child in self.object(old)?.children().to_vec() {
@@ -105,7 +105,7 @@ impl Scene {
         Ok(new)
     }
 
-    /// Takes a compound apart into shapes of its parts. None for a simple shape. The original is still there.
+    /// Splits a compound into shapes of its parts. None for a simple shape. The original is kept.
     ///
     /// # Errors
     /// When the object is no shape.
@@ -155,7 +155,7 @@ impl Scene {
         Ok(piece)
     }
 
-    /// The shape in convex pieces, and where it lies. Mass, flags, material and looks are those of the original.
+    /// Convex decomposition of the shape, and its pose. Mass, flags, material and appearance are those of the original.
     ///
     /// # Errors
     /// When the object is no shape or has no volume.
@@ -166,7 +166,7 @@ impl Scene {
         Ok((Shape { parts, bounding_box, ..self.object(handle)?.shape()?.clone() }, pose))
     }
 
-    /// Convex pieces of a shape as shapes in its frame, and where that lies. They look like the original.
+    /// Convex pieces of a shape as shapes in its frame, and the pose of that frame, with the appearance of the original.
     ///
     /// # Errors
     /// When the object is no shape or has no volume.
@@ -185,7 +185,7 @@ impl Scene {
         Ok((pieces, self.world_pose(handle)?))
     }
 
-    /// Takes a single mesh apart into its islands. None when it is one island. The original is still there.
+    /// Splits a mesh into its islands. None when there is only one. The original is kept.
     ///
     /// # Errors
     /// For compounds.

@@ -1,4 +1,4 @@
-//! The points a hull around objects has to hold.
+//! Points for the convex hull of objects.
 
 use nalgebra::Point3;
 

@@ -29,7 +29,7 @@ pub struct Shape {
     pub material: Material,
     /// The last velocities of the physics, world axes, at the centre of mass.
     pub velocity: Velocity,
-    /// Force and torque asked for by scripts since the last dynamics call, world axes, at the centre of mass.
+    /// Force and torque applied by scripts since the last dynamics call, world axes, at the centre of mass.
     pub force: [f64; 3],
     pub torque: [f64; 3],
 }
@@ -76,7 +76,7 @@ pub struct Velocity {
     pub angular: [f64; 3],
 }
 
-/// How a shape takes part in the dynamics.
+/// Dynamic properties of a shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShapeDynamics {
     pub is_static: bool,

@@ -134,7 +134,7 @@ fn stretch_part(part: &mut Part, box_frame: &Pose, factors: [f64; 3]) {
 }
 
 impl Scene {
-    /// Changes the geometry of a shape; the physics builds its body anew.
+    /// Changes the geometry of a shape; the physics rebuilds its body.
     ///
     /// # Errors
     /// When the object is no shape, or `change` refuses.

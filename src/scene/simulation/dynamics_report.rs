@@ -1,4 +1,4 @@
-//! What the physics writes into the scene. None of it asks the physics to look again.
+//! Results that the physics writes into the scene. They do not count as changes for the physics.
 
 use nalgebra::UnitQuaternion;
 

@@ -1,4 +1,4 @@
-//! What a simulation run is undone to when it ends (spec: objects 8, spec: simulation 6).
+//! The state that is restored when a simulation ends (spec: objects 8, simulation 6).
 
 use std::collections::BTreeSet;
 

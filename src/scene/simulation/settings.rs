@@ -1,4 +1,4 @@
-//! Settings of a scene: what the simulation dialog of CoppeliaSim holds.
+//! Settings of a scene, as in CoppeliaSim's simulation dialog.
 
 use crate::scene::Kept;
 use crate::scene::appearance::environment::Surroundings;

@@ -1,4 +1,4 @@
-//! How objects join when models are put together by hand. Kept for files: nobody puts models together here.
+//! Assembly of models. Stored for files; there is no interactive assembly.
 
 use crate::scene::Pose;
 

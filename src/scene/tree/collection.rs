@@ -1,4 +1,4 @@
-//! Collections: sets of objects described by what to add and what to subtract, evaluated each time they are asked for.
+//! Collections: sets of objects defined by items to add and subtract, evaluated on each access.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! Copies of objects (spec: objects 5): what is copied, where it goes, and what it refers to.
+//! Copies of objects (spec: objects 5): selection, parents, references.
 
 use std::collections::{BTreeMap, BTreeSet};
 

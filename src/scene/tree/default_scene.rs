@@ -1,4 +1,4 @@
-//! What a scene holds that was not loaded from a file: a floor, a camera, lights.
+//! The default scene: a floor, a camera, lights.
 
 use geometry::PrimitiveKind;
 use nalgebra::UnitQuaternion;

@@ -249,7 +249,7 @@ impl Scene {
     }
 }
 
-/// Takes a member out of its list. New objects are last and are the ones that move most.
+/// Removes a member from its list. New objects are last and move most often.
 fn take_out(list: &mut Vec<Handle>, member: Handle) {
     if let Some(at) = list.iter().rposition(|&h| h == member) {
         list.remove(at);

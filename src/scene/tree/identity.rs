@@ -1,4 +1,4 @@
-//! What tells objects apart beyond a session, and what shows that they are copies of each other.
+//! Persistent identifiers of objects, and the DNA shared by copies.
 //!
 //! Both come from the counter of unique identifiers, so that a run that is repeated gives the same ones.
 

@@ -1,4 +1,4 @@
-//! How a user may move an object by hand. Kept for scripts and for files: nobody moves objects by hand here.
+//! Permissions for moving an object by hand. Stored for scripts and files; there is no user interface.
 
 /// What a hand may do to an object, and in which steps.
 #[derive(Debug, Clone, Copy, PartialEq)]

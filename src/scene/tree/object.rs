@@ -1,4 +1,4 @@
-//! A scene object: what all objects have, and what its type adds.
+//! A scene object: the common part, and the part of its type.
 
 use super::assembly::Assembly;
 use super::dummy::Dummy;
@@ -73,16 +73,16 @@ pub struct Object {
     pub original_references: crate::scene::ReferenceLists,
     /// What the physics uses of this object: shapes 1 respondable | 2 dynamic, joints 4, force sensors 32, dummies 64.
     pub dynamic_flag: i64,
-    /// Asks the physics to build this object anew.
+    /// Requests that the physics rebuilds this object.
     pub dynamics_reset: bool,
     /// World poses at the last two sensing parts of a step, for the measured velocity.
     pub measured: Measured,
-    /// The state to come back to when the simulation ends.
+    /// The state to restore when the simulation ends.
     pub initial: Option<Box<InitialState>>,
     pub kind: Kind,
 }
 
-/// What `sim.getObjectVelocity` tells.
+/// The result of `sim.getObjectVelocity`.
 #[derive(Debug, Clone, Default)]
 pub struct Measured {
     pub previous: Option<Pose>,
@@ -94,7 +94,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Whether both tell the same velocity, wherever the object is.
+    /// Whether both have the same velocity, whatever the pose.
     pub(in crate::scene) fn same_velocity(&self, other: &Self) -> bool {
         self.linear == other.linear && self.angular == other.angular
     }

@@ -1,4 +1,4 @@
-//! Names of objects and the paths they are looked up by (spec: addressing): aliases, `/a/b[1]`, `./x`, `:/y{2}`.
+//! Aliases and object paths (spec: addressing): `/a/b[1]`, `./x`, `:/y{2}`.
 //!
 //! Who the emitter of a relative path is, is decided by the caller.
 

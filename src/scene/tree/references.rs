@@ -1,4 +1,4 @@
-//! Who refers to whom: tagged lists of handles, links, dependencies; and forgetting what is gone.
+//! References between objects: tagged lists of handles, links, dependencies; removal of dead references.
 
 use std::collections::BTreeSet;
 

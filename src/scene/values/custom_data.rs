@@ -1,4 +1,4 @@
-//! Named values that scripts keep with objects, the scene or the application: custom data and signals.
+//! Custom data and signals: named values that scripts store on objects, the scene or the application.
 //!
 //! A value is stored under a tag: the mark of its type followed by its name. Buffers have no mark, so that raw custom data of a name
 //! and its buffer property are the same.
@@ -102,7 +102,7 @@ impl CustomData {
         true
     }
 
-    /// Tells whether anything went.
+    /// Returns whether anything was removed.
     fn retain(&mut self, keep: impl FnMut(&Entry) -> bool) -> bool {
         let before = self.entries.len();
         self.entries.retain(keep);
@@ -157,7 +157,7 @@ impl Scene {
         })
     }
 
-    /// Changes named values of an object, or of the scene itself (None): the one gate for them. Tells whether anything changed.
+    /// Changes named values of an object, or of the scene (None); all changes go through here. Returns whether anything changed.
     pub fn edit_named_values(
         &mut self,
         owner: Option<Handle>,

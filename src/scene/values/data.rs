@@ -1,4 +1,4 @@
-//! A value on its way between two Lua states, into custom data or over the wire: owned, stateless.
+//! An owned value without a Lua state: between scripts, in custom data, in messages.
 
 /// Any value a script can pass on. Tables with the keys `1..n` are arrays, all others are maps.
 #[derive(Debug, Clone, PartialEq)]

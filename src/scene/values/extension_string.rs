@@ -1,11 +1,11 @@
-//! Extension strings: what objects say to renderers, names with values in braces: `povray {focalBlur {true} aperture {0.1}}`.
+//! Extension strings: nested name-value pairs for renderers, such as `povray {focalBlur {true} aperture {0.1}}`.
 
 /// The value of an entry; `key` names it and what it is in, the innermost first: `aperture@povray`.
 pub fn entry<'a>(text: &'a str, key: &str) -> Option<&'a str> {
     key.rsplit('@').try_fold(text, |text, name| value(text, name.trim())).map(str::trim)
 }
 
-/// What stands in the braces behind a name.
+/// The content of the braces after a name.
 fn value<'a>(text: &'a str, name: &str) -> Option<&'a str> {
     let mut rest = text;
     while let Some((before, after)) = rest.split_once('{') {

@@ -1,10 +1,10 @@
-//! Values that are kept for scripts and have no effect: properties of displays, of other physics engines, and the like.
+//! Inert values: stored for scripts without effect, such as display properties and parameters of other physics engines.
 
 use std::collections::BTreeMap;
 
 use crate::scene::{Change, Data, Field, Handle, Scene, SceneResult};
 
-/// Values by the name of their property. What nobody set is not in it; its default is the business of whoever asks.
+/// Values by property name. Values that were not set are absent; callers supply the default.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Kept {
     values: BTreeMap<&'static str, Data>,
@@ -15,7 +15,7 @@ impl Kept {
         self.values.get(name)
     }
 
-    /// Sets a value; tells whether it is another one than before.
+    /// Sets a value; returns whether it changed.
     pub fn set(&mut self, name: &'static str, value: Data) -> bool {
         if self.values.get(name) == Some(&value) {
             return false;
@@ -26,7 +26,7 @@ impl Kept {
 }
 
 impl Scene {
-    /// A kept value of an object, or of the scene itself (None); None when nobody set it.
+    /// An inert value of an object, or of the scene (None); None if it was not set.
     ///
     /// # Errors
     /// When the object does not exist.

@@ -1,4 +1,4 @@
-//! Types of properties: their numbers, words and marks, defaults in words, and what a value must be like.
+//! Property types: numbers, names, storage marks, defaults, validation.
 
 use crate::scene::Data;
 

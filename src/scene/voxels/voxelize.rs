@@ -1,4 +1,4 @@
-//! Objects as cells of a grid and as points, by parry's tests of boxes against triangles (spec: sensors 4).
+//! Voxelization of objects, by parry's box-triangle tests (spec: sensors 4).
 
 use std::collections::BTreeSet;
 
@@ -17,14 +17,14 @@ use crate::scene::{Handle, Kind, Pose, Scene, SceneError, SceneResult};
 type Point = [f64; 3];
 type Cell = [i32; 3];
 
-/// No object takes more cells, or more tests to find them: a mistake in a script should not take the machine down.
+/// Limit of cells, and of tests to find them, per object: a mistake in a script should not exhaust the machine.
 const MOST_CELLS: usize = 2_000_000;
 const MOST_TESTS: usize = 40 * MOST_CELLS;
 /// Cells are nearer to the origin than this, by their edge.
 const FARTHEST: f64 = (1 << 30) as f64;
-/// The part of their edge by which cells are larger when they are tested: what lies on a boundary touches both sides.
+/// Relative enlargement of cells for tests: geometry on a boundary touches both sides.
 const MARGIN: f64 = 1e-9;
-/// The part of its edge by which a voxel is smaller when it is put into a grid: it does not take the cells it only touches.
+/// Relative shrinkage of a voxel when it is inserted into a grid: it does not occupy cells that it only touches.
 const INSET: f64 = 1e-6;
 
 /// Cells of a grid with a boundary at the origin, by how many cells they are from it.

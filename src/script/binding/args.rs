@@ -256,7 +256,7 @@ impl From<i64> for Number {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Bytes(pub Vec<u8>);
 
-/// A string or a number, as Lua's own functions take it.
+/// A string or a number, as Lua's own functions accept it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LuaString(pub Vec<u8>);
 
@@ -267,7 +267,7 @@ impl LuaString {
     }
 }
 
-/// A number, as Lua's own functions take it.
+/// A number, as Lua's own functions accept it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LuaNumber(pub f64);
 

@@ -1,4 +1,4 @@
-//! Things a script refers to by number.
+//! Resources that a script refers to by number.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What a scriptable function is, and how Lua finds it.
+//! Definition of functions for scripts, and their lookup from Lua.
 
 pub(in crate::script) mod args;
 pub(in crate::script) mod by_handle;

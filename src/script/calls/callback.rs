@@ -82,7 +82,7 @@ impl SysCall {
         matches!(self, Self::Actuation | Self::NonSimulation)
     }
 
-    /// Whether everyone else is told when a script has run this.
+    /// Whether all other scripts are notified when a script has run this.
     pub(crate) const fn is_announced(self) -> bool {
         matches!(
             self,

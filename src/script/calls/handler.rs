@@ -1,4 +1,4 @@
-//! Handlers: functions a script leaves with the host, to be called when something comes in from outside.
+//! Handlers: script functions called on external events.
 
 use std::rc::{Rc, Weak};
 

@@ -106,7 +106,7 @@ pub(crate) fn changed_level(level: i64, change: LevelChange) -> i64 {
     }
 }
 
-/// What `setAutoYield` and `setYieldAllowed` can be told.
+/// Arguments of `setAutoYield` and `setYieldAllowed`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LevelChange {
     Forbid,

@@ -1,4 +1,4 @@
-//! Ways to others that are not calls: tubes, WebSocket endpoints, semaphores.
+//! Communication channels of scripts: tubes, WebSocket endpoints, semaphores.
 
 pub(in crate::script) mod system_semaphore;
 pub(in crate::script) mod tubes;

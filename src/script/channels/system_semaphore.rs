@@ -1,4 +1,4 @@
-//! Semaphores of the whole machine (`sim.systemSemaphore`): at most one program holds the one of a name.
+//! Machine-wide semaphores (`sim.systemSemaphore`): each name is held by at most one program.
 //!
 //! Each is a locked file in the folder for temporary files, so that it is free again when its holder dies.
 
@@ -18,7 +18,7 @@ const LONGEST_KEY: usize = 100;
 pub(crate) struct SystemSemaphores(BTreeMap<Vec<u8>, File>);
 
 impl SystemSemaphores {
-    /// Takes the semaphore, unless this simulator has it already; None while another program holds it.
+    /// Acquires the semaphore, unless this simulator holds it already; None while another program holds it.
     ///
     /// # Errors
     /// When the key is too long or its file cannot be made.
@@ -42,7 +42,7 @@ impl SystemSemaphores {
         Ok(Some(()))
     }
 
-    /// Gives a semaphore back, if it is held.
+    /// Releases a semaphore, if it is held.
     pub(crate) fn release(&mut self, key: &[u8]) {
         self.0.remove(key);
     }

@@ -1,4 +1,4 @@
-//! Tubes of old scripts (`sim.tube*`): two ends that were opened under the same name, each with the packets the other has written.
+//! Tubes of old scripts (`sim.tube*`): two ends with the same name, each with a queue of packets.
 //!
 //! A tube ends with the Lua state of the script that opened it.
 
@@ -20,7 +20,7 @@ struct End {
     packets: VecDeque<Vec<u8>>,
 }
 
-/// What `sim.tubeStatus` tells.
+/// The result of `sim.tubeStatus`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct TubeStatus {
     pub connected: bool,

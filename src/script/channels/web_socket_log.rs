@@ -1,4 +1,4 @@
-//! What the log says of WebSocket endpoints.
+//! Log messages of WebSocket endpoints.
 
 use std::io;
 

@@ -62,7 +62,7 @@ impl Endpoint {
     }
 
     /// # Errors
-    /// Why the connection does not take it.
+    /// The reason why the connection rejects it.
     pub(crate) fn send(&self, connection: u64, data: Vec<u8>, opcode: i64) -> Result<(), SendError> {
         self.socket.borrow().as_ref().ok_or(SendError::Expired)?.send(connection, data, opcode)
     }

@@ -1,4 +1,4 @@
-//! Compiled texts as Lua 5.4 dumps and loads them: read, and written again.
+//! Reading and writing of Lua 5.4 bytecode.
 //!
 //! What need not be understood is kept as the bytes it is.
 
@@ -105,7 +105,7 @@ impl Prototype<'_> {
         self.constants.len()
     }
 
-    /// Instructions have moved: `place` tells where each is now.
+    /// Instructions have moved: `place` is their new position.
     pub(super) fn move_locals(&mut self, place: impl Fn(usize) -> usize) {
         for local in &mut self.locals {
             (local.begin, local.end) = (place(local.begin), place(local.end));

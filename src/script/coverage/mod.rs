@@ -1,4 +1,4 @@
-//! Which lines of scripts run.
+//! Line coverage of scripts.
 //!
 //! A state counts the lines of its script's own text and of Lua files that were loaded by name (`@file`); what comes with the simulator is
 //! not counted. Which lines there are to run says `executable`. Texts get `probes` when they are loaded, which note the lines that run; a line

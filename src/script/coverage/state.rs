@@ -1,4 +1,4 @@
-//! What one state counts: which of its texts have probes, and what those have noted.
+//! Coverage of one Lua state: instrumented texts, and the lines that ran.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -45,7 +45,7 @@ impl Coverage {
         self.own.replace(Some(Own { chunk_name: chunk_name.into(), path, text: text.into() }));
     }
 
-    /// Gives the function on top, which was just compiled, probes, if its text is counted.
+    /// Inserts probes into the function on top, which was just compiled, if its text is counted.
     pub(crate) fn count_function(&self, stack: Stack<'_>) {
         let Some(chunk_name) = stack.chunk_name_of_function() else { return };
         let Some(lines) = self.lines_of(&chunk_name) else { return };
@@ -75,7 +75,7 @@ impl Coverage {
         Some(lines)
     }
 
-    /// Hands over what has been noted, and begins anew.
+    /// Returns the recorded lines and starts over.
     pub(super) fn take(&self, sim: &Sim, script: &Script, stack: Stack<'_>) -> LineCounts {
         let mut all = LineCounts::default();
         let own = self.own.borrow();

@@ -12,10 +12,10 @@ use crate::scene::{Change, Data, Field, Handle, Holder, Namespace, Uid, Unread, 
 use crate::script::property::Target;
 use crate::script::sim::Sim;
 
-/// Lists of the scene, told when objects come, go, change parents or are selected.
+/// Lists of the scene, sent when objects are added, removed, selected or get another parent.
 pub(super) const LISTS: [&str; 3] = ["objectHandles", "orphanHandles", "selectionHandles"];
 
-/// What an advance of the clock changes, in the order it is told.
+/// Properties changed by an advance of the clock, in the order of events.
 const CLOCK: [&str; 3] = ["stepCount", "simulationTime", "simulationState"];
 
 impl Sim {

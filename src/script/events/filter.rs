@@ -1,4 +1,4 @@
-//! Which events a script wants to hear of (spec: events 6).
+//! Event filters of scripts (spec: events 6).
 
 use std::collections::{BTreeMap, BTreeSet};
 

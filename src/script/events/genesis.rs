@@ -1,4 +1,4 @@
-//! The snapshot: events from which a listener can build the world as it is (spec: events 7).
+//! The snapshot: events from which a listener can reconstruct the scene (spec: events 7).
 
 use std::rc::Rc;
 

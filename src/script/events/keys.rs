@@ -1,4 +1,4 @@
-//! Which properties of a target the event stream tells, and which of them a change can concern (spec: events 8).
+//! Properties of a target in the event stream, and which of them a change can affect (spec: events 8).
 
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, Mutex};
@@ -7,7 +7,7 @@ use super::protocol::{Meaning, Protocol, renamed};
 use crate::scene::Field;
 use crate::script::property::{Class, Row, flags};
 
-/// Readable properties that are no news: they follow from others, are asked for on purpose, or are drawn anew at each reading.
+/// Readable properties without events: derived ones, those read on purpose, and those that differ at each reading.
 const SILENT: &[&str] = &[
     "objectUid",
     "mov.optionsFlags",
@@ -40,11 +40,11 @@ const SILENT: &[&str] = &[
     "selectionHandles",
 ];
 
-/// Too large to remember what was told of them: they are told when this changes, and with the geometry.
+/// Too large to store the last value: sent when this changes, and with the geometry.
 const LARGE: &[(Field, &[&str])] =
     &[(Field::Geometry, &["vertices", "indices", "normals"]), (Field::Texture, &["textureCoordinates", "rawTexture"])];
 
-/// Properties that are told in one event.
+/// Properties that share an event.
 const PAIRS: &[[&str; 2]] = &[["bbPose", "bbHSize"], ["parentUid", "parentHandle"]];
 
 /// What changes in nearly every step, and the properties it concerns. A change of any other field can concern all properties. A new alias
@@ -89,9 +89,9 @@ const FREQUENT: &[(Field, &[&str])] = &[
 /// One property the stream tells.
 pub(super) struct StreamProperty {
     pub row: &'static Row,
-    /// Index of the one told in the same event.
+    /// Index of the property in the same event.
     pub partner: Option<usize>,
-    /// Not remembered, told when this or the geometry changes.
+    /// Not stored; sent when this or the geometry changes.
     pub large: Option<Field>,
     /// Name and meaning in protocol 4.
     pub renamed: (&'static str, Meaning),
@@ -151,7 +151,7 @@ fn is_sent(row: &Row) -> bool {
     row.flags & hidden == 0 && !SILENT.contains(&row.name) && !row.name.starts_with("volume_")
 }
 
-/// The properties told of targets of that class: worked out once and kept for the life of the process, like the class itself.
+/// The properties sent for targets of that class: computed once per process.
 pub(super) fn keys(class: &'static Class) -> &'static Keys {
     static KNOWN: LazyLock<Mutex<BTreeMap<usize, &'static Keys>>> = LazyLock::new(Mutex::default);
     let mut known = KNOWN.lock().expect("nothing panics while it holds the lock");

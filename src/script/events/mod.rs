@@ -1,8 +1,8 @@
-//! The stream of events: everything that changes, told to the scripts that have `sysCall_event` (spec: events).
+//! The event stream: all changes, for scripts with `sysCall_event` (spec: events).
 //!
-//! Nothing is collected while nobody listens. While somebody does, every call that changed the scene is followed by
-//! [`Sim::collect_events`], which turns the scene's journal into events: what a property is now is compared with what was
-//! last told. One dispatch per loop iteration merges, numbers and delivers them.
+//! Without listeners nothing is collected. Otherwise every call that changed the scene is followed by
+//! [`Sim::collect_events`], which turns the scene's journal into events: current values of properties are compared with those
+//! last sent. One dispatch per loop iteration merges, numbers and delivers them.
 
 mod collect;
 mod encode;
@@ -38,18 +38,18 @@ pub(crate) struct EventStream {
     pub listening: Rc<Cell<bool>>,
     queue: RefCell<Queue>,
     watch: RefCell<Option<Watch>>,
-    /// Where the journal of the scene was read last, while somebody listens.
+    /// Cursor into the scene's journal, while there are listeners.
     cursor: RefCell<Option<Cursor>>,
     next_seq: Cell<i64>,
-    /// A scene nobody was told about yet.
+    /// A scene without a snapshot sent yet.
     scene_is_new: Cell<bool>,
-    /// Time, steps and state as they were told.
+    /// Time, steps and state as last sent.
     clock: Cell<(f64, u64, i64)>,
     pub protocol: Cell<Protocol>,
 }
 
 impl EventStream {
-    /// A stream nobody listens to, of a scene nobody was told about.
+    /// A stream without listeners, of a scene not sent yet.
     pub(super) fn new() -> Self {
         Self {
             listening: Rc::default(),
@@ -222,7 +222,7 @@ impl Sim {
         }
     }
 
-    /// Goes over to another dialect; listeners are told everything anew in it.
+    /// Switches to another protocol; listeners receive a new snapshot.
     pub(crate) fn set_event_protocol(self: &Rc<Self>, protocol: Protocol) {
         if self.events.protocol.get() == protocol {
             return;

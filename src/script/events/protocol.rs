@@ -1,4 +1,4 @@
-//! The dialects of the stream, and what protocol 4 calls the properties.
+//! Versions of the event protocol, and the property names of version 4.
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -38,7 +38,7 @@ type Renamed = HashMap<(&'static str, &'static str), (&'static str, Meaning)>;
 /// Parameters of the physics engines are below `dynamics.` now.
 const ENGINES: [&str; 5] = ["bullet.", "ode.", "vortex.", "newton.", "mujoco."];
 
-/// Name and meaning of a property in protocol 4. `class` is its path as `sim.getPropertyName` tells it.
+/// Name and meaning of a property in protocol 4. `class` is its path as returned by `sim.getPropertyName`.
 pub(super) fn renamed(class: &'static str, name: &'static str) -> (&'static str, Meaning) {
     static TABLE: LazyLock<Renamed> = LazyLock::new(read);
     if ENGINES.iter().any(|engine| name.starts_with(engine)) {

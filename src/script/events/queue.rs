@@ -1,4 +1,4 @@
-//! Events that wait for the next dispatch: merged, then numbered and written as one batch (spec: events 1, events 3, events 4).
+//! Pending events: merged, numbered and encoded as one batch (spec: events 1, events 3, events 4).
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
@@ -77,7 +77,7 @@ impl Event {
         Self { name: name.into(), source, data: Content::Entries(entries), topic: None }
     }
 
-    /// The new value of properties that change together; only the latest is told.
+    /// The new value of properties that change together; only the latest is sent.
     pub(super) fn changed(source: Source, entries: Vec<Entry>) -> Self {
         let topic = entries.first().map(|entry| entry.key.clone());
         Self { topic, ..Self::new("objectChanged", source, entries) }

@@ -1,4 +1,4 @@
-//! What listeners were last told about each target, so that only differences become events.
+//! Values last sent to listeners for each target, so that only differences become events.
 
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
@@ -20,7 +20,7 @@ use crate::script::sim::Sim;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Listeners {
     pub protocol: Protocol,
-    /// What each wants to hear; None for everything.
+    /// The filter of each listener; None for all events.
     pub filters: Vec<Option<Filters>>,
 }
 
@@ -33,7 +33,7 @@ impl Listeners {
     }
 }
 
-/// One target and what was last told about it.
+/// A target and the values last sent.
 pub(super) struct Watched {
     pub target: Target,
     pub source: Source,
@@ -92,7 +92,7 @@ impl Watched {
         Self { target, source, parent: None, meshes: Vec::new(), protocol: listeners.protocol, keys, sent, wanted }
     }
 
-    /// Takes the present values as told.
+    /// Stores the present values as sent.
     pub(super) fn refresh(&mut self, sim: &Rc<Sim>) {
         for index in 0..self.sent.len() {
             if self.remembers(index) {
@@ -106,7 +106,7 @@ impl Watched {
         self.wanted[index] && self.keys.properties[index].large.is_none()
     }
 
-    /// Everything about the target, which counts as told from now on.
+    /// All properties of the target, which count as sent from now on.
     pub(super) fn describe(&mut self, sim: &Rc<Sim>) -> Vec<Entry> {
         let mut entries = Vec::with_capacity(self.sent.len());
         for index in 0..self.sent.len() {
@@ -180,7 +180,7 @@ impl Watched {
         self.keys
     }
 
-    /// The value of a property; None where there is nothing to tell.
+    /// The value of a property; None if there is none.
     fn read(&self, sim: &Rc<Sim>, index: usize) -> Option<Data> {
         sim.read_row(&self.target, self.keys.properties[index].row).ok()
     }
@@ -227,7 +227,7 @@ pub(super) fn stored_key(namespace: Namespace, name: &str) -> String {
     }
 }
 
-/// All targets with what was told about them.
+/// All targets with the values last sent.
 pub(super) struct Watch {
     pub listeners: Listeners,
     pub app: Watched,

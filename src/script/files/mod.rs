@@ -1,4 +1,4 @@
-//! What scripts read from and write to files: scenes, data that outlives the program, locks.
+//! Files of scripts: scenes, persistent data, locks.
 
 pub(in crate::script) mod app_storage;
 pub(in crate::script) mod scene_save;

@@ -1,4 +1,4 @@
-//! The scene and models out of it, as files.
+//! Saving the scene, and models of it.
 
 use std::path::Path;
 use std::rc::Rc;

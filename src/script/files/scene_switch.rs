@@ -1,4 +1,4 @@
-//! Putting another scene in the place of the present one, and models into it.
+//! Loading a scene in place of the present one, and loading models.
 
 use std::rc::Rc;
 

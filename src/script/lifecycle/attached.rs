@@ -1,4 +1,4 @@
-//! Scripts that belong to objects: since 4.7 as objects among their children, before as scripts attached to them.
+//! Scripts of objects: script objects (since 4.7), and attached scripts of older scenes.
 
 use std::rc::Rc;
 

@@ -1,4 +1,4 @@
-//! The Lua files that come with the simulator.
+//! The Lua files that are part of the simulator.
 
 use std::sync::OnceLock;
 

@@ -29,9 +29,9 @@ pub(crate) struct Env {
     pub depth: Cell<usize>,
     pub yields: Yields,
     pub random: RefCell<Random>,
-    /// What the state wants to hear of; None for everything.
+    /// The event filter of the state; None for all events.
     pub event_filters: RefCell<Option<Filters>>,
-    /// Whether anybody listens to events, so that changes must be told.
+    /// Whether there are event listeners, so that changes must be collected.
     pub events_wanted: Rc<Cell<bool>>,
     /// What modules keep for the script; it goes with the state.
     pub module_states: States,
@@ -138,7 +138,7 @@ impl Env {
         }
     }
 
-    /// Turns what a call has changed into events, if anybody listens.
+    /// Turns the changes of a call into events, if there are listeners.
     pub(crate) fn tell_changes(&self) {
         if self.events_wanted.get()
             && let Some(sim) = self.sim.upgrade()

@@ -1,4 +1,4 @@
-//! A script as the host sees it: identity, state, interpreter.
+//! A script as seen by the host: identity, state, Lua state.
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -39,7 +39,7 @@ pub(crate) struct Detached {
     pub code: Vec<u8>,
     /// How Lua names the text in error positions.
     pub chunk_name: String,
-    /// The file the text is from, which stands for the name.
+    /// The file of the text, used as its name.
     pub source: Option<String>,
     pub disabled: bool,
     pub restart_on_error: bool,

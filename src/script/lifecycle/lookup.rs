@@ -1,4 +1,4 @@
-//! Finding scripts by type and by the object they belong to (spec: calls 2).
+//! Finding scripts by type and by object (spec: calls 2).
 
 use std::rc::Rc;
 

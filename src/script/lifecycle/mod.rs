@@ -216,7 +216,7 @@ impl Sim {
         self.close(script);
     }
 
-    /// Ends a script so that it starts anew at its next eligible call.
+    /// Resets a script; it starts again at its next eligible call.
     pub(crate) fn reset(self: &Rc<Self>, script: &Rc<Script>) {
         self.end(script);
         script.set_state(state::UNLOADED);

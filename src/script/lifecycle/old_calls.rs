@@ -1,4 +1,4 @@
-//! Scripts from before there were callbacks. `lua/library/old_calls.lua` runs them.
+//! Scripts from before callbacks existed. `lua/library/old_calls.lua` runs them.
 
 use std::rc::Rc;
 

@@ -1,4 +1,4 @@
-//! Who is called when (spec: scripts 6).
+//! Execution order of scripts (spec: scripts 6).
 
 use std::rc::Rc;
 

@@ -63,7 +63,7 @@ impl Sim {
         self.broadcast(SysCall::AfterCreate, &[data]);
     }
 
-    /// Copies objects with everything their options bring along; scripts among the copies start anew. Returns originals and copies.
+    /// Copies objects according to the options; copied scripts are new scripts. Returns originals and copies.
     ///
     /// # Errors
     /// When a handle is unknown or the scene is full.

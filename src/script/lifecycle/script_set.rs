@@ -1,4 +1,4 @@
-//! The scripts of a simulator: which there are, in which order they are called, which callbacks they have, how deep their calls nest.
+//! The scripts of a simulator: execution order, callbacks in use, call depth.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};

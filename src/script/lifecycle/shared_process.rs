@@ -1,4 +1,4 @@
-//! What is different in a state whose simulator shares its process with others: one with [`Limits`](crate::script::Limits).
+//! Restrictions of simulators that share their process with others: those with [`Limits`](crate::script::Limits).
 
 use std::ffi::{c_int, c_void};
 

@@ -1,4 +1,4 @@
-//! Filling a fresh Lua state: library, `sim`, package path (spec: scripts 9).
+//! Initialisation of a fresh Lua state: library, `sim`, package path (spec: scripts 9).
 
 use std::ffi::{CStr, c_int, c_void};
 use std::rc::Rc;
@@ -45,7 +45,7 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
     load_module(stack, sim, "no_unsafe").and_then(|()| stack.protected_call(0, 0))
 }
 
-/// Gives a function that was just loaded what counts its lines.
+/// Instruments a function that was just loaded for coverage.
 fn count(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
     stack.set_top(1);
     if let Some(coverage) = &Env::of(stack).coverage {

@@ -1,4 +1,4 @@
-//! Consoles scripts open (`sim.auxiliaryConsoleOpen`), without windows.
+//! Auxiliary consoles of scripts (`sim.auxiliaryConsoleOpen`), without windows.
 
 use std::collections::BTreeMap;
 
@@ -29,7 +29,7 @@ impl AuxiliaryConsoles {
         self.open.get(&handle).map(|console| console.title.clone())
     }
 
-    /// Tells whether it was open.
+    /// Returns whether it was open.
     pub(crate) fn close(&mut self, handle: i64) -> bool {
         self.open.remove(&handle).is_some()
     }

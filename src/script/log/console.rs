@@ -1,4 +1,4 @@
-//! Where prints and log lines of a simulator go.
+//! The console: destination of prints and log lines.
 
 use std::borrow::Cow;
 
@@ -51,7 +51,7 @@ pub enum Stream {
     Error,
 }
 
-/// Receives what a simulator and its scripts say. Lines below the verbosity asked for do not arrive here.
+/// Receives the output of a simulator and its scripts, filtered by verbosity.
 pub trait Console {
     /// One call of a script's `print`: the line without its end, and the simulated time, seconds.
     fn print(&mut self, line: &[u8], time: f64);

@@ -1,4 +1,4 @@
-//! What scripts and the simulator print: levels, consoles, and the count of errors.
+//! Output of scripts and the simulator: levels, consoles, error count.
 
 pub(in crate::script) mod auxiliary_consoles;
 pub(in crate::script) mod console;
@@ -15,7 +15,7 @@ pub(crate) struct Log {
     verbosity: Cell<i64>,
     /// Origin, level and text of the lines that are to be logged only once.
     logged_once: RefCell<HashSet<(String, i64, String)>>,
-    /// Errors of scripts that nobody caught.
+    /// Uncaught script errors.
     errors: Cell<u64>,
 }
 
@@ -38,7 +38,7 @@ impl Log {
         self.verbosity.set(level);
     }
 
-    /// How many errors scripts have raised that nobody caught.
+    /// Number of uncaught script errors.
     pub(crate) fn errors(&self) -> u64 {
         self.errors.get()
     }

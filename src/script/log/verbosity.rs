@@ -18,7 +18,7 @@ pub fn plain(level: i64) -> i64 {
     level & 0xfff
 }
 
-/// The word for a level, as it stands in a log line.
+/// The word for a level in log lines.
 pub fn word(level: i64) -> &'static str {
     match plain(level) {
         ERRORS | SCRIPT_ERRORS => "error",
@@ -33,7 +33,7 @@ pub fn word(level: i64) -> &'static str {
     }
 }
 
-/// The level with that name, as the command line takes it.
+/// The level with that name, as on the command line.
 pub fn from_name(name: &str) -> Option<i64> {
     let level = match name {
         "none" => 100,

@@ -1,4 +1,4 @@
-//! How much memory Lua code may take.
+//! Memory budget of Lua code.
 
 use std::cell::Cell;
 

@@ -1,4 +1,4 @@
-//! Rust functions that Lua calls.
+//! Rust functions callable from Lua.
 
 use std::ffi::{c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};

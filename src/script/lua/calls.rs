@@ -1,4 +1,4 @@
-//! Compiling and calling Lua, and looking at who runs.
+//! Compiling and calling Lua code, and inspecting the call stack.
 
 use std::ffi::{c_int, c_void};
 

@@ -8,9 +8,9 @@ use mlua::ffi;
 use super::Stack;
 use super::callback::panic_message;
 
-/// How many virtual machine instructions pass between two looks at the budget.
+/// Virtual machine instructions between two checks of the budget.
 pub(crate) const HOOK_INTERVAL: c_int = 1000;
-/// How many pass before a slice that is used up ends.
+/// Instructions until an exhausted slice ends.
 const SOON: c_int = 100;
 
 /// Asked after every `HOOK_INTERVAL` instructions of code that has the hook; told whether it may yield.

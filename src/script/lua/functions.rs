@@ -1,4 +1,4 @@
-//! Compiled functions: where they come from, and others in their place.
+//! Compiled functions: their source, and replacing them.
 
 use std::ffi::c_int;
 

@@ -26,7 +26,7 @@ impl Stack<'_> {
         self.kind(-1)
     }
 
-    /// Length of the table at `index` as `#` tells without metamethods.
+    /// Raw length of the table at `index`.
     pub(crate) fn raw_len(self, index: c_int) -> usize {
         // SAFETY: reads only; 0 for what has no length.
         unsafe { ffi::lua_rawlen(self.raw(), index) as usize }

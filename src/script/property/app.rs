@@ -142,7 +142,7 @@ fn text_of(path: Option<&Path>) -> String {
 }
 
 impl Sim {
-    /// Tells this run of this simulator from others.
+    /// Distinguishes this run of this simulator from others.
     fn session_id(&self) -> String {
         format!("{:x}-{:x}", std::process::id(), std::ptr::from_ref(self).addr())
     }

@@ -1,4 +1,4 @@
-//! Properties of what is only looked at: lights, graphs, octrees and point clouds.
+//! Properties of display objects: lights, graphs, octrees and point clouds.
 
 use super::Color;
 use super::access::{Accessor, finite, length, object_properties, refused};

@@ -1,11 +1,11 @@
-//! Properties that are only kept: reading and writing them.
+//! Inert properties: stored and read back without effect.
 
 use super::{Sim, Target};
 use crate::scene::Data;
 use crate::script::error::{ApiError, ApiResult};
 
 impl Sim {
-    /// A kept value; None while nobody set it.
+    /// An inert value; None if it was not set.
     pub(super) fn read_kept(&self, target: &Target, name: &str) -> ApiResult<Option<Data>> {
         match target {
             Target::App => Ok(self.app.borrow().kept.get(name).cloned()),

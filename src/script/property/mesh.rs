@@ -1,4 +1,4 @@
-//! Properties of the meshes shapes consist of. What is said of a texture holds while there is one.
+//! Properties of the meshes of shapes. Texture properties apply while there is a texture.
 
 use geometry::Mesh;
 
@@ -13,7 +13,7 @@ use crate::script::error::{ApiError, ApiResult};
 use crate::script::sim::Sim;
 
 impl Sim {
-    /// What `read` tells about a mesh and the shape it belongs to.
+    /// The result of `read` for a mesh and its shape.
     pub(super) fn with_mesh<R>(&self, uid: Uid, read: impl FnOnce(&Object, &Part) -> R) -> ApiResult<R> {
         let scene = self.scene.borrow();
         let (handle, index) = scene.mesh(uid).ok_or(ApiError::NoSuchTarget)?;
@@ -34,7 +34,7 @@ impl Subject<'_> {
         changed.ok_or(ApiError::NoSuchTarget)
     }
 
-    /// What `of` tells about the mesh in the frame of its shape.
+    /// The result of `of` for the mesh in the frame of its shape.
     fn geometry<R>(&self, of: impl FnOnce(&Mesh) -> R) -> ApiResult<R> {
         self.with_mesh(|_, part| {
             let mut mesh = Mesh::default();
@@ -45,19 +45,19 @@ impl Subject<'_> {
 }
 
 impl Subject<'_> {
-    /// What `of` tells about the texture on the mesh; `none` where there is none.
+    /// The result of `of` for the texture of the mesh; `none` without a texture.
     fn texture<R>(&self, none: R, of: impl FnOnce(&TextureMapping) -> R) -> ApiResult<R> {
         self.with_mesh(|_, part| part.texture.as_deref().map_or(none, of))
     }
 
-    /// Changes how the texture lies on the mesh. Without one there is nothing to change.
+    /// Changes the texture mapping of the mesh, if it has a texture.
     fn change_texture(&self, change: impl FnOnce(&mut TextureMapping)) -> ApiResult<()> {
         self.change_mesh(|part| {
             part.texture.as_deref_mut().map(change);
         })
     }
 
-    /// What `of` tells about the image; `none` where there is none, or it is that of a sensor.
+    /// The result of `of` for the image; `none` without an image, or if it is that of a sensor.
     fn image<R>(&self, none: R, of: impl FnOnce(&Texture) -> R) -> ApiResult<R> {
         let id = self.texture(-1, |texture| texture.source.raw())?;
         Ok(self.sim.scene.borrow().texture(id).map_or(none, of))

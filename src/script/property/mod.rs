@@ -68,7 +68,7 @@ enum Name<'a> {
 /// Bytes from which on a value is said to be large; the original's limit is not known to us.
 const LARGE: usize = 1000;
 
-/// Type and flags, as `sim.getPropertyInfo` tells them.
+/// Type and flags, as returned by `sim.getPropertyInfo`.
 pub(crate) type Info = (ValueType, i64);
 
 impl Sim {
@@ -172,7 +172,7 @@ impl Sim {
         if existed { Ok(()) } else { Err(ApiError::UnknownProperty) }
     }
 
-    /// Type and flags of a property; None when there is none of that name. That a value is large is told by what it is now.
+    /// Type and flags of a property; None if unknown. The flag for large values depends on the present value.
     pub(crate) fn property_info(self: &Rc<Self>, target: &Target, name: &str) -> Option<Info> {
         let class = self.class_of(target).ok()?;
         let (ty, flags) = match parse_name(class, target, name) {
@@ -225,7 +225,7 @@ impl Sim {
     }
 }
 
-/// What a script is told when the scene refused: CoppeliaSim does not tell why.
+/// The error when the scene rejects a value: CoppeliaSim gives no reason.
 fn refusal(error: ApiError, words: ApiError) -> ApiError {
     if matches!(error, ApiError::Scene(_)) { words } else { error }
 }
@@ -239,13 +239,13 @@ fn has_nan(value: &Data) -> bool {
     }
 }
 
-/// The row of a static property that has the type it is asked for.
+/// The row of a static property, if it has the requested type.
 fn row_of(class: &'static Class, name: &str, ty: ValueType) -> ApiResult<&'static Row> {
     let row = class.find(name).ok_or(ApiError::UnknownProperty)?;
     if row.ty == ty { Ok(row) } else { Err(ApiError::PropertyType) }
 }
 
-/// Takes a name apart; the class of the target may stand in front of it.
+/// Splits a name; it may be prefixed by the class of the target.
 fn parse_name<'a>(class: &Class, target: &Target, name: &'a str) -> Name<'a> {
     let name = class.without_words(name);
     let stored = !matches!(target, Target::Script(_) | Target::Mesh(_));

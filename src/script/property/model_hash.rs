@@ -1,4 +1,4 @@
-//! The hash of a model: a text that is the same for models whose properties are the same.
+//! The hash of a model, equal for models with equal properties.
 
 use std::rc::Rc;
 

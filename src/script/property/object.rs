@@ -1,4 +1,4 @@
-//! Properties all objects have.
+//! Properties common to all objects.
 
 use geometry::pose::{pose_from_array, pose_to_array};
 

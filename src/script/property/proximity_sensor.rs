@@ -1,4 +1,4 @@
-//! Properties of proximity sensors and of the volumes they look into.
+//! Properties of proximity sensors and their volumes.
 
 use super::Vector3;
 use super::access::{Accessor, finite, length, object_properties, pair, refused};

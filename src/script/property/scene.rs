@@ -54,12 +54,12 @@ impl Sim {
         self.scene.borrow().journal().counters()
     }
 
-    /// Tells this scene from those there were before.
+    /// Distinguishes this scene from earlier ones.
     fn scene_uid(&self) -> i64 {
         self.app.borrow().closed_scenes + 1
     }
 
-    /// Tells this scene from those of other simulators with other seeds, too.
+    /// Distinguishes this scene also from those of other simulators with other seeds.
     fn scene_uid_text(&self) -> String {
         Random::new(self.options.seed.wrapping_add(self.scene_uid() as u32)).word(SCENE_UID_LETTERS)
     }

@@ -1,4 +1,4 @@
-//! Properties of scripts, be they objects or not.
+//! Properties of script objects and detached scripts.
 
 use super::access::{Accessor, Subject, object_properties, subject_properties};
 use crate::scene::tree::script_object::ScriptObject;

@@ -1,4 +1,4 @@
-//! Properties that scripts create: custom data, signals, named parameters.
+//! Properties created by scripts: custom data, signals, named parameters.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::scene::{CustomData, Data, Edit, Handle, Holder, Namespace, ValueType}
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::instance::Script;
 
-/// The script that wrote each signal last. A signal goes with the Lua state of that script.
+/// The script that last wrote each signal. A signal is removed with the Lua state of that script.
 #[derive(Default)]
 pub(crate) struct SignalOwners(BTreeMap<Holder, BTreeMap<String, i64>>);
 
@@ -32,7 +32,7 @@ impl SignalOwners {
         self.0.remove(&holder);
     }
 
-    /// Gives up what `script` owns.
+    /// Removes the signals owned by `script`.
     fn take(&mut self, script: i64) -> Vec<(Holder, String)> {
         let mut owned = Vec::new();
         for (&holder, owners) in &mut self.0 {
@@ -88,7 +88,7 @@ impl Sim {
         Ok(read(scene.named_values(object_of(holder), namespace)?))
     }
 
-    /// The one gate for changes of named values; tells whether there was any.
+    /// All changes of named values go through here; returns whether anything changed.
     fn edit_stored(&self, holder: Holder, namespace: Namespace, edit: Edit<'_>) -> ApiResult<bool> {
         if holder != Holder::App {
             return Ok(self.scene.borrow_mut().edit_named_values(object_of(holder), namespace, edit)?);
@@ -114,7 +114,7 @@ impl Sim {
         self.with_stored(target.holder().ok_or(ApiError::NoSuchTarget)?, namespace, read)
     }
 
-    /// Changes custom data or signals; tells whether anything is different then.
+    /// Changes custom data or signals; returns whether anything changed.
     ///
     /// # Errors
     /// When the target has none or is gone.

@@ -38,7 +38,7 @@ pub(crate) struct Row {
     pub ty: ValueType,
     pub flags: i64,
     pub source: Source,
-    /// The class as `sim.getPropertyName` tells it.
+    /// The class as returned by `sim.getPropertyName`.
     pub class: &'static str,
 }
 
@@ -55,7 +55,7 @@ pub(crate) enum Source {
 
 /// Targets that have the same static properties.
 pub(crate) struct Class {
-    /// The word for it; it may stand in front of a name.
+    /// The class name, which may prefix a property name.
     pub word: &'static str,
     /// Words that may stand before that one.
     outer: &'static [&'static str],
@@ -77,7 +77,7 @@ impl Class {
         self.rows.split_at(self.common)
     }
 
-    /// The name without the words for the class that may stand in front of it.
+    /// The name without a prefix for the class.
     pub(crate) fn without_words<'a>(&self, name: &'a str) -> &'a str {
         let strip = |name: &'a str, word: &str| name.strip_prefix(word)?.strip_prefix('.');
         let words = self.outer.iter().copied().chain([self.word]);

@@ -1,4 +1,4 @@
-//! The types property values have in Rust, on the Lua stack and in storage.
+//! Property values in Rust, on the Lua stack and in storage.
 
 use crate::scene::{Data, Key, ValueType};
 use crate::script::binding::args::{Args, Bytes, FromScript, Table};

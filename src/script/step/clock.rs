@@ -24,13 +24,13 @@ impl SimulationState {
         self as i64 & 0x10 != 0
     }
 
-    /// What `sim.getSimulationStopping` tells.
+    /// The result of `sim.getSimulationStopping`.
     pub fn is_stopping(self) -> bool {
         matches!(self, Self::Stopped | Self::AboutToStop | Self::LastBeforeStop)
     }
 }
 
-/// Time, state and what was requested. Anybody may read it; only the host moves it.
+/// Time, state and pending requests. Readable by all; only the host changes it.
 pub(crate) struct Clock {
     state: Cell<SimulationState>,
     /// Seconds since the start, by repeated addition of the step.
@@ -149,7 +149,7 @@ impl Clock {
         self.steps.set(self.steps.get() + 1);
     }
 
-    /// Real time goes on from `wall` scaled seconds, whatever time has passed while stopped or paused.
+    /// Real time continues from `wall` scaled seconds, ignoring the time while stopped or paused.
     pub(in crate::script) fn restart_real_time(&self, wall: f64) {
         self.real_time_origin.set(wall - self.time.get());
     }

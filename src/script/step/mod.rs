@@ -151,7 +151,7 @@ impl Sim {
         self.log_status("Simulation started.");
     }
 
-    /// Real time goes on from now, whatever time has passed while stopped or paused.
+    /// Real time continues from now, ignoring the time while stopped or paused.
     fn restart_real_time(&self) {
         let wall = self.clock.wall_seconds() * self.scene.borrow().settings().real_time_factor;
         self.clock.restart_real_time(wall);

@@ -1,4 +1,4 @@
-//! The wall clock, for the few functions whose job it is: `sim.getSystemTime`, real-time mode, the time of events, waiting.
+//! The wall clock, for the few functions that need it: `sim.getSystemTime`, real-time mode, event times, waiting.
 
 /// Now.
 #[allow(clippy::disallowed_methods, reason = "reading the wall clock is this function's job")]
@@ -16,7 +16,7 @@ pub(crate) fn unix_seconds() -> f64 {
     unix_time().as_secs_f64()
 }
 
-/// Now, as it stands in logs: `2026-01-31 12:00:00`, UTC.
+/// Now, in the format of logs: `2026-01-31 12:00:00`, UTC.
 pub(crate) fn utc_date_and_time() -> String {
     date_and_time(unix_time().as_secs())
 }

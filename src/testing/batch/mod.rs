@@ -1,4 +1,4 @@
-//! Batches: one scene, many runs with other seeds and parameters, a row of results for each.
+//! Batches: runs of a scene with different seeds and parameters, one row of results each.
 //!
 //! A parameter is a named parameter of the simulator (`sim.getNamedStringParam`), and so is a result: one whose name begins with `result.`
 //! when the run ends. `store` keeps the rows in a folder, from which an interrupted batch goes on.

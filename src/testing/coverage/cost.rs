@@ -1,4 +1,4 @@
-//! What counting costs on this machine.
+//! Measured overhead of coverage on this machine.
 #![allow(clippy::disallowed_methods, reason = "what something costs is told by the wall clock")]
 
 use std::time::{Duration, Instant};

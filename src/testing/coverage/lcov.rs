@@ -1,4 +1,4 @@
-//! The report in the format of LCOV, as genhtml and the services of CI read it.
+//! The LCOV report, for genhtml and coverage services.
 
 use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write;

@@ -1,4 +1,4 @@
-//! Line coverage: what the tests ran of the scripts and files they test.
+//! Line coverage of the scripts and files under test.
 //!
 //! Counts of all tests are summed here, so that it does not matter which test ran where. A text is reported under the name of the file that
 //! has it; a script that is inside of a scene file under that of a copy, which is written beside the report.

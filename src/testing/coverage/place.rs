@@ -1,4 +1,4 @@
-//! Which file a counted text is shown as.
+//! The file under which a covered text is reported.
 
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};

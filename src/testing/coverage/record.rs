@@ -1,4 +1,4 @@
-//! What the lines of one text did.
+//! Counts of the lines of one text.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Which test a golden file belongs to.
+//! Ownership of golden files by tests.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! How far two traces are apart.
+//! Comparison of two traces.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! The golden file: a table of text.
+//! The golden file: a text table.
 //!
 //! A first line names the format, a second one the columns; then comes a line for each sample, all separated by tabs.
 

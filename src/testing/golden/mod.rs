@@ -1,4 +1,4 @@
-//! Golden traces: what a test recorded, against what was recorded when all was well.
+//! Golden traces: a recording compared with an earlier one.
 
 mod claims;
 mod compare;

@@ -1,4 +1,4 @@
-//! Pictures of traces: what was expected and what came.
+//! Plots of expected and actual traces.
 
 use std::error::Error;
 use std::sync::Once;

@@ -1,4 +1,4 @@
-//! What several reports have in common.
+//! Shared parts of reports.
 
 use crate::script::test_bench::ConsoleLine;
 use crate::testing::{Outcome, Status, Summary};

@@ -1,4 +1,4 @@
-//! Lines: their length, their ends, dots at their beginning.
+//! Lines: length, line ends, leading dots.
 
 /// Breaks text into lines of at most `length` bytes. `left` is what still fits the current line.
 pub(crate) fn wrap_text(text: &[u8], length: i64, mut left: i64, out: &mut Vec<u8>) -> i64 {

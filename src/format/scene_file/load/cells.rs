@@ -1,4 +1,4 @@
-//! Voxels and points, out of the trees of cells they are saved in (section 7.1 of the format).
+//! Voxels and points, from the cell trees in files (spec: scene-files 7.4).
 
 use crate::format::ttt::Counted;
 use crate::format::ttt::chunks as file;

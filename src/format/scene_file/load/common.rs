@@ -1,4 +1,4 @@
-//! What all objects have.
+//! The common part of objects (spec: scene-files 6).
 
 use super::{Context, custom_data, path};
 use crate::format::ttt::chunks::{Common, UserParams};

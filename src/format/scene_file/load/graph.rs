@@ -1,4 +1,4 @@
-//! Graphs with what they recorded (sections 7.4 of the format).
+//! Graphs with their recorded data (spec: scene-files 7.4).
 
 use std::collections::VecDeque;
 

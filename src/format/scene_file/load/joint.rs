@@ -1,4 +1,4 @@
-//! Joints, force sensors and dummies (sections 7.2 and 7.4 of the format).
+//! Joints, force sensors and dummies (spec: scene-files 7.2, scene-files 7.4).
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,4 +1,4 @@
-//! Materials: what a surface is like to each physics engine (section 8 of the format).
+//! Materials: surface parameters of each physics engine (spec: scene-files 8).
 
 use super::Context;
 use crate::format::ttt::EngineBlock;
@@ -60,7 +60,7 @@ fn bullet_of_old(material: &mut Material, [restitution, friction, linear, angula
     material.load_engine(BULLET, &[restitution, friction, friction, linear, angular, margins[0], margins[1]], &[]);
 }
 
-/// Materials that stand in the node itself, up to 3.0.1.
+/// Materials stored in the node itself, up to 3.0.1.
 fn oldest(root: &MeshNode) -> Material {
     let mut material = Material::default();
     if let Some(bullet) = root.bul_v16 {

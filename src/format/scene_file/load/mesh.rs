@@ -1,4 +1,4 @@
-//! Triangles out of the arrays that the meshes of a file share.
+//! Triangles from the arrays shared by the meshes of a file.
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -78,7 +78,7 @@ impl<'a> Meshes<'a> {
     }
 }
 
-/// The array of a pool at that place, or the one that stands in the mesh itself.
+/// The array of a pool at that index, or the one stored in the mesh itself.
 fn find<'a, T>(pool: Option<&'a [T]>, at: Option<i32>, own: Option<&'a T>) -> Option<&'a T> {
     let shared = at.and_then(|at| pool?.get(usize::try_from(at).ok()?));
     shared.or(own)

@@ -1,4 +1,4 @@
-//! Out of a file into the scene: objects with new handles, then who belongs to whom (section 10 of the format).
+//! Loads a file into a scene: objects with new handles, then references between them (spec: scene-files 10).
 
 pub(super) mod cells;
 mod common;

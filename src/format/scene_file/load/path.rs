@@ -1,4 +1,4 @@
-//! Paths of the kind that was replaced in 4.2: they become the modern form, a dummy with the points as custom data.
+//! Paths from before 4.2: converted to the modern form, a dummy with the points as custom data.
 
 use crate::format::ttt::chunks::{Path, PathPoint};
 use crate::scene::{CustomData, Data, Edit, Pose};

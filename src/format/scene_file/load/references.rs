@@ -1,4 +1,4 @@
-//! Who refers to whom, by handles of the file: links, masters, entities, targets, collections.
+//! References by file handle: links, masters, entities, targets, collections.
 
 use std::collections::BTreeMap;
 

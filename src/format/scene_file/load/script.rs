@@ -1,4 +1,4 @@
-//! Scripts: their text, language and place (section 7.3 of the format).
+//! Scripts: text, language and owner (spec: scene-files 7.3).
 
 use std::collections::BTreeMap;
 
@@ -29,7 +29,7 @@ const PARENT_IS_PROXY: u8 = 0x4;
 const OBJECT_PRIORITY: u16 = 40400;
 const NORMAL_PRIORITY: i64 = 1;
 
-/// What stands for the image filters of 3.x: programs since 4.1 write a script for them.
+/// Replacements of the image filters of 3.x: a script since 4.1.
 const FILTERS: &str = "function sysCall_vision(inData)
     error('the image filters of V-REP 3 are not implemented in Swanilda')
 end
@@ -38,7 +38,7 @@ end
 /// The filters that take the sensor's image and hand it on: alone they change nothing, and no script is written for them.
 const PASS_ON: [i32; 2] = [1, 4];
 
-/// The script that takes the place of the image filters of a vision sensor.
+/// The script that replaces the image filters of a vision sensor.
 pub(super) fn filters(object: &FileObject, handle: Handle) -> Option<LoadedScript> {
     let Class::VisionSensor(sensor) = &object.class else { return None };
     let filters = &sensor.filter.as_ref()?.filters;

@@ -1,4 +1,4 @@
-//! Sensors, cameras, lights, and colours (sections 7.1 and 7.4 of the format).
+//! Sensors, cameras, lights, and colours (spec: scene-files 7.1, scene-files 7.4).
 
 use super::Context;
 use crate::format::ttt::Counted;
@@ -14,7 +14,7 @@ const OPAQUE: u8 = 0x4;
 /// How much brighter colours of sensors and the like were meant before serialization 17.
 const BRIGHTER: f32 = 1.5;
 
-/// The colour of a chunk; what it does not tell is as in `default`.
+/// The colour of a chunk; missing parts are those of `default`.
 pub(super) fn colour(chunk: &file::Colour, default: Colour, brighter: bool) -> Colour {
     let mut colour = default;
     if let Some(values) = chunk.values {
@@ -43,7 +43,7 @@ pub(super) fn groups<const N: usize, const M: usize>(values: [f32; N]) -> [[f32;
     std::array::from_fn(|i| [values[3 * i], values[3 * i + 1], values[3 * i + 2]])
 }
 
-/// Ambient and diffuse light were told apart before 3.1.4.
+/// Ambient and diffuse light were separate before 3.1.4.
 fn joined(ambient: [f32; 3], diffuse: [f32; 3]) -> [f32; 3] {
     let mean = diffuse.iter().sum::<f32>() / 3.0;
     let sum = ambient.map(|c| (c + mean / 2.0) / 0.85);

@@ -1,4 +1,4 @@
-//! Settings of a scene: simulation, physics, surroundings (section 9 of the format).
+//! Settings of a scene: simulation, physics, environment (spec: scene-files 9).
 
 use super::custom_data;
 use super::material::load_all;

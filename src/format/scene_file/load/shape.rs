@@ -1,4 +1,4 @@
-//! Shapes: geometry in its two layouts, mass, material, appearance (section 7.1 of the format).
+//! Shapes: geometry in its two layouts, mass, material, appearance (spec: scene-files 7.1).
 
 use std::rc::Rc;
 

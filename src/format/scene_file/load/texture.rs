@@ -1,4 +1,4 @@
-//! Images, and how they lie on meshes (section 7.1 of the format).
+//! Textures and their mapping on meshes (spec: scene-files 7.1).
 
 use std::collections::BTreeMap;
 
@@ -56,7 +56,7 @@ pub(super) fn mapping(chunk: &MappingChunk) -> Option<TextureMapping> {
     })
 }
 
-/// Gives the meshes of an object the images as the scene knows them. Those that are gone are taken away.
+/// Assigns the scene's images to the meshes of an object. Missing ones are removed.
 pub(super) fn connect(scene: &mut Scene, handle: Handle, textures: &TextureMap, map: &HandleMap) -> SceneResult<()> {
     let known = |source: TextureSource| match source {
         TextureSource::Texture(id) => textures.get(&id).copied().map(TextureSource::Texture),

@@ -1,4 +1,4 @@
-//! Makes the text of old scripts run: what CoppeliaSim rewrites when it loads a file of an older version (section 7.3 of the format).
+//! Updates the text of old scripts as CoppeliaSim does when it loads older files (spec: scene-files 7.3).
 //!
 //! All of it works on the text, not on Lua: comments and strings are rewritten alike, as in the original. Line numbers stay, save
 //! where functions are put in front.
@@ -57,7 +57,7 @@ pub fn with_compat(code: Vec<u8>) -> Vec<u8> {
     lua(code, &Origin::unknown())
 }
 
-/// The text as the present version understands it. A text that needs nothing comes back as it is.
+/// The text converted to the present version. A text without old code is returned unchanged.
 pub(crate) fn lua(code: Vec<u8>, origin: &Origin) -> Vec<u8> {
     // Names are ASCII; whatever encoding a comment has, its bytes come back as they were.
     let text: String = code.iter().copied().map(char::from).collect();

@@ -1,4 +1,4 @@
-//! Names scripts were written with, and what they are called since.
+//! Renamed functions and constants.
 //!
 //! Two tables: names from before the namespaces, as V-REP had them, and names that changed in later versions.
 

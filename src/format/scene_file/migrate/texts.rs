@@ -1,4 +1,4 @@
-//! Small replacements: dialogs, colours, a script's own object, the question whether the simulation ends, scripts without calls.
+//! Small text replacements: dialogs, colours, a script's own object, the stop condition, scripts without callbacks.
 
 /// The functions in front of scripts from before 3.1.4. `sim.setShapeColor` knows the mark.
 const COLOURS: &str = "function colorCorrectionFunction(shape) return '@backCompatibility1:'..shape end ";
@@ -25,7 +25,7 @@ pub(super) fn colours(text: &str) -> String {
     out
 }
 
-/// How long the first argument is, with what stands in brackets in it.
+/// Length of the first argument, including nested brackets.
 pub(super) fn end_of_argument(text: &str) -> usize {
     let mut depth = 0;
     let end = text.find(|c| {
@@ -39,7 +39,7 @@ pub(super) fn end_of_argument(text: &str) -> usize {
     end.unwrap_or(text.len())
 }
 
-/// The function that told the object of a script became another with 4.2.
+/// The function that returned the object of a script was replaced in 4.2.
 pub(super) fn own_object(text: &str) -> String {
     text.replace("sim.getObjectAssociatedWithScript(sim.handle_self)", "sim.getObjectHandle(sim.handle_self)")
 }

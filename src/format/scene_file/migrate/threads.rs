@@ -1,4 +1,4 @@
-//! Scripts that ran in a thread of their own become coroutines, resumed once per step.
+//! Converts threaded scripts to coroutines that are resumed once per step.
 
 use super::Thread;
 

@@ -1,4 +1,4 @@
-//! Voxels and points as the trees of cells they are saved in: version 2 of the tree, which programs read since 4.5.1.
+//! Voxels and points as cell trees: version 2, readable since 4.5.1.
 
 use super::sensors::bits;
 use crate::format::ttt::chunks as file;

@@ -1,4 +1,4 @@
-//! Colours, in the present model and in that of before 3.1.4, which current programs write as well.
+//! Colours, in the present model and in that before 3.1.4, which current versions write as well.
 
 use crate::format::ttt::chunks::Colour as Chunk;
 use crate::scene::appearance::colour::Colour;

@@ -1,4 +1,4 @@
-//! What all objects have.
+//! The common part of objects.
 
 use super::{Context, custom_data};
 use crate::format::ttt::chunks::{Common, UserParams};

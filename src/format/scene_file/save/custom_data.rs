@@ -1,4 +1,4 @@
-//! Custom data as bytes: the inverse of what loading makes of them.
+//! Custom data as bytes: the inverse of loading.
 
 use crate::format::ttt::Text;
 use crate::format::ttt::chunks::CustomData as Chunk;

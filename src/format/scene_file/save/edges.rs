@@ -1,4 +1,4 @@
-//! Which edges of a mesh are drawn: those between faces that meet at an angle, and those of one face only.
+//! Visible edges of a mesh: boundary edges, and edges between faces at an angle.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! Graphs with what they recorded: always in double precision.
+//! Graphs with their recorded data: always in double precision.
 
 use super::Context;
 use super::sensors::bits;

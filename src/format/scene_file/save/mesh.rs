@@ -1,4 +1,4 @@
-//! The arrays that meshes share: equal ones stand in the file once.
+//! The arrays shared by meshes: equal ones are written once.
 
 use std::collections::HashMap;
 use std::rc::Rc;

@@ -1,4 +1,4 @@
-//! Out of a scene into a file that CoppeliaSim reads (serialization 25): the inverse of `load`.
+//! Saves a scene as a file that CoppeliaSim reads (serialization 25): the inverse of `load`.
 //!
 //! Written is what the scene holds. Chunks that only programs before 4.5 look at are left out, apart from the geometry frames that
 //! early revisions of 4.5.1 still use.

@@ -1,4 +1,4 @@
-//! Scripts: those in the tree, those attached to objects, the main script.
+//! Scripts: script objects, attached scripts, the main script.
 
 use crate::format::scene_file::LoadedScript;
 use crate::format::ttt::chunks::{Colour, Script as Chunk, ScriptObject as ObjectChunk};

@@ -1,4 +1,4 @@
-//! What belongs to the scene as a whole: simulation, physics, surroundings, the page of the window, collections.
+//! Scene-level data: simulation, physics, environment, the page of the window, collections.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! Images, and how they lie on meshes.
+//! Textures and their mapping on meshes.
 
 use super::Context;
 use crate::format::ttt::Rest;

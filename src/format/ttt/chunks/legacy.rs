@@ -1,4 +1,4 @@
-//! What later programs no longer have.
+//! Chunks of features that later versions removed.
 
 use super::{Colour, TextureMapping, Volume};
 use crate::format::ttt::stream::streams;

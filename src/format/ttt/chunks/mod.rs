@@ -1,6 +1,6 @@
-//! The chunks of a file as types, one struct per stream of the format's appendix A.
+//! The chunks of a file as types, one struct per chunk stream (spec: scene-files 4).
 //!
-//! A field is `None` where its chunk is missing: what that means is the business of whoever puts a scene together. Numbers after
+//! A field is `None` where its chunk is missing: its meaning is defined by the loader of the scene. Numbers after
 //! `bit` count from the least significant one.
 
 mod cloud;

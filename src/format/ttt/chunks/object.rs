@@ -1,4 +1,4 @@
-//! What all scene objects have.
+//! The common part of scene objects.
 
 use crate::format::ttt::stream::streams;
 use crate::format::ttt::value::{Counted, OriginalReference, Rest, RotationFirst, Text};

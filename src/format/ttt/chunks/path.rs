@@ -1,4 +1,4 @@
-//! Paths of the kind that was replaced in 4.2.
+//! Paths from before 4.2.
 
 use super::Colour;
 use crate::format::ttt::stream::streams;

@@ -1,4 +1,4 @@
-//! What belongs to a scene or model as a whole.
+//! Scene-level and model-level chunks.
 
 use super::Colour;
 use crate::format::ttt::stream::streams;

@@ -128,7 +128,7 @@ streams! {
         edges: Vec<Rest<u8>> = b"Ved",
     }
 
-    /// How a texture lies on a mesh.
+    /// Texture mapping on a mesh.
     TextureMapping until b"EOO" {
         /// Bit0 interpolate, bit1 decal, bit2 repeat U, bit3 repeat V.
         old_flags: Option<u8> = b"Bst",

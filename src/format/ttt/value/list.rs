@@ -1,4 +1,4 @@
-//! Lists: behind their number, or until their chunk ends.
+//! Lists: with a count, or until the end of their chunk.
 
 use super::{Plain, Value};
 use crate::format::ttt::error::FileResult;

@@ -73,7 +73,7 @@ impl Value for Indices {
     }
 }
 
-/// Differences in one to four bytes: the high bits of the first byte tell how many follow.
+/// Differences in one to four bytes: the high bits of the first byte are the number of further bytes.
 fn unpack_indices(input: &mut Reader<'_>) -> FileResult<Vec<i32>> {
     const MIDDLE: [i32; 4] = [31, 8191, 2_097_151, 536_870_911];
     let count = input.count(1)?;

@@ -1,4 +1,4 @@
-//! What stands in chunks: numbers, texts, lists, poses. Lengths are metres, angles radians, numbers little endian.
+//! Values in chunks: numbers, strings, lists, poses. Metres, radians, little endian (spec: scene-files 1).
 
 mod list;
 mod mesh;

@@ -7,7 +7,7 @@ use crate::format::ttt::node::{Node, NodeResult};
 use crate::format::ttt::read::{Reader, Real};
 use crate::format::ttt::write::Writer;
 
-/// What one physics engine needs to know of a thing, in the order of its tables (appendix C of the format).
+/// Parameters of one physics engine, in the order of its tables (spec: scene-files 8).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct EngineBlock {
     pub reals: Vec<f64>,

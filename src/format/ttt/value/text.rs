@@ -1,4 +1,4 @@
-//! Texts behind their length, and the texts of scripts, which files hide a little.
+//! Strings with their length, and the obfuscated text of scripts.
 
 use super::Value;
 use crate::format::ttt::error::FileResult;

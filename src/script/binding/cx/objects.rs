@@ -1,4 +1,4 @@
-//! Objects that come and go, of which scripts are notified.
+//! Creation and removal of objects, with the notifications of scripts.
 
 use std::collections::BTreeMap;
 

@@ -17,7 +17,7 @@ impl Cx<'_> {
         self.sim.log(level, text);
     }
 
-    /// How many errors scripts have raised that nobody caught.
+    /// Number of uncaught script errors.
     pub(crate) fn errors(&self) -> u64 {
         self.sim.log.errors()
     }

@@ -1,4 +1,4 @@
-//! What modules hold of the world outside: sockets, ports, tubes, semaphores.
+//! External resources of modules: sockets, ports, tubes, semaphores.
 
 use std::cell::{Ref, RefMut};
 use std::rc::Rc;

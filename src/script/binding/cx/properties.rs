@@ -1,4 +1,4 @@
-//! Properties of the application, the scene, objects and scripts, and what else scripts keep with the application.
+//! Properties of the application, the scene, objects and scripts, and persistent data.
 
 use std::cell::{Ref, RefMut};
 

@@ -60,7 +60,7 @@ impl Cx<'_> {
         self.sim.deliver_to(group, call, args)
     }
 
-    /// Ends a script and starts it anew at once where 4.10 does.
+    /// Resets a script and, where 4.10 does, initialises it at once.
     pub(crate) fn init_script(&mut self, script: &Rc<Script>) {
         self.sim.init_script(script);
     }

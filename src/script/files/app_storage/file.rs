@@ -94,7 +94,7 @@ fn take_turn(lock: &File, longest: Duration) -> std::io::Result<()> {
     }
 }
 
-/// The new file is complete and on disk before it takes the name of the old one.
+/// The new file is complete and on disk before it replaces the old one.
 fn replace(folder: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let mut file = tempfile::NamedTempFile::new_in(folder)?;
     file.write_all(bytes)?;

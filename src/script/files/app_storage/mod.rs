@@ -1,4 +1,4 @@
-//! Data that scripts keep beyond the life of the program: `sim.handle_appstorage`, custom data of `sim.handle_app`, persistent data.
+//! Persistent data of scripts: `sim.handle_appstorage`, custom data of `sim.handle_app`, persistent data.
 //!
 //! All of it lies in one file, which is neither read nor written before a script uses it. Changes are visible at once and reach the file
 //! at the end of the loop iteration: what was changed here goes into what the file holds by then, so that simulators side by side lose nothing.
