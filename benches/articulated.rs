@@ -37,7 +37,7 @@ struct Chain {
 }
 
 /// What a run came to: largest error of a driven joint at the end, largest gap of a joint, largest change of the energy by what can
-/// fall, time of a sub-step in the fastest pass (the others tell what else the machine was doing).
+/// fall, time of a sub-step in the fastest iteration (the others tell what else the machine was doing).
 struct Outcome {
     error: f64,
     gap: f64,

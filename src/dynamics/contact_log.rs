@@ -18,7 +18,7 @@ use crate::scene::Handle;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Contact {
     /// Index of the sub-step, from 0.
-    pub pass: u32,
+    pub sub_step: u32,
     pub shapes: [Handle; 2],
     /// Metres.
     pub point: [f64; 3],
@@ -44,12 +44,12 @@ impl Contact {
 #[derive(Default)]
 pub(super) struct ContactLog {
     awake: Batch,
-    passes: Vec<SubStep>,
+    sub_steps: Vec<SubStepContacts>,
     resting: Resting,
 }
 
 /// One sub-step: its contacts of bodies that are awake, and those of sleepers.
-struct SubStep {
+struct SubStepContacts {
     /// In `awake`.
     touches: Range<usize>,
     resting: Rc<Batch>,
@@ -102,7 +102,7 @@ impl ContactLog {
     pub(super) fn clear(&mut self) {
         self.awake.touches.clear();
         self.awake.points.clear();
-        self.passes.clear();
+        self.sub_steps.clear();
     }
 
     /// Bodies came or went.
@@ -111,7 +111,7 @@ impl ContactLog {
     }
 
     /// Adds the contacts of the sub-step of `step` seconds the engine has just made.
-    pub(super) fn add_pass(&mut self, world: &World, step: f64) {
+    pub(super) fn add_sub_step(&mut self, world: &World, step: f64) {
         self.resting.follow(world, step);
         let first = self.awake.touches.len();
         self.awake.step = step;
@@ -119,14 +119,14 @@ impl ContactLog {
             self.awake.add_pairs(world, |pair| self.resting.shapes(pair, true));
         }
         let touches = first..self.awake.touches.len();
-        self.passes.push(SubStep { touches, resting: self.resting.contacts.clone() });
+        self.sub_steps.push(SubStepContacts { touches, resting: self.resting.contacts.clone() });
     }
 
     /// All contacts, in the order of the sub-steps.
     pub(super) fn iter(&self) -> impl Iterator<Item = Contact> {
-        (0..).zip(&self.passes).flat_map(move |(number, pass)| {
-            let awake = self.awake.contacts(pass.touches.clone(), number);
-            awake.chain(pass.resting.contacts(0..pass.resting.touches.len(), number))
+        (0..).zip(&self.sub_steps).flat_map(move |(number, sub_step)| {
+            let awake = self.awake.contacts(sub_step.touches.clone(), number);
+            awake.chain(sub_step.resting.contacts(0..sub_step.resting.touches.len(), number))
         })
     }
 }
@@ -210,13 +210,13 @@ impl Batch {
         }
     }
 
-    fn contacts(&self, touches: Range<usize>, pass: u32) -> impl Iterator<Item = Contact> {
-        self.touches[touches].iter().flat_map(move |touch| self.contacts_of(touch, pass))
+    fn contacts(&self, touches: Range<usize>, sub_step: u32) -> impl Iterator<Item = Contact> {
+        self.touches[touches].iter().flat_map(move |touch| self.contacts_of(touch, sub_step))
     }
 
-    fn contacts_of(&self, touch: &Touch, pass: u32) -> impl Iterator<Item = Contact> {
+    fn contacts_of(&self, touch: &Touch, sub_step: u32) -> impl Iterator<Item = Contact> {
         self.points[touch.points.clone()].iter().map(move |point| Contact {
-            pass,
+            sub_step,
             shapes: touch.shapes,
             point: from_vector(point.place),
             force: from_vector((touch.normal * point.impulse + touch.friction) / self.step),

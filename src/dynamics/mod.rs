@@ -1,8 +1,8 @@
 //! The scene's physics, by rapier. The only place that names rapier.
 //!
 //! A dynamics call is divided into sub-steps. [`Dynamics::begin`] brings the engine up to date with the scene, then every sub-step is
-//! [`prepare`](Dynamics::prepare) (static bodies and motors), [`start_pass`](Dynamics::start_pass), [`Pass::run`] and
-//! [`finish_pass`](Dynamics::finish_pass) (the scene learns the result), and [`end`](Dynamics::end) closes the call. Between these the
+//! [`prepare`](Dynamics::prepare) (static bodies and motors), [`start_sub_step`](Dynamics::start_sub_step), [`SubStep::run`] and
+//! [`finish_sub_step`](Dynamics::finish_sub_step) (the scene learns the result), and [`end`](Dynamics::end) closes the call. Between these the
 //! scene and the dynamics are nobody's, so that scripts may run; while a sub-step runs the scene may be read and written, and the engine
 //! takes notice at the next call.
 //!
@@ -83,7 +83,7 @@ pub(crate) struct Dynamics {
 /// A dynamics call in progress.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Call {
-    pub passes: u32,
+    pub sub_steps: u32,
     /// Length of a sub-step, seconds.
     pub step: f64,
 }
@@ -116,7 +116,7 @@ pub(crate) struct Attention {
 }
 
 /// A sub-step ready to run. Holds the engine, so that a script called meanwhile finds no physics to disturb.
-pub(crate) struct Pass {
+pub(crate) struct SubStep {
     world: World,
     gravity: Vector,
     step: f64,
@@ -124,7 +124,7 @@ pub(crate) struct Pass {
     seen: bool,
 }
 
-impl Pass {
+impl SubStep {
     /// Advances the engine; `judge` decides about pairs of shapes that may touch.
     pub(crate) fn run(&mut self, judge: Option<Judge<'_>>) {
         self.world.step(self.step, self.gravity, &contacts::Rules::new(judge));
@@ -147,7 +147,7 @@ impl Dynamics {
         if !settings.enabled || !time_step.is_finite() || time_step <= 0.0 {
             return Ok(None);
         }
-        let passes = settings.passes(time_step);
+        let sub_steps = settings.sub_steps(time_step);
         self.follow(scene);
         if !self.bodies.iter().any(|(_, body)| body.build.dynamic) {
             return Ok(None);
@@ -158,7 +158,7 @@ impl Dynamics {
             link.efforts.clear();
             link.loads.clear();
         }
-        self.call = Some(Call { passes, step: time_step / f64::from(passes) });
+        self.call = Some(Call { sub_steps, step: time_step / f64::from(sub_steps) });
         Ok(self.call)
     }
 
@@ -194,10 +194,10 @@ impl Dynamics {
         scene.journal().changed_since(self.known.get_or_insert(Mark::new(PLANNED)))
     }
 
-    /// Before sub-step number `pass` (from 1): moves the static bodies and sets the motors. Returns the joints only a script can drive.
-    pub(crate) fn prepare(&mut self, scene: &Scene, pass: u32) -> Vec<JointRequest> {
+    /// Before sub-step number `sub_step` (from 1): moves the static bodies and sets the motors. Returns the joints only a script can drive.
+    pub(crate) fn prepare(&mut self, scene: &Scene, sub_step: u32) -> Vec<JointRequest> {
         let (Some(world), Some(call)) = (self.world.as_mut(), self.call) else { return Vec::new() };
-        self.bodies.sweep(f64::from(pass) / f64::from(call.passes), world);
+        self.bodies.sweep(f64::from(sub_step) / f64::from(call.sub_steps), world);
         let motions: BTreeMap<Handle, Motion> =
             self.links.iter().map(|(&handle, link)| (handle, link.motion)).collect();
         let engine = scene.settings().dynamics.engine[0];
@@ -226,8 +226,8 @@ impl Dynamics {
         }
     }
 
-    /// Readies sub-step number `pass` (from 1): forces of scripts, gravity.
-    pub(crate) fn start_pass(&mut self, scene: &Scene, pass: u32, attention: Attention) -> Option<Pass> {
+    /// Readies sub-step number `sub_step` (from 1): forces of scripts, gravity.
+    pub(crate) fn start_sub_step(&mut self, scene: &Scene, sub_step: u32, attention: Attention) -> Option<SubStep> {
         let mut world = self.world.take()?;
         let call = self.call?;
         if self.asks != attention.judged {
@@ -236,7 +236,7 @@ impl Dynamics {
             let_sleep(&self.bodies, &self.links, &mut world, self.asks);
         }
         // Nobody else can have changed the forces since the first sub-step.
-        if pass == 1 || attention.watched {
+        if sub_step == 1 || attention.watched {
             self.bodies.apply_forces(&mut world, scene);
         }
         for link in self.links.values_mut() {
@@ -247,8 +247,8 @@ impl Dynamics {
         if !self.mechanisms.is_empty() {
             self.mechanisms.apply_forces(&mut self.links, &mut world, gravity, call.step);
         }
-        let seen = attention.watched || pass == call.passes;
-        Some(Pass { world, gravity: convert::to_vector(gravity), step: call.step, seen })
+        let seen = attention.watched || sub_step == call.sub_steps;
+        Some(SubStep { world, gravity: convert::to_vector(gravity), step: call.step, seen })
     }
 
     /// Whether the engine holds this shape, joint or force sensor.

@@ -10,7 +10,7 @@ use super::links::{Link, Links};
 use super::load::Load;
 use super::plan::LinkKind;
 use super::world::World;
-use super::{Dynamics, Pass};
+use super::{Dynamics, SubStep};
 use crate::scene::joint::Joint;
 use crate::scene::pose::placement::is_place;
 use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
@@ -37,8 +37,8 @@ pub(crate) struct Trigger {
 impl Dynamics {
     /// Takes the engine back after a sub-step and tells the scene: joints and force sensors first, then shapes, base-to-tip. Shapes only
     /// when somebody can see them before the next sub-step, or when the engine gave up on one.
-    pub(crate) fn finish_pass(&mut self, pass: Pass, scene: &mut Scene) {
-        let Pass { mut world, step, seen, .. } = pass;
+    pub(crate) fn finish_sub_step(&mut self, sub_step: SubStep, scene: &mut Scene) {
+        let SubStep { mut world, step, seen, .. } = sub_step;
         if self.call.is_none() {
             return;
         }
@@ -50,7 +50,7 @@ impl Dynamics {
             }
         }
         let stopped = if seen || world.has_given_up() { self.report_bodies(&world, scene) } else { Vec::new() };
-        self.contacts.add_pass(&world, step);
+        self.contacts.add_sub_step(&world, step);
         self.world = Some(world);
         self.stop_bodies(&stopped, scene);
     }

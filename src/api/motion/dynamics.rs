@@ -122,7 +122,7 @@ fn get_contact_info(cx: &Cx, dynamic_pass: i64, object_handle: i64, index: i64) 
     let dynamics = cx.dynamics();
     let contacts = dynamics.iter().flat_map(|dynamics| dynamics.contacts());
     let found = contacts
-        .filter(|contact| dynamic_pass == special::ALL || dynamic_pass == i64::from(contact.pass))
+        .filter(|contact| dynamic_pass == special::ALL || dynamic_pass == i64::from(contact.sub_step))
         .filter(|contact| shape.is_none_or(|shape| contact.shapes.contains(&shape)))
         .nth(usize::try_from(index).unwrap_or(usize::MAX));
     let Some(contact) = found else { return Ok(Default::default()) };

@@ -60,12 +60,12 @@ impl Bench {
     pub(super) fn run(&mut self, steps: usize) {
         for _ in 0..steps {
             let Some(call) = self.dynamics.begin(&mut self.scene, STEP).expect("not busy") else { continue };
-            for number in 1..=call.passes {
+            for number in 1..=call.sub_steps {
                 self.dynamics.prepare(&self.scene, number);
-                let mut pass =
-                    self.dynamics.start_pass(&self.scene, number, Attention::default()).expect("there is a world");
-                pass.run(None);
-                self.dynamics.finish_pass(pass, &mut self.scene);
+                let mut sub_step =
+                    self.dynamics.start_sub_step(&self.scene, number, Attention::default()).expect("there is a world");
+                sub_step.run(None);
+                self.dynamics.finish_sub_step(sub_step, &mut self.scene);
             }
             self.dynamics.end(&mut self.scene);
         }

@@ -49,16 +49,16 @@ impl Sleeper {
 
     /// What the floor does to the box in each sub-step of the last call, newtons.
     fn support(&self) -> Vec<f64> {
-        let mut passes = vec![0.0; 10];
+        let mut sub_steps = vec![0.0; 10];
         for contact in self.bench.dynamics.contacts() {
-            passes[contact.pass as usize] += contact.seen_from(self.body).force[2];
+            sub_steps[contact.sub_step as usize] += contact.seen_from(self.body).force[2];
         }
-        passes
+        sub_steps
     }
 }
 
 #[test]
-fn a_sleeper_does_not_move_and_its_support_is_read_in_every_pass() {
+fn a_sleeper_does_not_move_and_its_support_is_read_in_every_sub_step() {
     let mut sleeper = Sleeper::new();
     let (place, support) = (sleeper.bench.scene.world_pose(sleeper.body), sleeper.support());
     assert!(support.iter().all(|force| (force - 9.81).abs() < 1e-3), "{support:?}");
@@ -220,12 +220,13 @@ fn scripts_that_judge_contacts_wake() {
         Verdict::PassThrough
     };
     let call = sleeper.bench.dynamics.begin(&mut sleeper.bench.scene, STEP).expect("not busy").expect("a body");
-    for number in 1..=call.passes {
+    for number in 1..=call.sub_steps {
         sleeper.bench.dynamics.prepare(&sleeper.bench.scene, number);
         let attention = Attention { judged: true, watched: true };
-        let mut pass = sleeper.bench.dynamics.start_pass(&sleeper.bench.scene, number, attention).expect("a world");
-        pass.run(Some(&judge));
-        sleeper.bench.dynamics.finish_pass(pass, &mut sleeper.bench.scene);
+        let mut sub_step =
+            sleeper.bench.dynamics.start_sub_step(&sleeper.bench.scene, number, attention).expect("a world");
+        sub_step.run(Some(&judge));
+        sleeper.bench.dynamics.finish_sub_step(sub_step, &mut sleeper.bench.scene);
     }
     sleeper.bench.dynamics.end(&mut sleeper.bench.scene);
     assert!(asked.get() >= 10 && sleeper.at()[2] < 0.045, "{} {}", asked.get(), sleeper.at()[2]);

@@ -77,7 +77,7 @@ impl Default for DynamicsSettings {
 
 impl DynamicsSettings {
     /// How many sub-steps make up a simulation step of `time_step` seconds.
-    pub fn passes(&self, time_step: f64) -> u32 {
+    pub fn sub_steps(&self, time_step: f64) -> u32 {
         (time_step / self.step + 0.5).floor().max(1.0) as u32
     }
 }

@@ -25,7 +25,7 @@ impl Sim {
         let begun = self.with_dynamics(|dynamics, scene| dynamics.begin(scene, time_step));
         let busy = || ApiError::Other("the dynamics are already being handled.".into());
         let Some(call) = begun.ok_or_else(busy)?.map_err(|_| busy())? else { return Ok(0) };
-        for number in 1..=call.passes {
+        for number in 1..=call.sub_steps {
             self.dynamics_callback(call, number, false);
             let driven = self.drive_joints(call, number);
             self.run_sub_step(number, driven);
@@ -33,7 +33,7 @@ impl Sim {
         }
         let triggers = self.with_dynamics(Dynamics::end).unwrap_or_default();
         triggers.iter().for_each(|trigger| self.force_sensor_triggered(trigger));
-        Ok(i64::from(call.passes))
+        Ok(i64::from(call.sub_steps))
     }
 
     fn with_dynamics<R>(&self, work: impl FnOnce(&mut Dynamics, &mut Scene) -> R) -> Option<R> {
@@ -47,7 +47,7 @@ impl Sim {
         }
         let data = Data::map([
             ("passCnt", i64::from(number).into()),
-            ("totalPasses", i64::from(call.passes).into()),
+            ("totalPasses", i64::from(call.sub_steps).into()),
             ("dt", call.step.into()),
             ("dynStepSize", call.step.into()),
             ("afterStep", after_step.into()),
@@ -92,12 +92,12 @@ impl Sim {
     fn run_sub_step(self: &Rc<Self>, number: u32, driven: bool) {
         let judged = self.scripts.may_respond_to_any(&CONTACT);
         let attention = Attention { judged, watched: driven || judged || self.scripts.may_respond_to_any(&DYN) };
-        let started = self.with_dynamics(|dynamics, scene| dynamics.start_pass(scene, number, attention));
+        let started = self.with_dynamics(|dynamics, scene| dynamics.start_sub_step(scene, number, attention));
         let Some(mut sub_step) = started.flatten() else { return };
         let filter = |first: Handle, second: Handle| self.contact_callback(first, second);
         sub_step.run(judged.then_some(&filter));
         let stopped = self.with_dynamics(|dynamics, scene| {
-            dynamics.finish_pass(sub_step, scene);
+            dynamics.finish_sub_step(sub_step, scene);
             dynamics.take_frozen()
         });
         stopped.into_iter().flatten().for_each(|shape| self.warn_of_infinite_motion(shape));
@@ -147,7 +147,7 @@ fn joint_data(joint: &Joint, request: &JointRequest, call: Call, number: u32) ->
         ("lowLimit", limits.0.into()),
         ("highLimit", limits.1.into()),
         ("passCnt", i64::from(number).into()),
-        ("totalPasses", i64::from(call.passes).into()),
+        ("totalPasses", i64::from(call.sub_steps).into()),
         ("pos", request.position.into()),
         ("currentPos", request.position.into()),
         ("vel", request.velocity.into()),
