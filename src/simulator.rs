@@ -312,6 +312,16 @@ impl Simulator {
     pub fn call(&mut self, script: &ScriptRef, function: &str, args: &[Data]) -> Result<Vec<Data>, Error> {
         Ok(self.sim.call_function(&script.0, function, args)?)
     }
+
+    /// Calls a function that scripts have, such as `sim.getObjectPosition` or `simConvex.qhull`, as the sandbox would. Native functions are called
+    /// without Lua. Those that deal with Lua's functions or coroutines are an error.
+    ///
+    /// # Errors
+    /// What the function says, in the words scripts get; or when there is no such function.
+    pub fn call_api(&mut self, name: &str, args: &[Data]) -> Result<Vec<Data>, Error> {
+        let sandbox = self.the(ScriptType::Sandbox);
+        Ok(self.sim.call_api(&sandbox.0, name, args)?)
+    }
 }
 
 impl Drop for Simulator {

@@ -53,6 +53,11 @@ pub fn functions() -> Vec<Function> {
     all.into_values().filter(|function| !function.is_inner()).collect()
 }
 
+/// The names of the native functions of `sim`, and of the global ones.
+pub fn native_functions() -> impl Iterator<Item = &'static str> {
+    api::SIM.public_functions().map(|function| function.name)
+}
+
 /// Every generated file: path below the repository and text.
 pub fn files() -> Vec<(String, String)> {
     let functions = functions();

@@ -55,6 +55,9 @@ pub enum ApiError {
     /// A name of the reference that is not built here, or not yet.
     #[error("not implemented in Swanilda: {0}")]
     NotImplemented(String),
+    /// The call did not come from Lua, and the function deals with functions, objects or coroutines of Lua.
+    #[error("can only be called by a Lua script.")]
+    NeedsLua,
     #[error("interrupted: the program is to end.")]
     Interrupted,
     /// As Lua's own functions refuse argument `position`.

@@ -24,6 +24,8 @@ pub use binding::args::{
 pub use binding::cx::Cx;
 pub use binding::module::Module;
 pub use binding::returns::{IntoScript, Nil, Results};
+#[doc(hidden)]
+pub use binding::source::{Sink, Source, Values};
 pub use binding::{ApiFn, Param};
 pub use calls::callback::SysCall;
 pub use calls::threads::LevelChange;
@@ -37,10 +39,10 @@ pub use test_bench::TestBench;
 
 pub(crate) use binding::by_handle::ByHandle;
 pub(crate) use binding::data::{push_buffer, read_buffer};
-pub(crate) use binding::functions;
 pub(crate) use binding::module::pairs;
 pub(crate) use binding::registry::{Member, Registry};
 pub(crate) use binding::states::States;
+pub(crate) use binding::{functions, needs_lua};
 pub(crate) use calls::handler::Handler;
 pub(crate) use calls::threads::{auto_level, changed_level, set_auto_level, use_up_slice};
 pub(crate) use events::Filters;

@@ -22,7 +22,8 @@ pub fn api(name: TokenStream, item: TokenStream) -> TokenStream {
 fn expand(name: &LitStr, function: &mut ItemFn) -> syn::Result<Tokens> {
     let ident = function.sig.ident.clone();
     let doc = doc_text(function);
-    let results = result_types(output_type(function)?);
+    let output = output_type(function)?;
+    let results = result_types(output.clone());
     let mut inputs = function.sig.inputs.iter_mut();
     let mutates = takes_mut_context(inputs.next())?;
     let parameters = inputs.map(parameter).collect::<syn::Result<Vec<_>>>()?;
@@ -38,7 +39,7 @@ fn expand(name: &LitStr, function: &mut ItemFn) -> syn::Result<Tokens> {
         #[allow(non_snake_case, unused_imports, clippy::wildcard_imports)]
         pub(crate) mod #ident {
             use super::*;
-            use crate::script::{ApiFn, Args, FromScript, IntoScript, Param};
+            use crate::script::{ApiFn, Args, FromScript, IntoScript, Param, Source, Values};
 
             pub(crate) const API: ApiFn = ApiFn {
                 name: #name,
@@ -47,16 +48,27 @@ fn expand(name: &LitStr, function: &mut ItemFn) -> syn::Result<Tokens> {
                 returns: &[#(<#results as IntoScript>::TYPE),*],
                 mutates: #mutates,
                 call,
+                call_data,
             };
 
             fn call(args: &mut Args<'_>) -> Result<std::ffi::c_int> {
+                let out = perform(args)?;
+                args.finish(out)
+            }
+
+            fn call_data<'a>(args: &mut Args<'a, Values<'a>>) -> Result<Vec<crate::scene::Data>> {
+                let mut results = Vec::new();
+                perform(args)?.into_script(&mut results)?;
+                Ok(results)
+            }
+
+            #[inline(always)]
+            fn perform<'a, S: Source<'a>>(args: &mut Args<'a, S>) -> Result<#output> {
                 args.require(#required)?;
                 #(#decoders)*
                 let mut cx = args.context()?;
                 let _ = &mut cx;
-                let out = super::#ident(#context, #(#locals),*)?;
-                drop(cx);
-                args.finish(out)
+                super::#ident(#context, #(#locals),*)
             }
         }
     })

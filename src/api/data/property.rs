@@ -4,6 +4,7 @@ use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Args, Cx, FromScript, Result, functions};
 use crate::scene::Data;
+use crate::script::Source;
 use crate::script::{
     Bytes, Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Table, Text, Vector2, Vector3,
 };
@@ -56,7 +57,7 @@ struct Options {
 impl FromScript for Options {
     const TYPE: &'static str = "map";
 
-    fn from_script(args: &Args<'_>) -> Result<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         let table = Table::from_script(args)?.0;
         let prefix = match table.field("prefix") {
             Some(Data::Text(prefix)) => String::from_utf8_lossy(prefix).into_owned(),

@@ -8,6 +8,7 @@ use geometry::pose::{self, Pose};
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::{Frame, Handle, Placement, SceneError, flag, special};
+use crate::script::Source;
 use crate::script::{Args, FromScript, ObjectRef};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -270,7 +271,7 @@ where
 {
     const TYPE: &'static str = <[f64; N] as FromScript>::TYPE;
 
-    fn from_script(args: &Args<'_>) -> Result<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         match <[f64; N]>::from_script(args) {
             Ok(numbers) => Ok(Self::Numbers(numbers)),
             Err(ApiError::NotA { expected: "table", .. } | ApiError::ArgumentType) => {
@@ -317,7 +318,7 @@ macro_rules! frames {
         impl FromScript for $name {
             const TYPE: &'static str = "int";
 
-            fn from_script($args: &Args<'_>) -> Result<Self> {
+            fn from_script<'a, S: Source<'a>>($args: &Args<'a, S>) -> Result<Self> {
                 $decode.map($name)
             }
         }

@@ -6,6 +6,7 @@ use geometry::pose::{self, Pose, PoseError};
 
 use super::pose::checked;
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::script::Source;
 use crate::script::{Args, FromScript};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -260,7 +261,7 @@ impl Transform {
 impl FromScript for Transform {
     const TYPE: &'static str = "float[]";
 
-    fn from_script(args: &Args<'_>) -> Result<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         match <[f64; 12]>::from_script(args) {
             Ok(matrix) => Ok(Self::Matrix(checked(matrix)?)),
             Err(ApiError::TableSize) => Ok(Self::Pose(checked(<[f64; 7]>::from_script(args)?)?)),

@@ -4,6 +4,7 @@ use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::Data;
+use crate::script::Source;
 use crate::script::log::verbosity;
 use crate::script::{
     Args, FromScript, Hook, LevelChange, Rest, Results, ScriptFunction, SysCall, auto_level, changed_level,
@@ -78,13 +79,17 @@ fn toggle(entries: &mut Vec<Hook>, name: String) -> i64 {
 
 /// Lets go of the functions of hooks that are gone.
 fn release(cx: &Cx, entries: Vec<Hook>) {
-    entries.into_iter().filter_map(|hook| hook.function).for_each(|function| cx.stack().release_function(function));
+    let Some(runtime) = cx.script().current_runtime() else { return };
+    entries
+        .into_iter()
+        .filter_map(|hook| hook.function)
+        .for_each(|function| runtime.stack().release_function(function));
 }
 
 impl FromScript for LevelChange {
     const TYPE: &'static str = "any";
 
-    fn from_script(args: &Args<'_>) -> Result<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         Ok(match Data::from_script(args)? {
             Data::Int(level) => Self::Set(level),
             Data::Float(level) => Self::Set(level as i64),
@@ -100,8 +105,8 @@ impl FromScript for LevelChange {
 /// @return level the previous level
 #[api("setAutoYield")]
 fn set_auto_yield(cx: &mut Cx, allow: LevelChange) -> Result<i64> {
-    let level = auto_level(cx.stack());
-    set_auto_level(cx.stack(), changed_level(level, allow));
+    let level = auto_level(cx.stack()?);
+    set_auto_level(cx.stack()?, changed_level(level, allow));
     Ok(level)
 }
 
@@ -110,7 +115,7 @@ fn set_auto_yield(cx: &mut Cx, allow: LevelChange) -> Result<i64> {
 /// @return allowed, level
 #[api("getAutoYield")]
 fn get_auto_yield(cx: &Cx) -> Result<(bool, i64)> {
-    let level = auto_level(cx.stack());
+    let level = auto_level(cx.stack()?);
     Ok((level == 0, level))
 }
 

@@ -7,6 +7,7 @@ use api_macro::api;
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::tree::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, SceneError, special};
+use crate::script::Source;
 use crate::script::{Bytes, Number, Rest, Results, Script};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -123,7 +124,7 @@ struct Callee(Data);
 impl crate::api::FromScript for Callee {
     const TYPE: &'static str = "string/int";
 
-    fn from_script(args: &crate::api::Args<'_>) -> Result<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &crate::api::Args<'a, S>) -> Result<Self> {
         Data::from_script(args).map(Self)
     }
 }

@@ -49,7 +49,7 @@ fn get_random(cx: &mut Cx, #[default(None)] seed: Option<Number>) -> Result<f64>
 fn get_stack_traceback(cx: &Cx, #[default(special::SELF)] script_handle: Number) -> Result<String> {
     let script = script_of(cx, script_handle.0)?;
     if script.id == cx.script().id {
-        return Ok(cx.stack().traceback());
+        return Ok(cx.stack()?.traceback());
     }
     let runtime = script.current_runtime().ok_or(ApiError::ScriptNotInitialized)?;
     Ok(runtime.stack().traceback())

@@ -10,6 +10,7 @@ mod low_level;
 use std::ffi::c_int;
 
 use super::{ApiFn, Args, Module, Param, Result};
+use crate::script::needs_lua;
 
 /// How deep arrays, maps and tags may be nested.
 const MAX_DEPTH: usize = 500;
@@ -19,7 +20,7 @@ const TOO_DEEP: &str = "nested too deeply (500 levels): does a table contain its
 type Call = fn(&mut Args<'_>) -> Result<c_int>;
 
 const fn row(name: &'static str, doc: &'static str, params: &'static [Param], call: Call) -> ApiFn {
-    ApiFn { name, doc, params, returns: &[], mutates: false, call }
+    ApiFn { name, doc, params, returns: &[], mutates: false, call, call_data: needs_lua }
 }
 
 const fn required(name: &'static str, ty: &'static str) -> Param {

@@ -4,7 +4,7 @@
 
 use std::ffi::c_int;
 
-use crate::script::{ApiError, ApiFn, ApiResult, Args, FileLock, Param};
+use crate::script::{ApiError, ApiFn, ApiResult, Args, FileLock, Param, needs_lua};
 
 pub(super) const FUNCTIONS: &[ApiFn] = &[ApiFn {
     name: "lfs.lock",
@@ -13,6 +13,7 @@ pub(super) const FUNCTIONS: &[ApiFn] = &[ApiFn {
     returns: &[],
     mutates: false,
     call: lock,
+    call_data: needs_lua,
 }];
 
 fn lock(args: &mut Args<'_>) -> ApiResult<c_int> {

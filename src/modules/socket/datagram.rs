@@ -8,6 +8,7 @@ use super::{AnySocket, Shared, class, prefix, stop};
 use crate::api::{ApiFn, Args, Cx, FromScript, Result, functions};
 use crate::io::socket::{Datagram, Failure, Family, Place, Wait, numeric};
 use crate::scene::Data;
+use crate::script::Source;
 use crate::script::{ApiError, LuaNumber, LuaString, Results, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![bind, connect, receive, receivefrom, send, sendto];
@@ -25,7 +26,7 @@ type Connected = DatagramArg<2>;
 impl<const STATE: u8> FromScript for DatagramArg<STATE> {
     const TYPE: &'static str = "any";
 
-    fn from_script(args: &Args<'_>) -> Result<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         let refused = |class| {
             let wanted = ["any", "unconnected", "connected"][usize::from(STATE)];
             args.refused(&format!("{}{{{wanted}}} expected", prefix(class)))

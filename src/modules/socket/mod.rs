@@ -22,6 +22,7 @@ use api_macro::api;
 use super::{ApiFn, Args, Cx, FromScript, Module, Result, functions};
 use crate::io::socket::{self, Datagram, Failure, Family, Role, Socket, Stream, descriptor};
 use crate::scene::Data;
+use crate::script::Source;
 use crate::script::step::wall_clock;
 use crate::script::{ApiError, ByHandle, LuaNumber, Object, Results};
 
@@ -53,6 +54,7 @@ const OBJECTS: &[ApiFn] = &[ApiFn {
     returns: &[],
     mutates: false,
     call: define,
+    call_data: crate::script::needs_lua,
 }];
 
 /// Classes of objects; the Lua files know them by these numbers.
@@ -161,7 +163,7 @@ fn role_name(role: Role) -> &'static str {
 impl FromScript for AnySocket {
     const TYPE: &'static str = "any";
 
-    fn from_script(args: &Args<'_>) -> Result<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         let sockets = args.context()?.script_state::<Sockets>();
         args.object().and_then(|object| sockets.any(object)).ok_or_else(|| args.refused("socket expected"))
     }

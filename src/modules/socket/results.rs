@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::Sockets;
 use crate::api::{IntoScript, Result};
 use crate::io::socket::Failure;
-use crate::script::{ApiError, Object, Stack};
+use crate::script::{ApiError, Object, Sink};
 
 /// The most memory that is kept for the next call.
 const KEPT: usize = 1 << 16;
@@ -16,23 +16,22 @@ pub(super) struct Outcome<T>(pub std::result::Result<T, Failure>);
 impl<T: IntoScript> IntoScript for Outcome<T> {
     const TYPE: &'static str = T::TYPE;
 
-    #[allow(private_interfaces)]
-    fn into_script(self, stack: Stack<'_>) -> Result<()> {
+    fn into_script<S: Sink>(self, sink: &mut S) -> Result<()> {
         match self.0 {
-            Ok(value) => value.into_script(stack),
-            Err(failure) => push_failure(stack, failure),
+            Ok(value) => value.into_script(sink),
+            Err(failure) => push_failure(sink, failure),
         }
     }
 }
 
 /// Nil and the text; what must not be overlooked becomes an error.
-pub(super) fn push_failure(stack: Stack<'_>, failure: Failure) -> Result<()> {
+pub(super) fn push_failure(sink: &mut impl Sink, failure: Failure) -> Result<()> {
     match failure {
         Failure::Interrupted => Err(ApiError::Interrupted),
         Failure::TooLong => Err(ApiError::Other(failure.text().to_owned())),
         _ => {
-            stack.push_nil();
-            stack.push_bytes(failure.text().as_bytes());
+            sink.nil();
+            sink.text(failure.text().as_bytes());
             Ok(())
         }
     }
@@ -49,10 +48,8 @@ pub(super) struct Created(pub Object);
 impl IntoScript for Created {
     const TYPE: &'static str = "any";
 
-    #[allow(private_interfaces)]
-    fn into_script(self, stack: Stack<'_>) -> Result<()> {
-        stack.push_object(self.0);
-        Ok(())
+    fn into_script<S: Sink>(self, sink: &mut S) -> Result<()> {
+        sink.object(self.0)
     }
 }
 
@@ -66,9 +63,8 @@ pub(super) struct Received {
 impl IntoScript for Received {
     const TYPE: &'static str = "string";
 
-    #[allow(private_interfaces)]
-    fn into_script(self, stack: Stack<'_>) -> Result<()> {
-        push_progress(stack, self.result, || stack.push_bytes(&self.data))?;
+    fn into_script<S: Sink>(self, sink: &mut S) -> Result<()> {
+        push_progress(sink, self.result, |sink| sink.text(&self.data))?;
         if self.data.capacity() <= KEPT {
             self.sockets.space.set(self.data);
         }
@@ -85,23 +81,26 @@ pub(super) struct Sent {
 impl IntoScript for Sent {
     const TYPE: &'static str = "float";
 
-    #[allow(private_interfaces)]
-    fn into_script(self, stack: Stack<'_>) -> Result<()> {
-        push_progress(stack, self.result, || stack.push_number(self.last))
+    fn into_script<S: Sink>(self, sink: &mut S) -> Result<()> {
+        push_progress(sink, self.result, |sink| sink.number(self.last))
     }
 }
 
 /// How far it came, nil, nil; or nil, why, and how far it came.
-fn push_progress(stack: Stack<'_>, result: std::result::Result<(), Failure>, push: impl FnOnce()) -> Result<()> {
+fn push_progress<S: Sink>(
+    sink: &mut S,
+    result: std::result::Result<(), Failure>,
+    push: impl FnOnce(&mut S),
+) -> Result<()> {
     match result {
         Ok(()) => {
-            push();
-            stack.push_nil();
-            stack.push_nil();
+            push(sink);
+            sink.nil();
+            sink.nil();
         }
         Err(failure) => {
-            push_failure(stack, failure)?;
-            push();
+            push_failure(sink, failure)?;
+            push(sink);
         }
     }
     Ok(())

@@ -10,6 +10,7 @@ use super::results::{Created, Outcome, Received, Sent, done};
 use super::{AnySocket, Shared, Sockets, class, prefix, role_name, stop};
 use crate::api::{ApiFn, Args, Cx, FromScript, Result, functions};
 use crate::io::socket::{Pattern, Role, Stream, Wait};
+use crate::script::Source;
 use crate::script::{ApiError, LuaNumber, LuaString};
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
@@ -46,7 +47,7 @@ fn role(number: u8) -> Option<Role> {
 impl<const ROLE: u8> FromScript for StreamArg<ROLE> {
     const TYPE: &'static str = "any";
 
-    fn from_script(args: &Args<'_>) -> Result<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         let wanted = role(ROLE);
         let refused = |class| {
             let wanted = wanted.map_or("any", role_name);
@@ -99,7 +100,7 @@ fn accept(cx: &Cx, object: Server) -> Result<Outcome<Created>> {
 impl FromScript for Pattern {
     const TYPE: &'static str = "string";
 
-    fn from_script(args: &Args<'_>) -> Result<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
         match args.bytes() {
             Some([b'*', b'l', ..]) => Ok(Self::Line),
             Some([b'*', b'a', ..]) => Ok(Self::All),

@@ -5,17 +5,19 @@
 //! longer than needed.
 
 use std::ffi::c_int;
+use std::marker::PhantomData;
 
 use super::cx::Cx;
-use super::data::{read_data, read_function};
 use super::returns::IntoScript;
+use super::source::Source;
 use crate::scene::{Data, Frame, Handle};
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lua::{FunctionRef, Object, Stack, Type};
 
 /// Reads the arguments of one call in order.
-pub struct Args<'a> {
-    stack: Stack<'a>,
+pub struct Args<'a, S: Source<'a> = Stack<'a>> {
+    source: S,
+    of: PhantomData<&'a ()>,
     position: c_int,
     count: c_int,
 }
@@ -29,17 +31,27 @@ pub trait FromScript: Sized {
     ///
     /// # Errors
     /// When the argument is of another type.
-    fn from_script(args: &Args<'_>) -> ApiResult<Self>;
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self>;
 }
 
 impl<'a> Args<'a> {
-    pub(crate) fn new(stack: Stack<'a>) -> Self {
-        Self { stack, position: 0, count: stack.top() }
-    }
-
     /// The stack the arguments are on, for functions that decode them themselves.
     pub(crate) fn stack(&self) -> Stack<'a> {
-        self.stack
+        self.source
+    }
+
+    /// Encodes the results.
+    pub fn finish<T: IntoScript>(&self, results: T) -> ApiResult<c_int> {
+        let mut stack = self.source;
+        let before = stack.top();
+        results.into_script(&mut stack)?;
+        Ok(stack.top() - before)
+    }
+}
+
+impl<'a, S: Source<'a>> Args<'a, S> {
+    pub(crate) fn new(source: S) -> Self {
+        Self { source, of: PhantomData, position: 0, count: source.count() }
     }
 
     /// Number of the argument being decoded, from 1.
@@ -48,12 +60,12 @@ impl<'a> Args<'a> {
     }
 
     pub(crate) fn kind(&self) -> Type {
-        if self.position > self.count { Type::None } else { self.stack.kind(self.position) }
+        if self.position > self.count { Type::None } else { self.source.kind(self.position) }
     }
 
     /// The bytes of the argument, when it is a string.
     pub(crate) fn bytes(&self) -> Option<&'a [u8]> {
-        if self.position > self.count { None } else { self.stack.bytes(self.position) }
+        if self.position > self.count { None } else { self.source.bytes(self.position) }
     }
 
     /// Fails unless there are `count` arguments.
@@ -78,14 +90,7 @@ impl<'a> Args<'a> {
 
     /// The context of the call.
     pub fn context(&self) -> ApiResult<Cx<'a>> {
-        Cx::of(self.stack)
-    }
-
-    /// Encodes the results.
-    pub fn finish<T: IntoScript>(&self, results: T) -> ApiResult<c_int> {
-        let before = self.stack.top();
-        results.into_script(self.stack)?;
-        Ok(self.stack.top() - before)
+        self.source.context()
     }
 
     /// The error for an argument of the wrong type.
@@ -121,7 +126,7 @@ impl<'a> Args<'a> {
 
     /// The argument, when it is an object of a library.
     pub(crate) fn object(&self) -> Option<Object> {
-        if self.position > self.count { None } else { self.stack.object(self.position) }
+        if self.position > self.count { None } else { self.source.object(self.position) }
     }
 
     /// The argument, when it is a number or a string of one.
@@ -130,12 +135,12 @@ impl<'a> Args<'a> {
     }
 
     pub(crate) fn is_table(&self, position: c_int) -> bool {
-        position <= self.count && self.stack.kind(position) == Type::Table
+        position <= self.count && self.source.kind(position) == Type::Table
     }
 
     fn number(&self) -> ApiResult<f64> {
         match self.kind() {
-            Type::Number | Type::String => self.stack.number(self.position).ok_or_else(|| self.not_a("number")),
+            Type::Number | Type::String => self.source.number(self.position).ok_or_else(|| self.not_a("number")),
             _ => Err(self.not_a("number")),
         }
     }
@@ -147,7 +152,7 @@ impl<'a> Args<'a> {
 
     /// The integers of a list; other numbers lose their fraction.
     fn integers(&self) -> ApiResult<Vec<i64>> {
-        let element = |i| match self.stack.integer_at(self.position, i) {
+        let element = |i| match self.source.integer_at(self.position, i) {
             Some(integer) => Ok(integer),
             None => self.element(i).map(|number| number as i64),
         };
@@ -155,11 +160,11 @@ impl<'a> Args<'a> {
     }
 
     fn element(&self, i: i64) -> ApiResult<f64> {
-        self.stack.number_at(self.position, i).ok_or(ApiError::NotA { position: -1, expected: "number" })
+        self.source.number_at(self.position, i).ok_or(ApiError::NotA { position: -1, expected: "number" })
     }
 
     fn table_len(&self) -> ApiResult<usize> {
-        if self.kind() == Type::Table { Ok(self.stack.raw_len(self.position)) } else { Err(self.not_a("table")) }
+        if self.kind() == Type::Table { Ok(self.source.list_len(self.position)) } else { Err(self.not_a("table")) }
     }
 
     fn fill(&self, out: &mut [f64]) -> ApiResult<()> {
@@ -177,51 +182,51 @@ macro_rules! scalars {
     ($($ty:ty, $name:literal, |$args:ident| $decode:expr;)*) => { $(
         impl FromScript for $ty {
             const TYPE: &'static str = $name;
-            fn from_script($args: &Args<'_>) -> ApiResult<Self> { $decode }
+            fn from_script<'a, S: Source<'a>>($args: &Args<'a, S>) -> ApiResult<Self> { $decode }
         }
     )* };
 }
 
 scalars! {
     f64, "float", |args| args.number();
-    i64, "int", |args| args.stack.integer(args.position).ok_or_else(|| args.not_a("integer"));
-    bool, "bool", |args| Ok(args.stack.truthy(args.position));
+    i64, "int", |args| args.source.integer(args.position).ok_or_else(|| args.not_a("integer"));
+    bool, "bool", |args| Ok(args.source.truthy(args.position));
     String, "string", |args| Ok(String::from_utf8_lossy(&Bytes::from_script(args)?.0).into_owned());
     Number, "int", |args| Ok(Number(args.number()? as i64));
-    Bytes, "buffer", |args| match read_data(args.stack, args.position) {
+    Bytes, "buffer", |args| match args.source.data(args.position) {
         Data::Text(bytes) | Data::Buffer(bytes) => Ok(Bytes(bytes)),
-        Data::Int(_) | Data::Float(_) => Ok(Bytes(args.stack.text(args.position).unwrap_or_default())),
+        Data::Int(_) | Data::Float(_) => Ok(Bytes(args.source.text(args.position).unwrap_or_default())),
         _ => Err(args.not_a("string/buffer")),
     };
-    Data, "any", |args| Ok(read_data(args.stack, args.position));
+    Data, "any", |args| Ok(args.source.data(args.position));
     Frame, "int", |args| Ok(Frame::from_raw(args.number()? as i64)?);
     Handle, "int", |args| Handle::from_raw(args.number()? as i64).ok_or(crate::scene::SceneError::NoSuchObject.into());
     ObjectRef, "int", |args| ObjectRef::from_raw(args.number()? as i64);
     Handles, "int[]", |args| args.integers().map(Handles);
     Vec<f64>, "float[]", |args| args.numbers();
     Vec<i64>, "int[]", |args| args.integers();
-    Table, "table", |args| match read_data(args.stack, args.position) {
+    Table, "table", |args| match args.source.data(args.position) {
         data @ (Data::Array(_) | Data::Map(_)) => Ok(Table(data)),
         _ => Err(args.not_a("table")),
     };
     ScriptFunction, "function", |args| match args.kind() {
-        Type::Function => Ok(ScriptFunction::Value(read_function(args.stack, args.position))),
+        Type::Function => Ok(ScriptFunction::Value(args.source.function(args.position)?)),
         _ => Ok(ScriptFunction::Name(String::from_script(args)?)),
     };
     LuaString, "string", |args| match args.kind() {
         Type::String => Ok(LuaString(args.bytes().unwrap_or_default().to_vec())),
-        Type::Number => Ok(LuaString(args.stack.text(args.position).unwrap_or_default())),
+        Type::Number => Ok(LuaString(args.source.text(args.position).unwrap_or_default())),
         _ => Err(args.expected("string")),
     };
     LuaNumber, "float", |args| args.number().map(LuaNumber).map_err(|_| args.expected("number"));
-    Rest, "any...", |args| Ok(Rest((args.position..=args.count).map(|at| read_data(args.stack, at)).collect()));
+    Rest, "any...", |args| Ok(Rest((args.position..=args.count).map(|at| args.source.data(at)).collect()));
 }
 
 macro_rules! number_arrays {
     ($($n:literal $name:literal),*) => { $(
         impl FromScript for [f64; $n] {
             const TYPE: &'static str = $name;
-            fn from_script(args: &Args<'_>) -> ApiResult<Self> {
+            fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
                 let mut out = [0.0; $n];
                 args.fill(&mut out)?;
                 Ok(out)
@@ -234,7 +239,7 @@ number_arrays!(2 "float[2]", 3 "float[3]", 4 "float[4]", 6 "float[6]", 7 "float[
 impl<T: FromScript> FromScript for Option<T> {
     const TYPE: &'static str = T::TYPE;
 
-    fn from_script(args: &Args<'_>) -> ApiResult<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
         match args.kind() {
             Type::None | Type::Nil => Ok(None),
             _ => T::from_script(args).map(Some),

@@ -7,15 +7,18 @@ pub(in crate::script) mod data;
 pub(in crate::script) mod module;
 pub(in crate::script) mod registry;
 pub(in crate::script) mod returns;
+pub(in crate::script) mod source;
 pub(in crate::script) mod states;
 
 use std::ffi::{c_int, c_void};
 
-use super::error::ApiResult;
+use super::error::{ApiError, ApiResult};
 use super::lifecycle::env::Env;
 use super::lua::{Stack, push_callback};
+use crate::scene::Data;
 use args::Args;
 use registry::FunctionId;
+use source::Values;
 
 /// One parameter of a scriptable function.
 #[derive(Debug)]
@@ -34,7 +37,10 @@ pub struct ApiFn {
     /// Types of the results.
     pub returns: &'static [&'static str],
     pub mutates: bool,
+    /// The call from a Lua stack.
     pub(crate) call: fn(&mut Args<'_>) -> ApiResult<c_int>,
+    /// The call with plain values.
+    pub(crate) call_data: for<'a> fn(&mut Args<'a, Values<'a>>) -> ApiResult<Vec<Data>>,
 }
 
 /// The table of contents of a file of scriptable functions.
@@ -42,6 +48,11 @@ macro_rules! functions {
     ($($name:ident),* $(,)?) => { &[$($name::API),*] };
 }
 pub(crate) use functions;
+
+/// The second door of functions that read Lua's stack themselves.
+pub(crate) fn needs_lua<'a>(_: &mut Args<'a, Values<'a>>) -> ApiResult<Vec<Data>> {
+    Err(ApiError::NeedsLua)
+}
 
 /// Pushes a native function.
 pub(crate) fn push_function(stack: Stack<'_>, id: FunctionId) {

@@ -164,6 +164,18 @@ impl Registry {
         self.by_name.get(name).map(|&place| &self.namespaces[place])
     }
 
+    /// What `module.member`, or the name of a global function, stands for.
+    pub(crate) fn find(&self, name: &str) -> Option<Member> {
+        match name.rsplit_once('.') {
+            Some((module, member)) => self.module(module)?.get(member),
+            None => self.globals.iter().find(|(global, _)| *global == name).map(|&(_, id)| Member::Native(id)),
+        }
+    }
+
+    pub(crate) fn missing_function(&self, id: MissingId) -> &Missing {
+        &self.missing[id.0]
+    }
+
     /// The function that Lua code knows by `number`; None for a number nobody was given.
     pub(crate) fn function(&self, number: usize) -> Option<&Bound> {
         self.functions.get(number)

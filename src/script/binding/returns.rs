@@ -1,10 +1,9 @@
 //! Encoding: from the results of an API function to values on a Lua stack.
 
 use super::args::{Bytes, Table};
-use super::data::{push_buffer, push_data};
+use super::source::Sink;
 use crate::scene::{Data, Handle};
 use crate::script::error::{ApiError, ApiResult};
-use crate::script::lua::{LONGEST_LIST, Stack};
 
 /// A type that scripts get back.
 pub trait IntoScript {
@@ -13,16 +12,14 @@ pub trait IntoScript {
 
     /// Pushes the value, or several, or nothing.
     #[doc(hidden)]
-    #[allow(private_interfaces)]
-    fn into_script(self, stack: Stack<'_>) -> ApiResult<()>;
+    fn into_script<S: Sink>(self, sink: &mut S) -> ApiResult<()>;
 }
 
 macro_rules! values {
-    ($($ty:ty, $name:literal, |$value:ident, $stack:ident| $push:expr;)*) => { $(
+    ($($ty:ty, $name:literal, |$value:ident, $sink:ident| $push:expr;)*) => { $(
         impl IntoScript for $ty {
             const TYPE: &'static str = $name;
-            #[allow(private_interfaces)]
-            fn into_script(self, $stack: Stack<'_>) -> ApiResult<()> {
+                    fn into_script<S: Sink>(self, $sink: &mut S) -> ApiResult<()> {
                 let $value = self;
                 $push;
                 Ok(())
@@ -32,51 +29,37 @@ macro_rules! values {
 }
 
 values! {
-    bool, "bool", |value, stack| stack.push_bool(value);
-    i64, "int", |value, stack| stack.push_int(value);
-    f64, "float", |value, stack| stack.push_number(value);
-    String, "string", |value, stack| stack.push_bytes(value.as_bytes());
-    &'static str, "string", |value, stack| stack.push_bytes(value.as_bytes());
-    Handle, "int", |value, stack| stack.push_int(value.raw());
-    Bytes, "buffer", |value, stack| push_buffer(stack, &value.0);
-    Data, "any", |value, stack| push_data(stack, &value);
-    Table, "table", |value, stack| push_data(stack, &value.0);
-    Nil, "nil", |_value, stack| stack.push_nil();
-    Vec<f64>, "float[]", |value, stack| push_list(stack, &value, |&v| stack.push_number(v))?;
-    Vec<i64>, "int[]", |value, stack| push_list(stack, &value, |&v| stack.push_int(v))?;
-    Vec<Handle>, "int[]", |value, stack| push_list(stack, &value, |v| stack.push_int(v.raw()))?;
-    Vec<String>, "string[]", |value, stack| push_list(stack, &value, |v| stack.push_bytes(v.as_bytes()))?;
+    bool, "bool", |value, sink| sink.bool(value);
+    i64, "int", |value, sink| sink.int(value);
+    f64, "float", |value, sink| sink.number(value);
+    String, "string", |value, sink| sink.text(value.as_bytes());
+    &'static str, "string", |value, sink| sink.text(value.as_bytes());
+    Handle, "int", |value, sink| sink.int(value.raw());
+    Bytes, "buffer", |value, sink| sink.buffer(&value.0);
+    Data, "any", |value, sink| sink.data(&value);
+    Table, "table", |value, sink| sink.data(&value.0);
+    Nil, "nil", |_value, sink| sink.nil();
+    Vec<f64>, "float[]", |value, sink| sink.list(&value, |sink, &v| sink.number(v))?;
+    Vec<i64>, "int[]", |value, sink| sink.list(&value, |sink, &v| sink.int(v))?;
+    Vec<Handle>, "int[]", |value, sink| sink.list(&value, |sink, v| sink.int(v.raw()))?;
+    Vec<String>, "string[]", |value, sink| sink.list(&value, |sink, v| sink.text(v.as_bytes()))?;
 }
 
 /// Nothing.
 impl IntoScript for () {
     const TYPE: &'static str = "";
 
-    #[allow(private_interfaces)]
-    fn into_script(self, _: Stack<'_>) -> ApiResult<()> {
+    fn into_script<S: Sink>(self, _: &mut S) -> ApiResult<()> {
         Ok(())
     }
-}
-
-fn push_list<T>(stack: Stack<'_>, list: &[T], push: impl Fn(&T)) -> ApiResult<()> {
-    if list.len() > LONGEST_LIST {
-        return Err(ApiError::Other("not enough memory".into()));
-    }
-    stack.new_table(list.len(), 0);
-    for (i, item) in list.iter().enumerate() {
-        push(item);
-        stack.raw_set_index(-2, i as i64 + 1);
-    }
-    Ok(())
 }
 
 macro_rules! number_arrays {
     ($($n:literal $name:literal),*) => { $(
         impl IntoScript for [f64; $n] {
             const TYPE: &'static str = $name;
-            #[allow(private_interfaces)]
-            fn into_script(self, stack: Stack<'_>) -> ApiResult<()> {
-                push_list(stack, &self, |&v| stack.push_number(v))
+                    fn into_script<S: Sink>(self, sink: &mut S) -> ApiResult<()> {
+                sink.list(&self, |sink, &v| sink.number(v))
             }
         }
     )* };
@@ -91,9 +74,8 @@ pub struct Nil;
 impl<T: IntoScript> IntoScript for Option<T> {
     const TYPE: &'static str = T::TYPE;
 
-    #[allow(private_interfaces)]
-    fn into_script(self, stack: Stack<'_>) -> ApiResult<()> {
-        self.map_or(Ok(()), |value| value.into_script(stack))
+    fn into_script<S: Sink>(self, sink: &mut S) -> ApiResult<()> {
+        self.map_or(Ok(()), |value| value.into_script(sink))
     }
 }
 
@@ -104,12 +86,11 @@ pub struct Results(pub Vec<Data>);
 impl IntoScript for Results {
     const TYPE: &'static str = "any...";
 
-    #[allow(private_interfaces)]
-    fn into_script(self, stack: Stack<'_>) -> ApiResult<()> {
-        if !stack.reserve(self.0.len() + 8) {
+    fn into_script<S: Sink>(self, sink: &mut S) -> ApiResult<()> {
+        if !sink.reserve(self.0.len() + 8) {
             return Err(ApiError::Other("too many results to return.".into()));
         }
-        self.0.iter().for_each(|value| push_data(stack, value));
+        self.0.iter().for_each(|value| sink.data(value));
         Ok(())
     }
 }
@@ -119,9 +100,8 @@ macro_rules! tuples {
         impl<$($t: IntoScript),+> IntoScript for ($($t,)+) {
             /// `#[api]` reads the types of the elements.
             const TYPE: &'static str = "any...";
-            #[allow(private_interfaces)]
-            fn into_script(self, stack: Stack<'_>) -> ApiResult<()> {
-                $(self.$i.into_script(stack)?;)+
+                    fn into_script<S: Sink>(self, sink: &mut S) -> ApiResult<()> {
+                $(self.$i.into_script(sink)?;)+
                 Ok(())
             }
         }

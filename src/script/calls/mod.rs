@@ -1,5 +1,6 @@
 //! Calls between scripts: functions by name, code strings, initialisation (spec: calls).
 
+mod api_call;
 pub(in crate::script) mod callback;
 pub(in crate::script) mod data_changes;
 pub(in crate::script) mod dispatch;

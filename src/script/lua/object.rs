@@ -15,7 +15,7 @@ const CLASSES: &CStr = c"swanilda.classes";
 /// What a userdata holds.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Object {
+pub struct Object {
     pub class: i64,
     pub id: i64,
 }

@@ -13,14 +13,14 @@ const LONGEST_STRING: usize = 1 << 29;
 
 /// The stack of one coroutine of a living state. Indices are Lua's: 1 is the bottom, -1 the top.
 #[derive(Clone, Copy)]
-pub(crate) struct Stack<'a> {
+pub struct Stack<'a> {
     raw: *mut ffi::lua_State,
     _state: PhantomData<&'a ()>,
 }
 
 /// The type of a Lua value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Type {
+pub enum Type {
     None,
     Nil,
     Boolean,

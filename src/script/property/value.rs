@@ -3,8 +3,9 @@
 use crate::scene::{Data, Key, ValueType};
 use crate::script::binding::args::{Args, Bytes, FromScript, Table};
 use crate::script::binding::returns::IntoScript;
+use crate::script::binding::source::{Sink, Source};
 use crate::script::error::{ApiError, ApiResult};
-use crate::script::lua::{Stack, Type};
+use crate::script::lua::Type;
 
 /// A Rust type that properties have.
 pub trait PropertyValue: Sized {
@@ -39,7 +40,7 @@ impl PropertyName {
 impl FromScript for PropertyName {
     const TYPE: &'static str = "string";
 
-    fn from_script(args: &Args<'_>) -> ApiResult<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
         match args.bytes() {
             Some(name) if name.len() <= Self::SHORT && std::str::from_utf8(name).is_ok() => {
                 let mut bytes = [0; Self::SHORT];
@@ -89,7 +90,7 @@ macro_rules! vectors {
         impl FromScript for $name {
             const TYPE: &'static str = <[f64; $n] as FromScript>::TYPE;
 
-            fn from_script(args: &Args<'_>) -> ApiResult<Self> {
+            fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
                 check_table(args)?;
                 FromScript::from_script(args).map(Self)
             }
@@ -98,9 +99,8 @@ macro_rules! vectors {
         impl IntoScript for $name {
             const TYPE: &'static str = <[f64; $n] as IntoScript>::TYPE;
 
-            #[allow(private_interfaces)]
-            fn into_script(self, stack: Stack<'_>) -> ApiResult<()> {
-                self.0.into_script(stack)
+                    fn into_script<S: Sink>(self, sink: &mut S) -> ApiResult<()> {
+                self.0.into_script(sink)
             }
         }
     )* };
@@ -219,14 +219,14 @@ fn array_part(table: Data) -> Data {
     if list.is_empty() { table } else { Data::Array(list) }
 }
 
-fn check_table(args: &Args<'_>) -> ApiResult<()> {
+fn check_table<'a>(args: &Args<'a, impl Source<'a>>) -> ApiResult<()> {
     if args.kind() == Type::Table { Ok(()) } else { Err(ApiError::ArgumentType) }
 }
 
 impl FromScript for Text {
     const TYPE: &'static str = "string";
 
-    fn from_script(args: &Args<'_>) -> ApiResult<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
         Bytes::from_script(args).map(|bytes| Self(bytes.0))
     }
 }
@@ -234,7 +234,7 @@ impl FromScript for Text {
 impl FromScript for Long {
     const TYPE: &'static str = "int";
 
-    fn from_script(args: &Args<'_>) -> ApiResult<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
         i64::from_script(args).map(Self)
     }
 }
@@ -242,7 +242,7 @@ impl FromScript for Long {
 impl FromScript for IntPair {
     const TYPE: &'static str = "int[2]";
 
-    fn from_script(args: &Args<'_>) -> ApiResult<Self> {
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
         check_table(args)?;
         <[f64; 2]>::from_script(args).map(|pair| Self(pair.map(|n| n as i64)))
     }
@@ -251,9 +251,8 @@ impl FromScript for IntPair {
 impl IntoScript for Text {
     const TYPE: &'static str = "string";
 
-    #[allow(private_interfaces)]
-    fn into_script(self, stack: Stack<'_>) -> ApiResult<()> {
-        stack.push_bytes(&self.0);
+    fn into_script<S: Sink>(self, sink: &mut S) -> ApiResult<()> {
+        sink.text(&self.0);
         Ok(())
     }
 }
@@ -261,18 +260,16 @@ impl IntoScript for Text {
 impl IntoScript for Long {
     const TYPE: &'static str = "int";
 
-    #[allow(private_interfaces)]
-    fn into_script(self, stack: Stack<'_>) -> ApiResult<()> {
-        self.0.into_script(stack)
+    fn into_script<S: Sink>(self, sink: &mut S) -> ApiResult<()> {
+        self.0.into_script(sink)
     }
 }
 
 impl IntoScript for IntPair {
     const TYPE: &'static str = "int[2]";
 
-    #[allow(private_interfaces)]
-    fn into_script(self, stack: Stack<'_>) -> ApiResult<()> {
-        self.0.to_vec().into_script(stack)
+    fn into_script<S: Sink>(self, sink: &mut S) -> ApiResult<()> {
+        self.0.to_vec().into_script(sink)
     }
 }
 

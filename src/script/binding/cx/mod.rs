@@ -27,13 +27,24 @@ use crate::script::sim::{Options, Sim};
 /// scene while it calls a script, because both need the context.
 pub struct Cx<'a> {
     sim: Rc<Sim>,
-    stack: Stack<'a>,
+    env: &'a Env,
+    /// None when the call does not come from Lua.
+    stack: Option<Stack<'a>>,
 }
 
 impl<'a> Cx<'a> {
     pub(crate) fn of(stack: Stack<'a>) -> ApiResult<Self> {
-        let sim = Env::of(stack).sim.upgrade().ok_or_else(|| ApiError::Other("the simulator is gone.".into()))?;
-        Ok(Self { sim, stack })
+        Self::new(Env::of(stack), Some(stack))
+    }
+
+    /// The context of a call with plain values, in the name of the script whose environment it is.
+    pub(crate) fn without_lua(env: &'a Env) -> ApiResult<Self> {
+        Self::new(env, None)
+    }
+
+    fn new(env: &'a Env, stack: Option<Stack<'a>>) -> ApiResult<Self> {
+        let sim = env.sim.upgrade().ok_or_else(|| ApiError::Other("the simulator is gone.".into()))?;
+        Ok(Self { sim, env, stack })
     }
 
     /// The script that is calling.
@@ -42,11 +53,15 @@ impl<'a> Cx<'a> {
     }
 
     pub(crate) fn env(&self) -> &'a Env {
-        Env::of(self.stack)
+        self.env
     }
 
-    pub(crate) fn stack(&self) -> Stack<'a> {
-        self.stack
+    /// The coroutine that is calling.
+    ///
+    /// # Errors
+    /// When the call does not come from Lua.
+    pub(crate) fn stack(&self) -> ApiResult<Stack<'a>> {
+        self.stack.ok_or(ApiError::NeedsLua)
     }
 
     /// How the simulator was set up.
@@ -91,12 +106,14 @@ impl<'a> Cx<'a> {
 
     /// Whether the caller is a thread that may hand over to the simulation now.
     pub(crate) fn can_yield(&self) -> bool {
-        self.env().yields.overall.get() == 0 && !self.stack.is_main_coroutine()
+        self.env().yields.overall.get() == 0 && self.stack.is_some_and(|stack| !stack.is_main_coroutine())
     }
 
     /// Ends the time slice of the calling thread, as work does that takes longer in the original.
     pub(crate) fn use_up_slice(&self) {
-        crate::script::use_up_slice(self.stack);
+        if let Some(stack) = self.stack {
+            crate::script::use_up_slice(stack);
+        }
     }
 
     pub(crate) fn scene(&self) -> Ref<'_, Scene> {

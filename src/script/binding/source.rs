@@ -1,0 +1,402 @@
+//! The two doors of an API function: its arguments come from a Lua stack and its results go there, or both are plain values.
+//!
+//! Everything is dispatched statically, so that a call from Lua pays nothing for the other door. What only Lua has (functions, objects,
+//! coroutines) is an error at that one.
+
+use std::ffi::c_int;
+
+use super::args::KeptFunction;
+use super::cx::Cx;
+use super::data::{push_buffer, push_data, read_data, read_function};
+use crate::scene::{Data, Key};
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::lifecycle::env::Env;
+use crate::script::lua::{LONGEST_LIST, Object, Stack, Type};
+
+/// Where arguments come from, by position from 1.
+#[doc(hidden)]
+pub trait Source<'a>: Copy {
+    fn count(self) -> c_int;
+    fn kind(self, position: c_int) -> Type;
+    /// The number, or that of a numeric string.
+    fn number(self, position: c_int) -> Option<f64>;
+    /// The number, when it is an integer; 2.0 and "2" are not.
+    fn integer(self, position: c_int) -> Option<i64>;
+    fn truthy(self, position: c_int) -> bool;
+    /// The bytes of a string.
+    fn bytes(self, position: c_int) -> Option<&'a [u8]>;
+    /// The bytes of a string, or a number in Lua's spelling.
+    fn text(self, position: c_int) -> Option<Vec<u8>>;
+    /// Length of a list.
+    fn list_len(self, position: c_int) -> usize;
+    fn number_at(self, position: c_int, i: i64) -> Option<f64>;
+    fn integer_at(self, position: c_int, i: i64) -> Option<i64>;
+    fn data(self, position: c_int) -> Data;
+    /// # Errors
+    /// Where there are no functions.
+    fn function(self, position: c_int) -> ApiResult<KeptFunction>;
+    fn object(self, position: c_int) -> Option<Object>;
+    /// # Errors
+    /// When the simulator is gone.
+    fn context(self) -> ApiResult<Cx<'a>>;
+}
+
+impl<'a> Source<'a> for Stack<'a> {
+    fn count(self) -> c_int {
+        self.top()
+    }
+
+    fn kind(self, position: c_int) -> Type {
+        Stack::kind(self, position)
+    }
+
+    fn number(self, position: c_int) -> Option<f64> {
+        Stack::number(self, position)
+    }
+
+    fn integer(self, position: c_int) -> Option<i64> {
+        Stack::integer(self, position)
+    }
+
+    fn truthy(self, position: c_int) -> bool {
+        Stack::truthy(self, position)
+    }
+
+    fn bytes(self, position: c_int) -> Option<&'a [u8]> {
+        Stack::bytes(self, position)
+    }
+
+    fn text(self, position: c_int) -> Option<Vec<u8>> {
+        Stack::text(self, position)
+    }
+
+    fn list_len(self, position: c_int) -> usize {
+        self.raw_len(position)
+    }
+
+    fn number_at(self, position: c_int, i: i64) -> Option<f64> {
+        Stack::number_at(self, position, i)
+    }
+
+    fn integer_at(self, position: c_int, i: i64) -> Option<i64> {
+        Stack::integer_at(self, position, i)
+    }
+
+    fn data(self, position: c_int) -> Data {
+        read_data(self, position)
+    }
+
+    fn function(self, position: c_int) -> ApiResult<KeptFunction> {
+        Ok(read_function(self, position))
+    }
+
+    fn object(self, position: c_int) -> Option<Object> {
+        Stack::object(self, position)
+    }
+
+    fn context(self) -> ApiResult<Cx<'a>> {
+        Cx::of(self)
+    }
+}
+
+/// Arguments as plain values, in the name of the script whose environment it is.
+#[doc(hidden)]
+#[derive(Clone, Copy)]
+pub struct Values<'a> {
+    values: &'a [Data],
+    env: &'a Env,
+}
+
+impl<'a> Values<'a> {
+    pub(crate) fn new(values: &'a [Data], env: &'a Env) -> Self {
+        Self { values, env }
+    }
+
+    fn get(self, position: c_int) -> Option<&'a Data> {
+        self.values.get(usize::try_from(position).ok()?.checked_sub(1)?)
+    }
+
+    /// Element `i` of a list.
+    fn element(self, position: c_int, i: i64) -> Option<&'a Data> {
+        match self.get(position)? {
+            Data::Array(items) => items.get(usize::try_from(i).ok()?.checked_sub(1)?),
+            Data::Map(entries) => entries.iter().find(|(key, _)| *key == Key::Int(i)).map(|(_, value)| value),
+            _ => None,
+        }
+    }
+}
+
+impl<'a> Source<'a> for Values<'a> {
+    fn count(self) -> c_int {
+        c_int::try_from(self.values.len()).unwrap_or(c_int::MAX)
+    }
+
+    fn kind(self, position: c_int) -> Type {
+        match self.get(position) {
+            None => Type::None,
+            Some(Data::Nil) => Type::Nil,
+            Some(Data::Bool(_)) => Type::Boolean,
+            Some(Data::Int(_) | Data::Float(_)) => Type::Number,
+            Some(Data::Text(_)) => Type::String,
+            Some(Data::Buffer(_) | Data::Array(_) | Data::Map(_)) => Type::Table,
+        }
+    }
+
+    fn number(self, position: c_int) -> Option<f64> {
+        self.get(position).and_then(number_of)
+    }
+
+    fn integer(self, position: c_int) -> Option<i64> {
+        self.get(position).and_then(integer_of)
+    }
+
+    fn truthy(self, position: c_int) -> bool {
+        self.get(position).is_some_and(Data::truthy)
+    }
+
+    fn bytes(self, position: c_int) -> Option<&'a [u8]> {
+        match self.get(position)? {
+            Data::Text(bytes) => Some(bytes),
+            _ => None,
+        }
+    }
+
+    fn text(self, position: c_int) -> Option<Vec<u8>> {
+        match self.get(position)? {
+            Data::Text(bytes) => Some(bytes.clone()),
+            Data::Int(number) => Some(number.to_string().into_bytes()),
+            Data::Float(number) => Some(float_text(*number).into_bytes()),
+            _ => None,
+        }
+    }
+
+    fn list_len(self, position: c_int) -> usize {
+        match self.get(position) {
+            Some(Data::Array(items)) => items.len(),
+            Some(Data::Map(_)) => (1..).take_while(|&i| self.element(position, i).is_some()).count(),
+            _ => 0,
+        }
+    }
+
+    fn number_at(self, position: c_int, i: i64) -> Option<f64> {
+        self.element(position, i).and_then(number_of)
+    }
+
+    fn integer_at(self, position: c_int, i: i64) -> Option<i64> {
+        self.element(position, i).and_then(integer_of)
+    }
+
+    fn data(self, position: c_int) -> Data {
+        self.get(position).cloned().unwrap_or(Data::Nil)
+    }
+
+    fn function(self, _: c_int) -> ApiResult<KeptFunction> {
+        Err(ApiError::NeedsLua)
+    }
+
+    fn object(self, _: c_int) -> Option<Object> {
+        None
+    }
+
+    fn context(self) -> ApiResult<Cx<'a>> {
+        Cx::without_lua(self.env)
+    }
+}
+
+fn number_of(data: &Data) -> Option<f64> {
+    match data {
+        Data::Int(number) => Some(*number as f64),
+        Data::Float(number) => Some(*number),
+        Data::Text(text) => numeral(text).and_then(|number| number_of(&number)),
+        _ => None,
+    }
+}
+
+/// Neither 2.0 nor "2" is one.
+fn integer_of(data: &Data) -> Option<i64> {
+    if let Data::Int(number) = data { Some(*number) } else { None }
+}
+
+/// The number a string stands for, as Lua reads it; hexadecimal ones are integers here.
+fn numeral(text: &[u8]) -> Option<Data> {
+    let text = std::str::from_utf8(text).ok()?.trim_matches([' ', '\t', '\n', '\r', '\x0b', '\x0c']);
+    let (sign, digits) = match text.strip_prefix('-') {
+        Some(rest) => (-1, rest),
+        None => (1, text.strip_prefix('+').unwrap_or(text)),
+    };
+    if let Some(hexadecimal) = digits.strip_prefix("0x").or_else(|| digits.strip_prefix("0X")) {
+        return i64::from_str_radix(hexadecimal, 16).ok().map(|number| Data::Int(sign * number));
+    }
+    if !digits.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
+        return None;
+    }
+    text.parse().map(Data::Int).or_else(|_| text.parse().map(Data::Float)).ok()
+}
+
+/// A float in Lua's spelling: 14 digits, and always recognisable as one.
+fn float_text(number: f64) -> String {
+    const DIGITS: i32 = 14;
+    if !number.is_finite() {
+        let word = if number.is_nan() { "nan" } else { "inf" };
+        return if number.is_sign_negative() { format!("-{word}") } else { word.to_owned() };
+    }
+    let scientific = format!("{number:.*e}", DIGITS as usize - 1);
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or_default();
+    let trimmed = |text: &str| match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text.to_owned(),
+    };
+    if !(-4..DIGITS).contains(&exponent) {
+        let sign = if exponent < 0 { '-' } else { '+' };
+        return format!("{}e{sign}{:02}", trimmed(mantissa), exponent.abs());
+    }
+    let plain = trimmed(&format!("{number:.*}", (DIGITS - 1 - exponent) as usize));
+    if plain.contains('.') { plain } else { plain + ".0" }
+}
+
+/// Where results go.
+#[doc(hidden)]
+pub trait Sink {
+    fn nil(&mut self);
+    fn bool(&mut self, value: bool);
+    fn int(&mut self, value: i64);
+    fn number(&mut self, value: f64);
+    fn text(&mut self, bytes: &[u8]);
+    fn buffer(&mut self, bytes: &[u8]);
+    fn data(&mut self, data: &Data);
+    /// # Errors
+    /// When the list is too long.
+    fn list<T>(&mut self, items: &[T], push: impl Fn(&mut Self, &T)) -> ApiResult<()>;
+    /// # Errors
+    /// Where there are no objects.
+    fn object(&mut self, object: Object) -> ApiResult<()>;
+    /// Room for so many values; false where there is none.
+    fn reserve(&mut self, count: usize) -> bool;
+}
+
+impl Sink for Stack<'_> {
+    fn nil(&mut self) {
+        self.push_nil();
+    }
+
+    fn bool(&mut self, value: bool) {
+        self.push_bool(value);
+    }
+
+    fn int(&mut self, value: i64) {
+        self.push_int(value);
+    }
+
+    fn number(&mut self, value: f64) {
+        self.push_number(value);
+    }
+
+    fn text(&mut self, bytes: &[u8]) {
+        self.push_bytes(bytes);
+    }
+
+    fn buffer(&mut self, bytes: &[u8]) {
+        push_buffer(*self, bytes);
+    }
+
+    fn data(&mut self, data: &Data) {
+        push_data(*self, data);
+    }
+
+    fn list<T>(&mut self, items: &[T], push: impl Fn(&mut Self, &T)) -> ApiResult<()> {
+        if items.len() > LONGEST_LIST {
+            return Err(ApiError::Other("not enough memory".into()));
+        }
+        self.new_table(items.len(), 0);
+        for (i, item) in items.iter().enumerate() {
+            push(self, item);
+            self.raw_set_index(-2, i as i64 + 1);
+        }
+        Ok(())
+    }
+
+    fn object(&mut self, object: Object) -> ApiResult<()> {
+        self.push_object(object);
+        Ok(())
+    }
+
+    fn reserve(&mut self, count: usize) -> bool {
+        Stack::reserve(*self, count)
+    }
+}
+
+impl Sink for Vec<Data> {
+    fn nil(&mut self) {
+        self.push(Data::Nil);
+    }
+
+    fn bool(&mut self, value: bool) {
+        self.push(Data::Bool(value));
+    }
+
+    fn int(&mut self, value: i64) {
+        self.push(Data::Int(value));
+    }
+
+    fn number(&mut self, value: f64) {
+        self.push(Data::Float(value));
+    }
+
+    fn text(&mut self, bytes: &[u8]) {
+        self.push(Data::Text(bytes.to_vec()));
+    }
+
+    fn buffer(&mut self, bytes: &[u8]) {
+        self.push(Data::Buffer(bytes.to_vec()));
+    }
+
+    fn data(&mut self, data: &Data) {
+        self.push(data.clone());
+    }
+
+    fn list<T>(&mut self, items: &[T], push: impl Fn(&mut Self, &T)) -> ApiResult<()> {
+        let mut list = Self::with_capacity(items.len());
+        items.iter().for_each(|item| push(&mut list, item));
+        self.push(Data::Array(list));
+        Ok(())
+    }
+
+    fn object(&mut self, _: Object) -> ApiResult<()> {
+        Err(ApiError::NeedsLua)
+    }
+
+    fn reserve(&mut self, _: usize) -> bool {
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Data, float_text, numeral};
+
+    #[test]
+    fn floats_are_spelt_as_in_lua() {
+        for (number, text) in [
+            (1.0, "1.0"),
+            (0.1, "0.1"),
+            (-2.5e-7, "-2.5e-07"),
+            (1e15, "1e+15"),
+            (123456.75, "123456.75"),
+            (1e-4, "0.0001"),
+        ] {
+            assert_eq!(float_text(number), text);
+        }
+        assert_eq!(float_text(std::f64::consts::PI), "3.1415926535898");
+    }
+
+    #[test]
+    fn numerals_are_read_as_in_lua() {
+        assert_eq!(numeral(b" 12 "), Some(Data::Int(12)));
+        assert_eq!(numeral(b"-0x1F"), Some(Data::Int(-31)));
+        assert_eq!(numeral(b".5e1"), Some(Data::Float(5.0)));
+        for bad in ["", "x", "inf", "nan", "1 2", "--1"] {
+            assert_eq!(numeral(bad.as_bytes()), None, "{bad}");
+        }
+    }
+}

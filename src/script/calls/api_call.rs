@@ -1,0 +1,60 @@
+//! Calls of API functions from outside of Lua: by name, with plain values.
+
+use std::rc::Rc;
+
+use super::collect;
+use crate::scene::Data;
+use crate::script::binding::args::Args;
+use crate::script::binding::registry::{Bound, Member};
+use crate::script::binding::source::Values;
+use crate::script::error::{ApiError, ApiResult};
+use crate::script::lifecycle::env::Runtime;
+use crate::script::lifecycle::instance::Script;
+use crate::script::lifecycle::level::Level;
+use crate::script::lifecycle::push_args;
+use crate::script::sim::Sim;
+
+/// Calls a function of a module, both by name, with all that follows.
+const CALL: &[u8] = b"local module, member = ... return require(module)[member](select(3, ...))";
+
+impl Sim {
+    /// Calls `module.function`, or a global function, in the name of a script. A native function is called directly; one that is written
+    /// in Lua, by the interpreter of that script.
+    ///
+    /// # Errors
+    /// As the function says, or when there is no such function.
+    pub(crate) fn call_api(&self, caller: &Rc<Script>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+        let runtime = caller.current_runtime().ok_or(ApiError::ScriptNotInitialized)?;
+        let registry = &self.modules.registry;
+        match registry.find(name) {
+            Some(Member::Native(id)) => call_native(&runtime, registry.bound(id), args),
+            Some(Member::Missing(id)) => Err(registry.missing_function(id).error()),
+            Some(Member::Constant(_)) => Err(ApiError::CallFailed),
+            Some(Member::Lua { .. }) | None => self.call_in_lua(&runtime, name, args),
+        }
+    }
+
+    fn call_in_lua(&self, runtime: &Rc<Runtime>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+        let (module, member) = name.rsplit_once('.').ok_or(ApiError::CallFailed)?;
+        let _level = Level::enter(&self.scripts, &runtime.env);
+        let stack = runtime.stack();
+        let base = stack.top();
+        let call = || {
+            stack.load(CALL, "call", false)?;
+            stack.push_bytes(module.as_bytes());
+            stack.push_bytes(member.as_bytes());
+            collect(stack, base, push_args(stack, args)? + 2)
+        };
+        let results = call();
+        stack.set_top(base.min(stack.top()));
+        results.map_err(|error| ApiError::Other(error.text.lines().next().unwrap_or_default().to_owned()))
+    }
+}
+
+fn call_native(runtime: &Runtime, bound: &Bound, args: &[Data]) -> ApiResult<Vec<Data>> {
+    let results = (bound.function.call_data)(&mut Args::new(Values::new(args, &runtime.env)));
+    if bound.function.mutates {
+        runtime.env.tell_changes();
+    }
+    results
+}
