@@ -1,5 +1,6 @@
 --[[
-Removes functions that start programs or load native libraries from a fresh Lua state; runs after base.lua with --no-unsafe.
+Removes functions that start programs or load native libraries from a fresh Lua state, and makes `require` refuse bytecode; runs after base.lua
+with --no-unsafe. `load`, `loadfile` and `dofile` refuse bytecode already.
 ]]
 
 local function forbid(library, name)
@@ -13,3 +14,14 @@ forbid(package, 'loadlib')
 -- Those of native libraries stand after that of Lua files, which is the third.
 table.remove(package.searchers, 5)
 table.remove(package.searchers, 4)
+
+local error, loadfile, searchpath = error, loadfile, package.searchpath
+
+-- The searcher for Lua files, by its place: `package.preload`, Swanilda's library, then Lua files.
+package.searchers[3] = function(name)
+    local path, message = searchpath(name, package.path)
+    if not path then return message end
+    local loader, reason = loadfile(path)
+    if not loader then error(("error loading module '%s' from file '%s':\n\t%s"):format(name, path, reason), 0) end
+    return loader, path
+end

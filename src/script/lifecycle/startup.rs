@@ -24,6 +24,7 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
     let stack = runtime.stack();
     threads::install(stack);
     lua::install_coroutine_hooks(stack, threads::on_count);
+    lua::restrict_debug(stack, runtime.lua.lua())?;
     install_package(sim, stack);
     install_globals(sim, stack);
     install_sim(stack);
@@ -31,6 +32,10 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
     stack.push_int(runtime.env.script.id);
     stack.set_global("sim_script_handle");
     load_module(stack, sim, "base").and_then(|()| stack.protected_call(0, 0))?;
+    if !sim.options.exec_unsafe {
+        lua::refuse_bytecode(stack);
+        load_module(stack, sim, "no_unsafe").and_then(|()| stack.protected_call(0, 0))?;
+    }
     if runtime.env.coverage.is_some() {
         load_module(stack, sim, "coverage_loaders")?;
         push_callback(stack, count, std::ptr::null());
@@ -39,10 +44,7 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
     if sim.options.limits.is_some() {
         shared_process::install(sim, stack)?;
     }
-    if sim.options.exec_unsafe {
-        return Ok(());
-    }
-    load_module(stack, sim, "no_unsafe").and_then(|()| stack.protected_call(0, 0))
+    Ok(())
 }
 
 /// Instruments a function that was just loaded for coverage.
@@ -235,7 +237,7 @@ fn set_buffer_metatable(stack: Stack<'_>, _: *const c_void) -> Result<c_int, Str
     Ok(0)
 }
 
-fn push_metatable_with_index(stack: Stack<'_>, index: lua::Callback) {
+fn push_metatable_with_index(stack: Stack<'_>, index: impl lua::Callback) {
     stack.new_table(0, 1);
     push_callback(stack, index, std::ptr::null());
     stack.raw_set_field(-2, "__index");

@@ -1,29 +1,33 @@
 //! Rust functions callable from Lua.
 
+use std::any::Any;
 use std::ffi::{c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::ptr::NonNull;
 
 use mlua::ffi;
 
 use super::Stack;
 
-/// A Rust function Lua can call: gets the stack with its arguments and the pointer given to [`push_callback`], returns how many
-/// results it pushed, or the text of the error to raise.
-pub(crate) type Callback = fn(Stack<'_>, *const c_void) -> Result<c_int, String>;
+/// A Rust function Lua can call: gets the stack with its arguments and the number given to [`push_callback`], returns how many
+/// results it pushed, or the text of the error to raise. It is a function, not a closure with values.
+pub(crate) trait Callback: Fn(Stack<'_>, *const c_void) -> Result<c_int, String> + Copy + 'static {}
+
+impl<F: Fn(Stack<'_>, *const c_void) -> Result<c_int, String> + Copy + 'static> Callback for F {}
 
 /// Pushes `callback` as a Lua function. `data` is handed to each call.
-pub(crate) fn push_callback(stack: Stack<'_>, callback: Callback, data: *const c_void) {
-    // SAFETY: two light upvalues. A function pointer and a data pointer have the same size on every supported platform.
+pub(crate) fn push_callback<F: Callback>(stack: Stack<'_>, _callback: F, data: *const c_void) {
+    const { assert!(size_of::<F>() == 0, "Lua keeps the type of a callback, and no values") };
+    // SAFETY: one light upvalue.
     unsafe {
         ffi::lua_pushlightuserdata(stack.raw(), data.cast_mut());
-        ffi::lua_pushlightuserdata(stack.raw(), callback as *mut c_void);
-        ffi::lua_pushcclosure(stack.raw(), trampoline, 2);
+        ffi::lua_pushcclosure(stack.raw(), trampoline::<F>, 1);
     }
 }
 
 /// Runs the callback, then raises if it failed. Raising leaves this frame by `longjmp`: by then it owns nothing.
-unsafe extern "C-unwind" fn trampoline(raw: *mut ffi::lua_State) -> c_int {
-    let results = run(raw);
+unsafe extern "C-unwind" fn trampoline<F: Callback>(raw: *mut ffi::lua_State) -> c_int {
+    let results = run::<F>(raw);
     if results >= 0 {
         return results;
     }
@@ -32,13 +36,11 @@ unsafe extern "C-unwind" fn trampoline(raw: *mut ffi::lua_State) -> c_int {
 }
 
 /// The number of results, or -1 with the error text on the stack.
-fn run(raw: *mut ffi::lua_State) -> c_int {
-    // SAFETY: `push_callback` made the upvalues; `raw` is alive during the call.
-    let (stack, callback, data) = unsafe {
-        let data = ffi::lua_touserdata(raw, ffi::lua_upvalueindex(1));
-        let callback = ffi::lua_touserdata(raw, ffi::lua_upvalueindex(2));
-        (Stack::from_raw(raw), std::mem::transmute::<*mut c_void, Callback>(callback), data)
-    };
+fn run<F: Callback>(raw: *mut ffi::lua_State) -> c_int {
+    // SAFETY: `raw` is alive during the call. `push_callback` had a value of the type, which can be copied and has no bytes.
+    let (stack, callback) = unsafe { (Stack::from_raw(raw), NonNull::<F>::dangling().read()) };
+    // SAFETY: reads the upvalue.
+    let data = unsafe { ffi::lua_touserdata(raw, ffi::lua_upvalueindex(1)) };
     let budget = stack.budget();
     let before = budget.enter(true);
     let results = match catch_unwind(AssertUnwindSafe(|| callback(stack, data))) {
@@ -56,7 +58,12 @@ fn fail(stack: Stack<'_>, text: &str) -> c_int {
 }
 
 /// The error a script gets for a mistake of ours.
-pub(super) fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
+pub(super) fn panic_message(panic: &(dyn Any + Send)) -> String {
+    format!("internal error in Swanilda, please report it: {}", panic_text(panic))
+}
+
+/// What a panic said.
+pub(super) fn panic_text(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
-    format!("internal error in Swanilda, please report it: {}", text.unwrap_or("panic"))
+    text.unwrap_or("panic")
 }

@@ -7,6 +7,7 @@ use mlua::ffi;
 
 use super::Stack;
 use super::callback::panic_message;
+use super::guard::{Guarded, install, original};
 
 /// Virtual machine instructions between two checks of the budget.
 pub(crate) const HOOK_INTERVAL: c_int = 1000;
@@ -24,12 +25,8 @@ static ON_COUNT: std::sync::OnceLock<OnCount> = std::sync::OnceLock::new();
 pub(crate) fn install_coroutine_hooks(stack: Stack<'_>, on_count: OnCount) {
     ON_COUNT.get_or_init(|| on_count);
     stack.push_global("coroutine");
-    for (name, wrapper) in [("create", create as ffi::lua_CFunction), ("wrap", wrap)] {
-        stack.raw_get_field(-1, name);
-        // SAFETY: the original function becomes the upvalue of its wrapper.
-        unsafe { ffi::lua_pushcclosure(stack.raw(), wrapper, 1) };
-        stack.raw_set_field(-2, name);
-    }
+    install(stack, "create", Guarded::CoroutineCreate, create);
+    install(stack, "wrap", Guarded::CoroutineWrap, wrap);
     stack.pop(1);
     let interval = if stack.owner().is_watched() { HOOK_INTERVAL } else { 0 };
     // SAFETY: the main coroutine of a living state.
@@ -67,36 +64,34 @@ unsafe fn set_hook(raw: *mut ffi::lua_State, interval: c_int) {
 }
 
 unsafe extern "C-unwind" fn create(raw: *mut ffi::lua_State) -> c_int {
-    // SAFETY: calls the original `coroutine.create`, which checks its argument and may raise; nothing is owned here.
+    // SAFETY: continues in Lua's function, which may raise; nothing is owned here.
     unsafe {
-        call_original(raw);
-        set_hook(ffi::lua_tothread(raw, -1), HOOK_INTERVAL);
-        1
+        let results = original(raw, Guarded::CoroutineCreate);
+        hook_new(raw, -1);
+        results
     }
 }
 
 unsafe extern "C-unwind" fn wrap(raw: *mut ffi::lua_State) -> c_int {
     // SAFETY: as above; the function `coroutine.wrap` returns keeps its coroutine as first upvalue.
     unsafe {
-        call_original(raw);
+        let results = original(raw, Guarded::CoroutineWrap);
         if !ffi::lua_getupvalue(raw, -1, 1).is_null() {
-            let coroutine = ffi::lua_tothread(raw, -1);
-            if !coroutine.is_null() {
-                set_hook(coroutine, HOOK_INTERVAL);
-            }
+            hook_new(raw, -1);
             ffi::lua_settop(raw, -2);
         }
-        1
+        results
     }
 }
 
-unsafe fn call_original(raw: *mut ffi::lua_State) {
-    // SAFETY: upvalue 1 is the original function; it gets the same arguments and leaves one result.
+/// Sets the hook of the coroutine at `index`, if there is one.
+unsafe fn hook_new(raw: *mut ffi::lua_State, index: c_int) {
+    // SAFETY: null for what is no coroutine.
     unsafe {
-        let arguments = ffi::lua_gettop(raw);
-        ffi::lua_pushvalue(raw, ffi::lua_upvalueindex(1));
-        ffi::lua_rotate(raw, 1, 1);
-        ffi::lua_call(raw, arguments, 1);
+        let coroutine = ffi::lua_tothread(raw, index);
+        if !coroutine.is_null() {
+            set_hook(coroutine, HOOK_INTERVAL);
+        }
     }
 }
 

@@ -16,23 +16,28 @@ mod budget;
 mod callback;
 mod calls;
 mod coroutine;
+mod debug_library;
 mod file;
 mod functions;
+mod guard;
 mod object;
 mod pool;
 mod stack;
 mod state;
 mod tables;
+mod text_only;
 
 pub(crate) use budget::Budget;
 pub(crate) use callback::{Callback, push_callback};
 pub(crate) use calls::{LuaError, MULTIPLE, compile};
 pub(crate) use coroutine::{HOOK_INTERVAL, Verdict, hasten_count_hook, install_coroutine_hooks, set_count_hook};
+pub(crate) use debug_library::restrict_debug;
 pub(crate) use file::FileLock;
 pub(crate) use object::Object;
 pub(crate) use stack::{Stack, Type};
 pub(crate) use state::State;
 pub(crate) use tables::{FunctionRef, LONGEST_LIST};
+pub(crate) use text_only::refuse_bytecode;
 
 #[cfg(test)]
 mod tests {
