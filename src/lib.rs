@@ -14,5 +14,7 @@ pub mod testing;
 pub(crate) mod wire;
 
 pub use format::scene_file::SceneFile;
+/// What Lua modules in Rust are written with, see [`Simulator::builder`].
+pub use mlua;
 pub use script::{Console, Limits, LogLine, Options, Silent, SimulationState};
-pub use simulator::{Error, Onlooker, RunLimits, RunTotals, ScriptKind, ScriptRef, Simulator};
+pub use simulator::{Builder, Error, Onlooker, RunLimits, RunTotals, ScriptKind, ScriptRef, Simulator};

@@ -1,5 +1,6 @@
 //! The embedding API: a simulator as a value.
 
+mod builder;
 mod run;
 
 use std::cell::{Ref, RefMut};
@@ -16,9 +17,10 @@ use crate::scene::tree::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, Scene};
 use crate::script::coverage::LineCounts;
 use crate::script::{
-    ApiError, Console, Detached, Options, SceneSource, Script, Silent, Sim, SimulationState, SysCall, TestBench,
+    ApiError, Console, Detached, Options, SceneSource, Script, Sim, SimulationState, SysCall, TestBench,
 };
 
+pub use builder::Builder;
 pub use run::{Onlooker, RunLimits, RunTotals};
 
 /// The add-on that serves clients by ZeroMQ.
@@ -75,12 +77,20 @@ impl Simulator {
 
     /// A simulator with an empty scene that says nothing.
     pub fn new(options: Options) -> Self {
-        Self::with_console(options, Box::new(Silent))
+        Self::builder().options(options).build()
     }
 
     /// A simulator with an empty scene whose prints and log lines go to `console`.
     pub fn with_console(options: Options, console: Box<dyn Console>) -> Self {
-        let sim = Sim::new(options, modules::registry(), console);
+        Self::builder().options(options).console(console).build()
+    }
+
+    /// A simulator in the making: with options, a console, and Lua modules written in Rust.
+    pub fn builder() -> Builder {
+        Builder::default()
+    }
+
+    fn with_main_and_sandbox(sim: Rc<Sim>) -> Self {
         let main_text = sim.modules.registry.main_script();
         sim.scripts.add_detached(ScriptType::Main, detached("mainScript", main_text.as_bytes()));
         let sandbox = sim.scripts.add_detached(ScriptType::Sandbox, detached("sandboxScript", b"sim = require 'sim'"));

@@ -20,6 +20,8 @@ const LAYERS: &[&[&str]] = &[
 const OWNERS: &[(&str, &str)] = &[
     ("rapier3d", "src/dynamics"),
     ("mlua", "src/script"),
+    ("mlua", "src/simulator/builder.rs"),
+    ("mlua", "src/lib.rs"),
     ("directories", "src/script/files/app_storage"),
     ("fs4", "src/script"),
     ("image", "src/format/picture.rs"),

@@ -53,6 +53,7 @@ pub(crate) use lifecycle::embedded::FILES;
 pub(crate) use lifecycle::env::Hook;
 pub(crate) use lifecycle::instance::Detached;
 pub(crate) use lifecycle::order::Group;
+pub(crate) use lifecycle::user_modules::UserModule;
 pub(crate) use log::auxiliary_consoles::AuxiliaryConsole;
 pub(crate) use lua::{FileLock, Object, Stack, Type as LuaType, compile};
 pub(crate) use property::{Target, table as property_table};

@@ -21,6 +21,7 @@ use super::lifecycle::instance::Script;
 use super::lifecycle::random::Random;
 use super::lifecycle::removal::Removals;
 use super::lifecycle::script_set::ScriptSet;
+use super::lifecycle::user_modules::UserModule;
 use super::log::Log;
 use super::log::console::{Console, LogLine};
 use super::log::verbosity;
@@ -95,6 +96,8 @@ pub(crate) struct Sim {
     pub options: Options,
     /// What scripts can reach, and what modules keep.
     pub modules: Modules,
+    /// What scripts can require besides, written by the embedding program.
+    pub user_modules: Vec<UserModule>,
     pub scene: RefCell<Scene>,
     pub clock: Clock,
     pub scripts: ScriptSet,
@@ -118,8 +121,14 @@ pub(crate) struct Sim {
 }
 
 impl Sim {
-    pub(crate) fn new(options: Options, registry: Arc<Registry>, console: Box<dyn Console>) -> Rc<Self> {
+    pub(crate) fn new(
+        options: Options,
+        registry: Arc<Registry>,
+        console: Box<dyn Console>,
+        user_modules: Vec<UserModule>,
+    ) -> Rc<Self> {
         Rc::new(Self {
+            user_modules,
             log: Log::new(console, options.verbosity),
             app: RefCell::new(AppData::new(&options)),
             scripts: ScriptSet::new(options.limits.map_or(usize::MAX, |limits| limits.memory)),

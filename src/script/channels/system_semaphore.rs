@@ -69,7 +69,7 @@ mod tests {
 
     /// Runs with a simulator of its own.
     fn with_sim<R>(options: Options, test: impl FnOnce(&Sim) -> R) -> R {
-        test(&Sim::new(options, Registry::without_functions(), Box::new(Silent)))
+        test(&Sim::new(options, Registry::without_functions(), Box::new(Silent), Vec::new()))
     }
 
     #[test]

@@ -13,6 +13,7 @@ pub(in crate::script) mod removal;
 pub(in crate::script) mod script_set;
 pub(in crate::script) mod shared_process;
 pub(in crate::script) mod startup;
+pub(in crate::script) mod user_modules;
 
 use std::rc::Rc;
 

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use mlua::{Function, Lua, Table};
 
 use super::env::{Env, Runtime};
-use super::shared_process;
+use super::{shared_process, user_modules};
 use crate::script::binding::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE};
 use crate::script::binding::registry::{Member, MissingId, Namespace};
 use crate::script::binding::{deprecation_notice, push_function};
@@ -25,6 +25,7 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
     threads::install(stack);
     lua::install_coroutine_hooks(stack, threads::on_count);
     lua::restrict_debug(stack, runtime.lua.lua())?;
+    user_modules::install(stack, runtime.lua.lua(), &sim.user_modules)?;
     install_package(sim, stack);
     install_globals(sim, stack);
     install_sim(stack);

@@ -5,6 +5,7 @@ use std::ffi::{c_int, c_void};
 use mlua::chunk::ChunkMode;
 use mlua::{Error, Lua, LuaOptions, StdLib, ffi};
 
+use super::seal::seal_top;
 use super::stack::Stack;
 
 /// "All results", for [`Stack::protected_call`].
@@ -171,10 +172,11 @@ impl Stack<'_> {
     }
 }
 
-/// Adds the traceback to string errors and leaves other values alone, as `debug.traceback` does.
+/// Adds the traceback to string errors, and to those of Rust functions, and leaves other values alone, as `debug.traceback` does.
 unsafe extern "C-unwind" fn message_handler(raw: *mut ffi::lua_State) -> c_int {
     // SAFETY: called by Lua with the error value at index 1.
     unsafe {
+        seal_top(Stack::from_raw(raw));
         if ffi::lua_type(raw, 1) == ffi::LUA_TSTRING || ffi::lua_type(raw, 1) == ffi::LUA_TNUMBER {
             let message = ffi::lua_tolstring(raw, 1, std::ptr::null_mut());
             ffi::luaL_traceback(raw, raw, message, 1);

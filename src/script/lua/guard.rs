@@ -13,7 +13,9 @@ use super::Stack;
 /// A function of Lua's with a guard.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Guarded {
+    CoroutineClose,
     CoroutineCreate,
+    CoroutineResume,
     CoroutineWrap,
     GetLocal,
     SetLocal,

@@ -22,6 +22,7 @@ mod functions;
 mod guard;
 mod object;
 mod pool;
+mod seal;
 mod stack;
 mod state;
 mod tables;
@@ -34,6 +35,7 @@ pub(crate) use coroutine::{HOOK_INTERVAL, Verdict, hasten_count_hook, install_co
 pub(crate) use debug_library::restrict_debug;
 pub(crate) use file::FileLock;
 pub(crate) use object::Object;
+pub(crate) use seal::seal;
 pub(crate) use stack::{Stack, Type};
 pub(crate) use state::State;
 pub(crate) use tables::{FunctionRef, LONGEST_LIST};
@@ -49,7 +51,7 @@ mod tests {
     /// Calls `test` with a state that has the standard libraries only.
     pub(super) fn with_state<T>(test: impl FnOnce(&State) -> T) -> T {
         let registry = Registry::without_functions();
-        let sim = Sim::new(Options::default(), registry, Box::new(Silent));
+        let sim = Sim::new(Options::default(), registry, Box::new(Silent), Vec::new());
         let script = sim.scripts.add_detached(ScriptType::Sandbox, Detached::default());
         test(&Runtime::new(&sim, &script).lua)
     }

@@ -3,7 +3,7 @@
 use std::ffi::{c_int, c_void};
 use std::marker::PhantomData;
 
-use mlua::ffi;
+use mlua::{Lua, ffi};
 
 use super::Budget;
 use crate::script::lifecycle::env::Env;
@@ -49,6 +49,12 @@ impl<'a> Stack<'a> {
     pub(crate) fn owner(self) -> &'a Env {
         // SAFETY: `State::new` wrote it, coroutines inherit it, and it outlives the state.
         unsafe { &**ffi::lua_getextraspace(self.raw).cast::<*const Env>() }
+    }
+
+    /// The virtual machine, for what is not hot.
+    pub(crate) fn lua(self) -> &'a Lua {
+        // SAFETY: mlua made the state and keeps this with it.
+        unsafe { Lua::get_or_init_from_ptr(self.raw) }
     }
 
     /// The memory the state belongs to.

@@ -1,0 +1,67 @@
+//! A simulator in the making.
+
+use std::rc::Rc;
+
+use super::Simulator;
+use crate::modules;
+use crate::script::{Console, Options, Silent, Sim, UserModule};
+
+/// Collects what a [`Simulator`] is made of; see [`Simulator::builder`].
+#[must_use = "nothing is made before `build`"]
+pub struct Builder {
+    options: Options,
+    console: Box<dyn Console>,
+    modules: Vec<UserModule>,
+}
+
+impl Default for Builder {
+    fn default() -> Self {
+        Self { options: Options::default(), console: Box::new(Silent), modules: Vec::new() }
+    }
+}
+
+impl Builder {
+    /// How the simulator behaves.
+    pub fn options(self, options: Options) -> Self {
+        Self { options, ..self }
+    }
+
+    /// Where prints and log lines go; nowhere without this.
+    pub fn console(self, console: Box<dyn Console>) -> Self {
+        Self { console, ..self }
+    }
+
+    /// Adds a Lua module, written with [mlua]: scripts get what `open` returns by `require 'name'`. It goes before files and
+    /// modules of that name.
+    ///
+    /// Each script has a Lua state of its own, so `open` is called once for each script that requires the module. What its functions
+    /// and methods raise reaches scripts as strings with the line of the call, and a panic is an error of the script.
+    ///
+    /// ```
+    /// use swanilda::{ScriptKind, Simulator};
+    ///
+    /// let mut simulator = Simulator::builder()
+    ///     .lua_module("mine", |lua| {
+    ///         let module = lua.create_table()?;
+    ///         module.set("double", lua.create_function(|_, x: f64| Ok(2.0 * x))?)?;
+    ///         Ok(module)
+    ///     })
+    ///     .build();
+    /// simulator.add_script(ScriptKind::Customization, "", b"assert(require('mine').double(4) == 8)")?;
+    /// assert_eq!(simulator.errors(), 0);
+    /// # Ok::<(), swanilda::Error>(())
+    /// ```
+    pub fn lua_module(
+        mut self,
+        name: impl Into<String>,
+        open: impl Fn(&mlua::Lua) -> mlua::Result<mlua::Table> + 'static,
+    ) -> Self {
+        self.modules.push(UserModule { name: name.into(), open: Rc::new(open) });
+        self
+    }
+
+    /// A simulator with an empty scene.
+    pub fn build(self) -> Simulator {
+        Simulator::with_main_and_sandbox(Sim::new(self.options, modules::registry(), self.console, self.modules))
+    }
+}
