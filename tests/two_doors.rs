@@ -119,6 +119,9 @@ fn difference(first: &mut Door, second: &mut Door, name: &str, args: &[Data]) ->
 
 #[test]
 fn both_doors_give_the_same_answers() {
+    // Functions that write files do so where nobody minds.
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    std::env::set_current_dir(folder.path()).expect("our own folder exists");
     let known: Vec<String> = docs::native_functions().map(str::to_owned).collect();
     let names = known.iter().filter(|name| !NOT_CALLED.contains(&&***name) && !OTHER_ANSWERS.contains(&&***name));
     let names: Vec<&String> = names.collect();
