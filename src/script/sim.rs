@@ -6,14 +6,10 @@ use std::net::{IpAddr, Ipv4Addr};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Duration;
 
-use super::binding::by_handle::ByHandle;
 use super::binding::registry::{Modules, Registry};
 use super::binding::states::States;
-use super::channels::system_semaphore::SystemSemaphores;
-use super::channels::tubes::Tubes;
-use super::channels::web_sockets::WebSockets;
+use super::channels::Channels;
 use super::coverage::LineCounts;
 use super::events::EventStream;
 use super::lifecycle::attached::log_suffix;
@@ -29,7 +25,6 @@ use super::property::{AppData, SignalOwners};
 use super::step::clock::Clock;
 use super::test_bench::TestBench;
 use crate::dynamics::Dynamics;
-use crate::io::{EventLoop, SerialPort};
 use crate::scene::{Handle, Scene};
 
 /// How a simulator is set up.
@@ -107,13 +102,8 @@ pub(crate) struct Sim {
     pub removals: Removals,
     pub app: RefCell<AppData>,
     pub signal_owners: RefCell<SignalOwners>,
-    pub tubes: RefCell<Tubes>,
-    pub semaphores: RefCell<SystemSemaphores>,
-    pub serial_ports: RefCell<ByHandle<SerialPort>>,
+    pub channels: Channels,
     pub events: EventStream,
-    /// Where all sockets live; made at first need.
-    event_loop: OnceCell<Rc<EventLoop>>,
-    pub web_sockets: RefCell<WebSockets>,
     /// Where a test's runner waits.
     pub test_bench: OnceCell<Rc<TestBench>>,
     /// What states have counted that are gone.
@@ -139,12 +129,8 @@ impl Sim {
             dynamics: RefCell::new(Some(Dynamics::default())),
             removals: Removals::default(),
             signal_owners: RefCell::default(),
-            tubes: RefCell::default(),
-            semaphores: RefCell::default(),
-            serial_ports: RefCell::default(),
+            channels: Channels::default(),
             events: EventStream::new(),
-            event_loop: OnceCell::new(),
-            web_sockets: RefCell::default(),
             test_bench: OnceCell::new(),
             line_counts: RefCell::default(),
         })
@@ -160,26 +146,6 @@ impl Sim {
         let script = Rc::new(Script::of_object(handle, script_type));
         self.scripts.add(&script);
         Some(script)
-    }
-
-    /// The event loop of this simulator's sockets.
-    ///
-    /// # Errors
-    /// When the system gives none.
-    pub(crate) fn event_loop(&self) -> std::io::Result<Rc<EventLoop>> {
-        if let Some(event_loop) = self.event_loop.get() {
-            return Ok(event_loop.clone());
-        }
-        let event_loop = Rc::new(EventLoop::new()?);
-        Ok(self.event_loop.get_or_init(|| event_loop).clone())
-    }
-
-    /// Lets the sockets move until something has arrived, at most that long; false at once when there are none.
-    pub(crate) fn wait_for_arrival(&self, patience: Duration) -> bool {
-        self.event_loop.get().is_some_and(|event_loop| {
-            event_loop.wait(patience);
-            true
-        })
     }
 
     /// The name a script has in the log.

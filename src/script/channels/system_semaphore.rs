@@ -54,7 +54,7 @@ impl Sim {
     /// # Errors
     /// When the key is too long, its file cannot be made, or the user wants the program to end.
     pub(crate) fn acquire_semaphore(&self, key: &[u8]) -> ApiResult<()> {
-        let attempt = || self.semaphores.borrow_mut().try_acquire(key).transpose();
+        let attempt = || self.channels.semaphores.borrow_mut().try_acquire(key).transpose();
         let acquired = self.wait_for(None, attempt)?;
         acquired.transpose().map(drop).map_err(ApiError::Other)
     }
@@ -87,7 +87,7 @@ mod tests {
             assert!(!waiting.is_finished());
             stop.store(true, Ordering::Relaxed);
             assert_eq!(waiting.join().expect("it does not panic"), Err(ApiError::Interrupted));
-            holder.semaphores.borrow_mut().release(&key);
+            holder.channels.semaphores.borrow_mut().release(&key);
         });
         with_sim(Options::default(), |next| assert_eq!(next.acquire_semaphore(&key), Ok(()), "it is free"));
     }

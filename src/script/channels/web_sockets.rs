@@ -18,6 +18,21 @@ pub(crate) struct WebSockets {
     endpoints: BTreeMap<u64, Rc<Endpoint>>,
 }
 
+impl WebSockets {
+    pub(super) fn get(&self, number: u64) -> Option<Rc<Endpoint>> {
+        self.endpoints.get(&number).cloned()
+    }
+
+    pub(super) fn remove(&mut self, number: u64) -> Option<Rc<Endpoint>> {
+        self.endpoints.remove(&number)
+    }
+
+    /// The endpoints in the order of their creation.
+    fn all(&self) -> Vec<Rc<Endpoint>> {
+        self.endpoints.values().cloned().collect()
+    }
+}
+
 /// What an endpoint is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Role {
@@ -67,6 +82,12 @@ impl Endpoint {
         self.socket.borrow().as_ref().ok_or(SendError::Expired)?.send(connection, data, opcode)
     }
 
+    /// Closes the connections and releases the handlers.
+    pub(super) fn stop(&self) {
+        drop(self.socket.take());
+        drop(self.handlers.take());
+    }
+
     fn arrived(&self) -> usize {
         self.socket.borrow().as_ref().map_or(0, WsEndpoint::arrived)
     }
@@ -99,7 +120,7 @@ struct Ownership {
 impl Drop for Ownership {
     fn drop(&mut self) {
         if let Some(sim) = self.sim.upgrade() {
-            sim.stop_web_socket(self.number);
+            sim.channels.stop_web_socket(self.number);
         }
     }
 }
@@ -107,7 +128,7 @@ impl Drop for Ownership {
 impl Sim {
     /// Adds an endpoint of the calling script.
     pub(crate) fn add_web_socket(self: &Rc<Self>, cx: &Cx, role: Role, socket: WsEndpoint) -> Rc<Endpoint> {
-        let number = self.web_sockets.borrow().numbers.next();
+        let number = self.channels.web_sockets.borrow().numbers.next();
         let script = cx.script().clone();
         let endpoint = Rc::new(Endpoint {
             number,
@@ -116,32 +137,21 @@ impl Sim {
             socket: RefCell::new(Some(socket)),
             handlers: RefCell::default(),
         });
-        self.web_sockets.borrow_mut().endpoints.insert(number, endpoint.clone());
+        self.channels.web_sockets.borrow_mut().endpoints.insert(number, endpoint.clone());
         let owned = cx.script_state::<Owned>();
         let mut owned = owned.0.borrow_mut();
-        owned.retain(|other| self.web_socket(other.number).is_some());
+        owned.retain(|other| self.channels.web_socket(other.number).is_some());
         owned.push(Ownership { sim: Rc::downgrade(self), number });
         endpoint
-    }
-
-    pub(crate) fn web_socket(&self, number: u64) -> Option<Rc<Endpoint>> {
-        self.web_sockets.borrow().endpoints.get(&number).cloned()
-    }
-
-    /// Closes an endpoint and all its connections at once.
-    pub(crate) fn stop_web_socket(&self, number: u64) {
-        let endpoint = self.web_sockets.borrow_mut().endpoints.remove(&number);
-        if let Some(endpoint) = endpoint {
-            drop(endpoint.socket.take());
-            drop(endpoint.handlers.take());
-        }
     }
 
     /// Lets the sockets move and calls the handlers of what has arrived: endpoint by endpoint in the order of their creation, at each in
     /// the order of arrival. What arrives meanwhile waits for the next iteration.
     pub(crate) fn deliver_web_sockets(self: &Rc<Self>) {
-        let endpoints: Vec<Rc<Endpoint>> = self.web_sockets.borrow().endpoints.values().cloned().collect();
-        let Some(event_loop) = (!endpoints.is_empty()).then(|| self.event_loop().ok()).flatten() else { return };
+        let endpoints: Vec<Rc<Endpoint>> = self.channels.web_sockets.borrow().all();
+        let Some(event_loop) = (!endpoints.is_empty()).then(|| self.channels.event_loop().ok()).flatten() else {
+            return;
+        };
         event_loop.turn();
         let batches: Vec<usize> = endpoints.iter().map(|endpoint| endpoint.arrived()).collect();
         for (endpoint, count) in endpoints.iter().zip(&batches) {

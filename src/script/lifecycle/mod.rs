@@ -243,7 +243,7 @@ impl Sim {
     fn close(&self, script: &Script) {
         script.runtime.replace(None);
         self.drop_signals_of(script);
-        self.tubes.borrow_mut().close_those_of(script.id);
+        self.channels.end_script(script.id);
     }
 
     /// `restartOnError` is a one-shot.

@@ -219,7 +219,7 @@ impl Sim {
         }
         self.restart_failed_customization_scripts();
         self.app.borrow_mut().consoles.end_simulation();
-        self.serial_ports.borrow_mut().clear();
+        self.channels.end_simulation();
         self.log_status("Simulation stopped.");
     }
 

@@ -16,16 +16,16 @@ impl Cx<'_> {
     /// # Errors
     /// When the system has none.
     pub(crate) fn event_loop(&self) -> std::io::Result<Rc<EventLoop>> {
-        self.sim.event_loop()
+        self.sim.channels.event_loop()
     }
 
     /// The numbers of WebSocket endpoints and connections.
     pub(crate) fn web_socket_numbers(&self) -> Numbers {
-        self.sim.web_sockets.borrow().numbers.clone()
+        self.sim.channels.web_sockets.borrow().numbers.clone()
     }
 
     pub(crate) fn web_socket(&self, number: u64) -> Option<Rc<Endpoint>> {
-        self.sim.web_socket(number)
+        self.sim.channels.web_socket(number)
     }
 
     /// Adds an endpoint of the calling script.
@@ -35,19 +35,19 @@ impl Cx<'_> {
 
     /// Closes an endpoint and all its connections at once.
     pub(crate) fn stop_web_socket(&mut self, number: u64) {
-        self.sim.stop_web_socket(number);
+        self.sim.channels.stop_web_socket(number);
     }
 
     pub(crate) fn serial_ports_mut(&mut self) -> RefMut<'_, ByHandle<SerialPort>> {
-        self.sim.serial_ports.borrow_mut()
+        self.sim.channels.serial_ports.borrow_mut()
     }
 
     pub(crate) fn tubes(&self) -> Ref<'_, Tubes> {
-        self.sim.tubes.borrow()
+        self.sim.channels.tubes.borrow()
     }
 
     pub(crate) fn tubes_mut(&mut self) -> RefMut<'_, Tubes> {
-        self.sim.tubes.borrow_mut()
+        self.sim.channels.tubes.borrow_mut()
     }
 
     /// Waits until no other program holds the semaphore; at once if this simulator does already.
@@ -59,6 +59,6 @@ impl Cx<'_> {
     }
 
     pub(crate) fn release_semaphore(&mut self, key: &[u8]) {
-        self.sim.semaphores.borrow_mut().release(key);
+        self.sim.channels.semaphores.borrow_mut().release(key);
     }
 }
