@@ -99,6 +99,16 @@ fn functions_for_scripts_reach_the_simulator_through_their_context() {
     assert!(wrong.is_empty(), "add a narrow accessor to `Cx` instead:\n{}", wrong.join("\n"));
 }
 
+/// What belongs to one part is a field of that part: `Sim` only puts the parts together.
+#[test]
+fn the_simulator_consists_of_few_parts() {
+    let text = read(&root().join("src/script/sim.rs"));
+    let (_, body) = text.split_once("struct Sim {\n").expect("the simulator is a struct");
+    let (body, _) = body.split_once("\n}").expect("the struct ends");
+    let fields: Vec<_> = code_lines(body).filter(|line| line.contains(": ")).collect();
+    assert!((2..=15).contains(&fields.len()), "{} fields: {fields:#?}", fields.len());
+}
+
 #[test]
 fn unsafe_code_stays_at_the_edges_to_c() {
     let outside: Vec<_> = sources()

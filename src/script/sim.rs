@@ -12,7 +12,6 @@ use super::binding::states::States;
 use super::channels::Channels;
 use super::coverage::LineCounts;
 use super::events::EventStream;
-use super::lifecycle::attached::log_suffix;
 use super::lifecycle::instance::Script;
 use super::lifecycle::random::Random;
 use super::lifecycle::removal::Removals;
@@ -148,22 +147,8 @@ impl Sim {
         Some(script)
     }
 
-    /// The name a script has in the log.
-    pub(crate) fn log_name(&self, script: &Script) -> String {
-        match script.object {
-            Some(handle) => self.scene.borrow().print_path(handle).unwrap_or_default(),
-            None => match script.owner() {
-                Some(owner) => {
-                    let path = self.scene.borrow().print_path(owner).unwrap_or_default();
-                    path + log_suffix(script.script_type)
-                }
-                None => script.detached.borrow().name.clone(),
-            },
-        }
-    }
-
     pub(crate) fn log_from(&self, script: &Script, level: i64, text: &str) {
-        let origin = self.log_name(script);
+        let origin = script.log_name(&self.scene.borrow());
         self.log_line(&origin, level, text, false);
     }
 

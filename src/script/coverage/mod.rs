@@ -122,7 +122,7 @@ impl Sim {
         match (script.object, script.owner()) {
             (Some(object), _) => scene.short_path(object).ok(),
             (None, Some(owner)) => {
-                Some(scene.short_path(owner).ok()? + super::lifecycle::attached::log_suffix(script.script_type))
+                Some(scene.short_path(owner).ok()? + super::lifecycle::source::log_suffix(script.script_type))
             }
             (None, None) => Some(format!("/{}", script.detached.borrow().name)),
         }

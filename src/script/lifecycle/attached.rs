@@ -3,17 +3,12 @@
 use std::rc::Rc;
 
 use super::instance::{Detached, Script};
-use crate::scene::tree::script_object::{ScriptObject, ScriptType};
+use crate::scene::tree::script_object::ScriptObject;
 use crate::scene::{Handle, Scene};
 use crate::script::sim::Sim;
 
 /// Where old files say that a script comes before, with or after the others; later ones count from 0.
 const NORMAL_PRIORITY: i64 = 1;
-
-/// A file as Lua shows it in positions: as it is, without quotes.
-fn file_name(path: &str) -> String {
-    format!("@{path}")
-}
 
 impl Sim {
     /// Attaches a script to an object, as scenes before 4.7 have it.
@@ -40,40 +35,13 @@ impl Sim {
         scripts
     }
 
-    /// Text of a script and the name Lua shows for it in positions.
-    pub(in crate::script) fn code_of(&self, script: &Script) -> (Vec<u8>, String) {
-        let Some(handle) = script.object else {
-            let detached = script.detached.borrow();
-            let name = match &detached.source {
-                Some(file) => file_name(file),
-                None if detached.owner.is_some() => self.log_name(script),
-                None => detached.chunk_name.clone(),
-            };
-            return (detached.code.clone(), name);
-        };
-        let text = |s: &ScriptObject| (s.code.clone(), s.source.as_deref().map(file_name));
-        let (code, file) = self.scene.borrow().object(handle).and_then(|o| o.script()).map(text).unwrap_or_default();
-        (code, file.unwrap_or_else(|| self.log_name(script)))
-    }
-
     /// The script that Lua calls `name` in positions, under its full name, and its text. Lua cuts long names and ends them with dots.
     pub(crate) fn code_shown_as(&self, name: &str) -> Option<(String, Vec<u8>)> {
         let start = name.strip_suffix("...").filter(|start| !start.is_empty());
         let scripts = self.scripts.all();
-        let found = scripts.iter().map(|script| self.code_of(script));
+        let found = scripts.iter().map(|script| script.code(&self.scene.borrow()));
         let mut named = found.filter(|(_, full)| full == name || start.is_some_and(|start| full.starts_with(start)));
         named.next().map(|(code, full)| (full, code))
-    }
-
-    /// `lua` or `python`.
-    pub(in crate::script) fn language_of(&self, script: &Script) -> String {
-        match script.object {
-            Some(handle) => {
-                let scene = self.scene.borrow();
-                scene.object(handle).and_then(|o| o.script()).map(|s| s.language.clone()).unwrap_or_default()
-            }
-            None => script.detached.borrow().language().to_owned(),
-        }
     }
 
     /// Attaches to a copy what is attached to its original.
@@ -92,9 +60,4 @@ fn script_children(scene: &Scene, object: Handle) -> Vec<Handle> {
         children.into_iter().filter_map(|h| scene.object(h).ok()).filter(|o| o.script().is_ok()).collect();
     scripts.sort_by_key(|object| object.priority);
     scripts.into_iter().map(crate::scene::Object::handle).collect()
-}
-
-/// What follows the path of the object in the name of an attached script.
-pub(crate) fn log_suffix(script_type: ScriptType) -> &'static str {
-    if script_type == ScriptType::Customization { "@customizationScript" } else { "@simulationScript" }
 }

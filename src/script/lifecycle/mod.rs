@@ -12,6 +12,7 @@ pub(in crate::script) mod random;
 pub(in crate::script) mod removal;
 pub(in crate::script) mod script_set;
 pub(in crate::script) mod shared_process;
+pub(in crate::script) mod source;
 pub(in crate::script) mod startup;
 pub(in crate::script) mod user_modules;
 
@@ -42,11 +43,11 @@ pub(crate) struct Reply {
 impl Sim {
     /// Delivers a callback to one script, loading and initialising it first where the callback does that.
     pub(crate) fn deliver(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, args: &[Data]) -> Reply {
-        if script.removed.get() || (call != SysCall::Cleanup && self.is_disabled(script)) {
+        if script.removed.get() || (call != SysCall::Cleanup && script.is_disabled(&self.scene.borrow())) {
             return Reply::default();
         }
         if script.state() == state::UNLOADED {
-            if !call.wakes() || self.is_disabled(script) {
+            if !call.wakes() || script.is_disabled(&self.scene.borrow()) {
                 return Reply::default();
             }
             self.load(script);
@@ -87,10 +88,10 @@ impl Sim {
     fn run_chunk(self: &Rc<Self>, script: &Rc<Script>, runtime: &Rc<Runtime>) -> Result<(), LuaError> {
         let stack = runtime.stack();
         startup::fill(self, runtime)?;
-        if self.language_of(script) == "python" {
+        if script.language(&self.scene.borrow()) == "python" {
             return Err(LuaError { text: "scripts in Python are not implemented in Swanilda.".into() });
         }
-        let (code, name) = self.code_of(script);
+        let (code, name) = script.code(&self.scene.borrow());
         let level = Level::enter(&self.scripts, &runtime.env);
         if level.too_deep {
             return Err(LuaError { text: ApiError::TooDeep(MAX_DEPTH).to_string() });
@@ -263,13 +264,6 @@ impl Sim {
         let cleared = scene
             .try_modify(handle, crate::scene::Field::Other, |o| o.script_mut().map(|s| s.restart_on_error = false));
         cleared.is_ok()
-    }
-
-    fn is_disabled(&self, script: &Script) -> bool {
-        match script.object {
-            Some(handle) => self.scene.borrow().object(handle).and_then(|o| o.script()).map_or(true, |s| s.disabled),
-            None => script.detached.borrow().disabled,
-        }
     }
 }
 
