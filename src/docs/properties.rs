@@ -44,11 +44,11 @@ pub(super) fn text() -> String {
          CoppeliaSim 4.10, and `rapier.solver` of joints ([PHYSICS](PHYSICS.md)), read and written with `sim.getIntProperty` and its like. Names below `customData.` and `signal.` come with scripts.\n\n\
          | state | what it is | properties |\n|---|---|---|\n\
          | works | has its meaning | {} |\n\
-         | kept | is stored and read back, and has no effect | {} |\n\
+         | inert | is stored and read back, and has no effect | {} |\n\
          | constant | always reads as the same value | {} |\n",
         lines.len(),
         count("works"),
-        count("kept"),
+        count("inert"),
         count("constant")
     );
     for (part, title) in PARTS {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use geometry::Finite;
 use geometry::pose::interpolate;
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
@@ -91,14 +92,14 @@ impl Bodies {
     }
 
     /// Makes the engine's bodies those of the plan; those whose making is unchanged go on as they are.
-    pub(super) fn follow(&mut self, plan: Vec<(Handle, BodyPlan)>, world: &mut World, scene: &mut Scene) {
+    pub(super) fn apply_plan(&mut self, plan: Vec<(Handle, BodyPlan)>, world: &mut World, scene: &mut Scene) {
         let mut old: BTreeMap<Handle, Body> = std::mem::take(&mut self.all).into_iter().collect();
         self.places = plan.iter().enumerate().map(|(place, (shape, _))| (*shape, place)).collect();
         for (shape, plan) in plan {
-            let goes_on = |body: &Body| body.build == plan.build && !wants_rebuild(scene, shape, body);
+            let is_unchanged = |body: &Body| body.build == plan.build && !wants_rebuild(scene, shape, body);
             // What does not go on stays in `old`, to be removed from the engine.
-            let kept = if old.get(&shape).is_some_and(goes_on) { old.remove(&shape) } else { None };
-            let body = match kept {
+            let existing = if old.get(&shape).is_some_and(is_unchanged) { old.remove(&shape) } else { None };
+            let body = match existing {
                 Some(body) => body.with_surface(shape, plan.surface, world),
                 None => Body::insert(shape, plan, world, scene),
             };
@@ -257,7 +258,7 @@ impl Bodies {
         self.sweeping.clear();
         for (place, (shape, body)) in self.all.iter_mut().enumerate().filter(|(_, (_, body))| !body.build.dynamic) {
             let (Some(from), Ok(to)) = (body.pose(world), scene.world_pose(*shape)) else { continue };
-            body.sweep = (has_moved(&from, &to) && super::convert::is_finite(&to)).then_some((from, to));
+            body.sweep = (has_moved(&from, &to) && to.is_finite()).then_some((from, to));
             if body.sweep.is_some() {
                 self.sweeping.push(place);
                 body.let_move(world);

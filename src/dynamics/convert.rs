@@ -32,8 +32,3 @@ pub(super) fn from_pose(pose: &EnginePose) -> Pose {
 pub(super) fn to_matrix(m: &Matrix3<f64>) -> Matrix {
     Matrix::from_cols_slice(m.as_slice())
 }
-
-/// Whether every component is a number the engine can work with.
-pub(super) fn is_finite(pose: &Pose) -> bool {
-    pose.translation.vector.iter().chain(pose.rotation.coords.iter()).all(|x| x.is_finite())
-}

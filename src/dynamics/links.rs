@@ -7,13 +7,14 @@
 use std::collections::BTreeMap;
 
 use articulation::{JointLoad, wrap_angle};
+use geometry::Finite;
 use nalgebra::{Vector3, Vector6};
 use rapier3d_f64::prelude::{
     GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, RigidBodyHandle, SpringCoefficients,
 };
 
 use super::bodies::Bodies;
-use super::convert::{from_pose, from_vector, is_finite, to_pose};
+use super::convert::{from_pose, from_vector, to_pose};
 use super::load::{Load, Rows};
 use super::motors::{Drive, Motion, Motor};
 use super::plan::{LinkKind, LinkPlan};
@@ -59,7 +60,7 @@ pub(super) struct Link {
 
 /// Takes along what hangs on joints that scripts moved, so that the joint finds it in its place: wheels of omnidirectional robots turn
 /// their joints back in every step. Velocities stay.
-pub(super) fn carry(
+pub(super) fn move_with_joints(
     links: &Links,
     plans: &BTreeMap<Handle, LinkPlan>,
     bodies: &Bodies,
@@ -83,7 +84,7 @@ pub(super) fn carry(
 }
 
 /// Makes the engine's constraints those of the plan.
-pub(super) fn follow(
+pub(super) fn apply_plan(
     links: &mut Links,
     plans: BTreeMap<Handle, LinkPlan>,
     bodies: &Bodies,
@@ -95,14 +96,14 @@ pub(super) fn follow(
         let (Some(first), Some(second)) = (bodies.get(plan.first), bodies.get(plan.second)) else { continue };
         let ends = [first.rigid, second.rigid];
         let reset = scene.object(handle).is_ok_and(|object| object.dynamics_reset);
-        let goes_on = |link: &Link| link.plan == plan && link.bodies == ends && !reset;
-        let kept = if old.get(&handle).is_some_and(goes_on) { old.remove(&handle) } else { None };
-        let mut link = match kept {
+        let is_unchanged = |link: &Link| link.plan == plan && link.bodies == ends && !reset;
+        let existing = if old.get(&handle).is_some_and(is_unchanged) { old.remove(&handle) } else { None };
+        let mut link = match existing {
             Some(link) => link,
             None => Link::insert(plan, ends, world),
         };
         if let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) {
-            link.take_limits(joint, world);
+            link.set_limits(joint, world);
             if link.fresh {
                 link.motion.position = joint.position + wrap_angle(link.motion.position - joint.position);
             }
@@ -150,7 +151,7 @@ impl Link {
         }
     }
 
-    fn take_limits(&mut self, joint: &Joint, world: &mut World) {
+    fn set_limits(&mut self, joint: &Joint, world: &mut World) {
         let (Some(axis), Some(link)) = (self.axis(), world.joints.get_mut(self.joint, false)) else { return };
         let has_stops = !joint.cyclic && (self.plan.kind == LinkKind::Prismatic || joint.range < WIDEST_STOPS);
         self.stops = has_stops.then_some([joint.min, joint.min + joint.range]);
@@ -221,7 +222,7 @@ impl Link {
 
     /// Reads position, velocity, effort and load after a sub-step of `step` seconds; returns the pose of the moving side.
     pub(super) fn after_step(&mut self, world: &World, step: f64) -> Option<Pose> {
-        let relative = self.deviation(world).filter(is_finite)?;
+        let relative = self.deviation(world).and_then(Finite::finite)?;
         let before = self.motion.position;
         let position = self.plan.kind.joint().continued_coordinate(&relative, before, self.turned);
         self.motion = Motion { position, velocity: (position - before) / step };
@@ -230,20 +231,17 @@ impl Link {
         let solution = self.solution.take().unwrap_or(JointLoad { rows: Vector6::zeros(), motor: 0.0 });
         let axis = self.axis().filter(|_| self.shared && self.drive.is_some());
         let impulse = axis.map_or(0.0, |axis| joint.data.motors[axis as usize].impulse);
-        self.efforts.push(finite(impulse / step - solution.motor));
+        // What overflowed is not read at all.
+        self.efforts.push((impulse / step - solution.motor).finite().unwrap_or(0.0));
         if let Some(residual) = self.rows.take() {
             let impulses = if self.shared { joint.impulses } else { Default::default() };
             let (force, torque) = residual.load(&impulses, step);
-            let load = |of: [f64; 3], at: usize| [0, 1, 2].map(|i| finite(of[i] - solution.rows[at + i]));
+            let load =
+                |of: [f64; 3], at: usize| [0, 1, 2].map(|i| (of[i] - solution.rows[at + i]).finite().unwrap_or(0.0));
             self.loads.push((load(force, 0), load(torque, 3)));
         }
         Some(relative)
     }
-}
-
-/// What overflowed is not read at all.
-fn finite(reading: f64) -> f64 {
-    if reading.is_finite() { reading } else { 0.0 }
 }
 
 /// rapier knows no screw: what ties its turns to its way, only the exact solution holds.
@@ -259,7 +257,7 @@ fn locked_axes(plan: &LinkPlan) -> JointAxesMask {
 }
 
 /// Clears the reset requests of links that were rebuilt.
-pub(super) fn take_resets(links: &Links, scene: &mut Scene) {
+pub(super) fn clear_resets(links: &Links, scene: &mut Scene) {
     for &handle in links.keys() {
         if scene.object(handle).is_ok_and(|object| object.dynamics_reset) {
             // The handle was just read.

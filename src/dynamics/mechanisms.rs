@@ -8,13 +8,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use articulation::{BodyMotion, BodyProperties, BodyState, JointProperties, JointState, Mechanism, spatial};
-use geometry::partition;
+use geometry::{Finite, partition};
 use nalgebra::Vector6;
 use rapier3d_f64::prelude::{RigidBody, RigidBodyHandle};
 
 use super::bodies::{Bodies, Body};
 use super::contacts;
-use super::convert::{from_pose, from_vector, is_finite, to_pose, to_vector};
+use super::convert::{from_pose, from_vector, to_pose, to_vector};
 use super::links::{Link, Links};
 use super::plan::LinkPlan;
 use super::world::World;
@@ -242,7 +242,7 @@ impl Linked {
             self.links.iter().map(|handle| links.get(handle).map(|link| link.turned)).collect();
         let (Some(motions), Some(turned)) = (motions, turned) else { return };
         for (body, corrected) in self.bodies.iter().zip(self.mechanism.correct_positions(&motions, &turned)) {
-            let Some(motion) = corrected.filter(|motion| is_finite(&motion.pose)) else { continue };
+            let Some(motion) = corrected.filter(|motion| motion.pose.is_finite()) else { continue };
             if let Some(rigid) = world.bodies.get_mut(body.rigid) {
                 rigid.set_position(to_pose(&motion.pose), false);
                 rigid.set_linvel(to_vector(linear(&motion.velocity)), false);

@@ -148,7 +148,7 @@ impl Dynamics {
             return Ok(None);
         }
         let sub_steps = settings.sub_steps(time_step);
-        self.follow(scene);
+        self.update_plan(scene);
         if !self.bodies.iter().any(|(_, body)| body.build.dynamic) {
             return Ok(None);
         }
@@ -163,7 +163,7 @@ impl Dynamics {
     }
 
     /// Makes a new plan when something it depends on has changed.
-    fn follow(&mut self, scene: &mut Scene) {
+    fn update_plan(&mut self, scene: &mut Scene) {
         let changed = self.has_new_changes(scene);
         let released = self.frozen.release(scene);
         if !changed
@@ -177,10 +177,10 @@ impl Dynamics {
         let world = self.world.get_or_insert_with(World::new);
         let plan = Plan::new(scene, &self.frozen);
         self.far = plan.far;
-        self.bodies.follow(plan.bodies, world, scene);
-        links::carry(&self.links, &plan.links, &self.bodies, world, scene);
-        links::follow(&mut self.links, plan.links, &self.bodies, world, scene);
-        links::take_resets(&self.links, scene);
+        self.bodies.apply_plan(plan.bodies, world, scene);
+        links::move_with_joints(&self.links, &plan.links, &self.bodies, world, scene);
+        links::apply_plan(&mut self.links, plan.links, &self.bodies, world, scene);
+        links::clear_resets(&self.links, scene);
         contacts::ask_about_all(world, self.asks);
         let_sleep(&self.bodies, &self.links, world, self.asks);
         self.contacts.forget_resting();
@@ -206,7 +206,7 @@ impl Dynamics {
             let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) else { continue };
             let drive = match joint.mode {
                 JointMode::Dependent => master_of(scene, joint, &motions)
-                    .and_then(|master| motors::follow_master(joint, link.motion, master, call.step)),
+                    .and_then(|master| motors::coupled_drive(joint, link.motion, master, call.step)),
                 _ => {
                     if joint.control.asks() {
                         requests.push(request(handle, joint, link));

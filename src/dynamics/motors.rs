@@ -75,7 +75,15 @@ impl Motor {
         }
         let (velocity, acceleration) = self.profile;
         let (target, max_accel, max_jerk) = (joint.target_velocity, joint.max_accel, joint.max_jerk);
-        self.follow(ruckig_plan::velocity_step(now.position, velocity, acceleration, target, max_accel, max_jerk, step))
+        self.advance_profile(ruckig_plan::velocity_step(
+            now.position,
+            velocity,
+            acceleration,
+            target,
+            max_accel,
+            max_jerk,
+            step,
+        ))
     }
 
     fn approach(&mut self, joint: &Joint, [p, i, d]: [f64; 3], now: Motion, step: f64) -> f64 {
@@ -94,7 +102,7 @@ impl Motor {
                 limits.2,
                 step,
             );
-            return self.follow(next);
+            return self.advance_profile(next);
         }
         self.integral = if i == 0.0 { 0.0 } else { self.integral + error * step };
         let wish = (p * error + i * self.integral - d * now.velocity) / CONTROL_PERIOD;
@@ -102,7 +110,7 @@ impl Motor {
     }
 
     /// Takes over a step of a profile; limits that allow none leave the joint where it is.
-    fn follow(&mut self, next: Result<(f64, f64, f64), ruckig::RuckigError>) -> f64 {
+    fn advance_profile(&mut self, next: Result<(f64, f64, f64), ruckig::RuckigError>) -> f64 {
         let (_, velocity, acceleration) = next.unwrap_or_default();
         self.profile = (velocity, acceleration);
         velocity
@@ -120,7 +128,7 @@ pub(super) fn answered(velocity: Option<f64>, force: Option<f64>) -> Option<Driv
 }
 
 /// A joint that depends on another one of the dynamics follows it rigidly. `master`: the other joint.
-pub(super) fn follow_master(joint: &Joint, now: Motion, master: Motion, step: f64) -> Option<Drive> {
+pub(super) fn coupled_drive(joint: &Joint, now: Motion, master: Motion, step: f64) -> Option<Drive> {
     let law = joint.dependency?;
     let error = law.offset + law.coefficient * master.position - now.position;
     Some(Drive { velocity: error / step + law.coefficient * master.velocity, force: RIGID_FORCE })

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use articulation::JointKind;
-use geometry::{MassProperties, Mesh};
+use geometry::{Finite, MassProperties, Mesh};
 
 use super::frozen::Frozen;
 use crate::scene::joint::{Joint, JointMode, JointSolver, JointType};
@@ -156,7 +156,7 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
     }
     let flags = scene.calculated_model_property(handle);
     let (dynamic_tree, respondable_tree) = (flags & NOT_DYNAMIC == 0, flags & NOT_RESPONDABLE == 0);
-    let is_somewhere = || scene.world_pose(handle).is_ok_and(|pose| super::convert::is_finite(&pose));
+    let is_somewhere = || scene.world_pose(handle).is_ok_and(|pose| pose.is_finite());
     if !(dynamic_tree || respondable_tree) || !is_somewhere() {
         return None;
     }

@@ -86,7 +86,7 @@ impl Dynamics {
         }
         if !shapes.is_empty() {
             self.known = None;
-            self.follow(scene);
+            self.update_plan(scene);
         }
     }
 

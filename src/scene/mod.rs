@@ -34,5 +34,5 @@ pub use tree::path::clean_alias;
 pub use tree::references::{ReferenceLists, References};
 pub use values::custom_data::{CustomData, Edit, Edited, Holder, Namespace};
 pub use values::data::{Data, Key};
-pub use values::inert::Kept;
+pub use values::inert::InertValues;
 pub use values::value_type::ValueType;

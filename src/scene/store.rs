@@ -7,7 +7,7 @@ use super::shape::Part;
 use super::shape::Shape;
 use super::tree::identity;
 use super::tree::object::{Kind, Object};
-use super::{Change, CustomData, Field, Handle, Journal, Kept, SceneError, SceneResult, Settings, Uid};
+use super::{Change, CustomData, Field, Handle, InertValues, Journal, SceneError, SceneResult, Settings, Uid};
 
 /// Identifiers of meshes begin above all handles and their flags: both name targets of properties.
 pub const FIRST_MESH_UID: Uid = 100_000_000;
@@ -42,7 +42,7 @@ pub struct Scene {
     pub signals: CustomData,
     pub(super) textures: BTreeMap<i64, super::appearance::texture::Texture>,
     /// Values of the scene itself that have no effect here, as scripts set them.
-    pub kept: Kept,
+    pub inert: InertValues,
 }
 
 impl Scene {

@@ -13,6 +13,7 @@
 //! | sweeping a cross-section along a path | [`Extrusion`] |
 //! | mass, centre of mass, inertia | [`MassProperties`], [`mass`] |
 //! | meshes of cuboids, spheres, cylinders, cones, capsules, height fields | [`primitive`] |
+//! | whether numbers and poses are finite | [`Finite`] |
 //! | groups of things that are connected | [`partition`] |
 //!
 //! # Units and frames
@@ -55,12 +56,14 @@
 //! assert!((hull.volume() - 1.1 * 0.2 * 0.4).abs() < 1e-9);
 //! ```
 
+mod finite;
 pub mod mass;
 mod mesh;
 pub mod pose;
 pub mod primitive;
 mod union_find;
 
+pub use finite::Finite;
 pub use mass::MassProperties;
 pub use mesh::{BoundingBox, DecompositionParameters, Extrusion, Mesh, MeshError};
 pub use pose::{Pose, PoseError};

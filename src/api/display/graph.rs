@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use api_macro::api;
+use geometry::Finite;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::graph::{Curve, Graph, Stream, Style, Transformation, TransformationKind};
@@ -70,7 +71,10 @@ fn add_graph_stream(
     #[default([1.0, 0.0, 0.0])] color: [f64; 3],
     #[default(PI)] cyclic_range: f64,
 ) -> Result<i64> {
-    let transformation = Transformation { cyclic_range: finite(cyclic_range)?, ..Transformation::default() };
+    let transformation = Transformation {
+        cyclic_range: cyclic_range.finite().ok_or(SceneError::InvalidArgument)?,
+        ..Transformation::default()
+    };
     let style = style(stream_name, unit, options.0, color);
     let stream = Stream { visible: options.0 & option::HIDDEN == 0, transformation, ..Stream::new(style) };
     change(cx, graph_handle, |graph| graph.add_stream(stream))
@@ -108,16 +112,13 @@ fn set_graph_stream_transformation(
     #[default(1)] mov_avg_period: Number,
 ) -> Result<()> {
     let kind = TransformationKind::from_code(tr_type.0).ok_or(SceneError::InvalidArgument)?;
-    let (multiplier, offset, period) = (finite(mult)?, finite(off)?, mov_avg_period.0.max(1));
+    let [multiplier, offset] = [mult, off].finite().ok_or(SceneError::InvalidArgument)?;
+    let period = mov_avg_period.0.max(1);
     change(cx, graph_handle, |graph| {
         let own = &mut graph.stream_mut(stream_id.0)?.transformation;
         *own = Transformation { kind, multiplier, offset, period, cyclic_range: own.cyclic_range };
         Ok(())
     })
-}
-
-fn finite(number: f64) -> Result<f64> {
-    if number.is_finite() { Ok(number) } else { Err(SceneError::InvalidArgument.into()) }
 }
 
 /// Adds a curve through the values of two or three streams, or changes the one with that name.
@@ -151,7 +152,7 @@ fn add_graph_curve(
     if stream_ids.len() < dimensions || default_values.len() < dimensions {
         return Err(ApiError::TableSize);
     }
-    default_values.iter().try_for_each(|value| finite(*value).map(drop))?;
+    default_values.as_slice().finite().ok_or(SceneError::InvalidArgument)?;
     let curve = Curve {
         style: style(curve_name, unit_str, options.0, color),
         width: curve_width.0.clamp(1, 100),
@@ -273,7 +274,7 @@ fn set_graph_user_data(cx: &mut Cx, graph_handle: Handle, data_stream_name: Stri
 /// @param simulationTime of the values
 #[api("sim.handleGraph")]
 fn handle_graph(cx: &mut Cx, object_handle: Number, simulation_time: f64) -> Result<()> {
-    let time = finite(simulation_time)?;
+    let time = simulation_time.finite().ok_or(SceneError::InvalidArgument)?;
     for handle in graphs(cx, object_handle)? {
         change(cx, handle, |graph| {
             graph.record(time);

@@ -102,7 +102,7 @@ fn get_extension_string(
 ) -> Result<Option<String>> {
     let scene = cx.scene();
     let text = match (object_handle.0, usize::try_from(index.0)) {
-        (special::SCENE, _) => &scene.settings().surroundings.extension_string,
+        (special::SCENE, _) => &scene.settings().environment.extension_string,
         (raw, Err(_)) => &object(&scene, raw)?.extension_string,
         (raw, Ok(index)) => colour_extension(object(&scene, raw)?, index).ok_or(SceneError::InvalidArgument)?,
     };

@@ -67,7 +67,7 @@ fn set_shape_inertia(cx: &mut Cx, shape_handle: Handle, inertia_matrix: [f64; 9]
 /// @return result 1, or 0 when the shape has no volume
 #[api("sim.computeMassAndInertia")]
 fn compute_mass_and_inertia(cx: &mut Cx, shape_handle: Handle, density: f64) -> Result<i64> {
-    Ok(i64::from(cx.scene_mut().reshape(shape_handle, |shape| Ok(shape.weigh(density)))?))
+    Ok(i64::from(cx.scene_mut().reshape(shape_handle, |shape| Ok(shape.set_mass_from_density(density)))?))
 }
 
 /// Assigns a preset material to a shape, or the material of another shape.

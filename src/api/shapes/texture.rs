@@ -3,8 +3,8 @@
 use std::rc::Rc;
 
 use api_macro::api;
-use geometry::PrimitiveKind;
 use geometry::pose::euler::rotation_from_euler;
+use geometry::{Finite, PrimitiveKind};
 
 use crate::api::display::images::{failure, read_file};
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
@@ -66,7 +66,8 @@ fn create_texture(
     let plane = plane_sizes.unwrap_or([1.0, f64::from(height) / f64::from(width)]);
     let shape = Shape::primitive(PrimitiveKind::Plane, [plane[0], plane[1], 0.0], Default::default())?;
     let [x, y, angle] = std::array::from_fn(|i| xy_g.as_ref().and_then(|xy_g| xy_g.get(i)).copied().unwrap_or(0.0));
-    let (scale, frame) = (finite(scaling_uv.unwrap_or(plane))?, frame([x, y, 0.0], [0.0, 0.0, angle])?);
+    let (scale, frame) =
+        (scaling_uv.unwrap_or(plane).finite().ok_or(SceneError::InvalidData)?, frame([x, y, 0.0], [0.0, 0.0, angle])?);
     let id = cx.scene_mut().add_texture(texture)?;
     let mapping =
         TextureMapping { scale, frame, ..with_options(TextureMapping::new(TextureSource::Texture(id)), options.0) };
@@ -111,12 +112,8 @@ fn with_options(mapping: TextureMapping, options: i64) -> TextureMapping {
 }
 
 fn frame(position: [f64; 3], orientation: [f64; 3]) -> Result<Pose> {
-    let (position, orientation) = (finite(position)?, finite(orientation)?);
+    [position, orientation].finite().ok_or(SceneError::InvalidData)?;
     Ok(Pose::from_parts(position.into(), rotation_from_euler(&orientation)))
-}
-
-fn finite<const N: usize>(numbers: [f64; N]) -> Result<[f64; N]> {
-    if numbers.iter().all(|n| n.is_finite()) { Ok(numbers) } else { Err(SceneError::InvalidData.into()) }
 }
 
 /// The texture with a name: that of its file, without folder and ending.
@@ -170,7 +167,7 @@ fn set_shape_texture(
     let mode = i32::try_from(mapping_mode.0).ok().filter(|mode| (0..=3).contains(mode));
     let mapping = TextureMapping {
         mode: mode.ok_or(SceneError::InvalidArgument)?,
-        scale: finite(uv_scaling)?,
+        scale: uv_scaling.finite().ok_or(SceneError::InvalidData)?,
         frame: frame(position.unwrap_or_default(), orientation.unwrap_or_default())?,
         ..with_options(TextureMapping::new(source), options.0)
     };
@@ -245,7 +242,7 @@ pub(in crate::api) fn of_mesh(
     use shape_option as option;
     let bit = |bit: i64| options & bit != 0;
     let coordinates = coordinates.get(..2 * corners).ok_or(ApiError::TableSize)?;
-    let coordinates: Rc<[f32]> = finite_list(coordinates)?;
+    let coordinates: Rc<[f32]> = single_precision(coordinates)?;
     let layout = if bit(option::RGBA) { Layout::Rgba } else { Layout::Rgb };
     let picture = Picture::new(pixels, resolution.map(|side| side as i64), layout).map_err(failure)?;
     let picture = picture.flipped(bit(option::FLIP_X), !bit(option::KEEP_ROWS));
@@ -258,9 +255,9 @@ pub(in crate::api) fn of_mesh(
     })
 }
 
-fn finite_list(numbers: &[f64]) -> Result<Rc<[f32]>> {
+fn single_precision(numbers: &[f64]) -> Result<Rc<[f32]>> {
     let singles: Rc<[f32]> = numbers.iter().map(|n| *n as f32).collect();
-    if singles.iter().all(|n| n.is_finite()) { Ok(singles) } else { Err(SceneError::InvalidData.into()) }
+    if singles.is_finite() { Ok(singles) } else { Err(SceneError::InvalidData.into()) }
 }
 
 /// The texture of a mesh as `sim.getShapeViz` returns it; nothing without a texture or image.

@@ -10,7 +10,7 @@ use super::{Loaded, SceneFile, save};
 use crate::format::ttt::File;
 use crate::scene::parameters::engine_blocks::EngineValues;
 use crate::scene::shape::Shape;
-use crate::scene::{DynamicsSettings, Handle, Kept, Kind, Object, Pose, Scene, Settings};
+use crate::scene::{DynamicsSettings, Handle, InertValues, Kind, Object, Pose, Scene, Settings};
 
 /// The smaller ones of other people's scenes and models, where they are at hand.
 pub(crate) fn real_files() -> Vec<PathBuf> {
@@ -57,15 +57,15 @@ fn description(scene: &Scene, object: &Object) -> String {
                 part.mesh = Rc::default();
             }
             text += &engines(&|engine| shape.material.engine_rows(engine));
-            shape.material.engine_values = Kept::default();
+            shape.material.engine_values = InertValues::default();
         }
         Kind::Joint(joint) => {
             text += &engines(&|engine| joint.engine_rows(engine));
-            joint.engine_values = Kept::default();
+            joint.engine_values = InertValues::default();
         }
         Kind::Dummy(dummy) => {
             text += &engines(&|engine| dummy.engine_rows(engine));
-            dummy.engine_values = Kept::default();
+            dummy.engine_values = InertValues::default();
         }
         _ => {}
     }
@@ -120,12 +120,12 @@ pub(crate) fn assert_same(a: &Scene, b: &Scene, what: &str) {
     assert_eq!(rows(a), rows(b), "{what}");
     let plain = |scene: &Scene| {
         let settings = scene.settings().clone();
-        let dynamics = DynamicsSettings { engine_values: Kept::default(), ..settings.dynamics };
+        let dynamics = DynamicsSettings { engine_values: InertValues::default(), ..settings.dynamics };
         Settings { dynamics, ..settings }
     };
     assert_eq!(plain(a), plain(b), "{what}");
     assert_eq!(a.custom_data, b.custom_data, "{what}");
-    assert_eq!(a.kept, b.kept, "{what}");
+    assert_eq!(a.inert, b.inert, "{what}");
     assert!(a.textures().eq(b.textures()), "{what}: other textures");
 }
 

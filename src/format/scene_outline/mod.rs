@@ -46,7 +46,7 @@ const HANDLES: [&str; 5] = ["dependency", "linked_dummy", "tracked_and_size", "d
 pub struct Outline {
     /// In the order of the tree.
     pub objects: Vec<Item>,
-    /// Simulation, physics, surroundings.
+    /// Simulation, physics, environment.
     pub settings: Vec<(String, String)>,
 }
 

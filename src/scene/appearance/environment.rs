@@ -1,7 +1,7 @@
 //! The environment of a scene: ambient light, fog, background. Stored for files; nothing is drawn.
 
 #[derive(Debug, Clone, PartialEq)]
-pub struct Surroundings {
+pub struct Environment {
     pub fog: Fog,
     /// Background colours, upper and lower; None if the file has none.
     pub background: Option<[[f32; 3]; 2]>,
@@ -25,7 +25,7 @@ pub struct Fog {
     pub colour: Option<[f32; 3]>,
 }
 
-impl Default for Surroundings {
+impl Default for Environment {
     fn default() -> Self {
         Self {
             fog: Fog::default(),

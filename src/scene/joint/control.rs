@@ -4,6 +4,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use geometry::Finite;
+
 use super::{Control, Joint, JointMode, JointType, Motion};
 use crate::scene::{Field, Handle, Scene, SceneError, SceneResult};
 
@@ -196,7 +198,7 @@ impl Scene {
     pub fn set_joint_position(&mut self, handle: Handle, position: f64) -> SceneResult<bool> {
         let joint = self.object(handle)?.joint()?;
         joint.single_axis()?;
-        finite(&[position])?;
+        [position].finite().ok_or(SceneError::InvalidData)?;
         if joint.motion.is_some() {
             return Ok(false);
         }
@@ -213,7 +215,7 @@ impl Scene {
 
     /// Sets whether a joint is cyclic, and its lower limit and range; the position follows.
     pub fn set_joint_interval(&mut self, handle: Handle, cyclic: bool, [min, range]: [f64; 2]) -> SceneResult<()> {
-        finite(&[min, range])?;
+        [min, range].finite().ok_or(SceneError::InvalidData)?;
         self.modify_joint(handle, |joint| joint.set_interval(cyclic, min, range))?;
         self.relimit_joint(handle)
     }
@@ -234,8 +236,8 @@ impl Scene {
     /// For spherical joints and targets that are no number.
     pub fn set_joint_target_position(&mut self, handle: Handle, target: f64, limits: &[f64]) -> SceneResult<()> {
         self.object(handle)?.joint()?.single_axis()?;
-        finite(&[target])?;
-        finite(limits)?;
+        [target].finite().ok_or(SceneError::InvalidData)?;
+        limits.finite().ok_or(SceneError::InvalidData)?;
         self.control_joint(handle, |joint| {
             joint.set_limits(limits);
             joint.target_position = if joint.cyclic { wrap_angle(target) } else { target };
@@ -256,8 +258,8 @@ impl Scene {
         initial: Option<f64>,
     ) -> SceneResult<()> {
         self.object(handle)?.joint()?.single_axis()?;
-        finite(&[target, initial.unwrap_or(0.0)])?;
-        finite(limits)?;
+        [target, initial.unwrap_or(0.0)].finite().ok_or(SceneError::InvalidData)?;
+        limits.finite().ok_or(SceneError::InvalidData)?;
         self.control_joint(handle, |joint| {
             if joint.mode == JointMode::Kinematic {
                 let fields = [&mut joint.max_accel, &mut joint.max_jerk];
@@ -277,11 +279,6 @@ impl Scene {
     pub fn modify_joint<R>(&mut self, handle: Handle, change: impl FnOnce(&mut Joint) -> R) -> SceneResult<R> {
         self.try_modify(handle, Field::Joint, |object| object.joint_mut().map(change))
     }
-}
-
-/// Fails unless all `numbers` are numbers.
-fn finite(numbers: &[f64]) -> SceneResult<()> {
-    if numbers.iter().all(|n| n.is_finite()) { Ok(()) } else { Err(SceneError::InvalidData) }
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use std::f64::consts::{PI, TAU};
 
 use super::parameters::engine::ENGINES;
-use super::{Handle, Kept, Pose};
+use super::{Handle, InertValues, Pose};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointType {
@@ -114,7 +114,7 @@ pub struct Joint {
     pub force: Option<f64>,
     pub raw_force: Option<f64>,
     /// Parameters of physics engines that have no field, as they were set.
-    pub engine_values: Kept,
+    pub engine_values: InertValues,
 }
 
 /// q = offset + coefficient * position of the master.
@@ -173,7 +173,7 @@ impl Joint {
             error: None,
             force: None,
             raw_force: None,
-            engine_values: Kept::default(),
+            engine_values: InertValues::default(),
         }
     }
 

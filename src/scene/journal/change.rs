@@ -28,8 +28,8 @@ pub enum Field {
     Sensor,
     Script,
     Priority,
-    /// A value that is only kept for scripts.
-    Kept,
+    /// An inert value: stored for scripts, without an effect.
+    Inert,
     Other,
 }
 
@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn topics_have_numbers_of_their_own() {
         let topics = [Topic::Added, Topic::Removed, Topic::Selection, Topic::Settings, Topic::Stored];
-        let fields = [Field::Alias, Field::Pose, Field::Kept, Field::Other].map(Topic::Field);
+        let fields = [Field::Alias, Field::Pose, Field::Inert, Field::Other].map(Topic::Field);
         let mut seen = Topics::NONE;
         for topic in topics.into_iter().chain(fields) {
             assert!(!seen.contains(topic), "{topic:?}");

@@ -9,7 +9,7 @@ use crate::scene::{Data, ValueType};
 
 /// `owner<TAB>name<TAB>type<TAB>flags<TAB>state<TAB>default<TAB>numbers<TAB>bit`, in the order of enumeration.
 ///
-/// The state is `works` (the physics here uses it), `kept` (stored and read back) or `number` (kept, and no property). A list has a
+/// The state is `works` (the physics here uses it), `inert` (stored and read back) or `number` (inert, and no property). A list has a
 /// number per element. `bit` is the number that joins switches of an engine, and the bit of this one. Defaults are those of the file
 /// format and of the engines (spec: dynamics 5, dynamics 6); those of Vortex' switches, which neither states, are our choice.
 const TABLE: &str = include_str!("engine.tsv");

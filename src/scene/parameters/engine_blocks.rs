@@ -8,7 +8,7 @@ use super::engine_values::{element, value_in, with_element};
 use crate::scene::joint::Joint;
 use crate::scene::shape::Material;
 use crate::scene::tree::dummy::Dummy;
-use crate::scene::{Data, DynamicsSettings, Kept};
+use crate::scene::{Data, DynamicsSettings, InertValues};
 
 /// The numbers of a row of parameters: the first one of the real ones and how many a file of 4.10 holds, then of the integers.
 #[derive(Debug, Clone, Copy)]
@@ -130,7 +130,7 @@ impl EngineValues for DynamicsSettings {
         SCENE.get(engine).copied()
     }
     fn value(&self, param: &EngineParam) -> Data {
-        kept_value(&self.engine_values, param, EngineOwner::Scene)
+        inert_value(&self.engine_values, param, EngineOwner::Scene)
     }
     fn set(&mut self, param: &'static EngineParam, value: Data) {
         self.engine_values.set(param.name, value);
@@ -142,14 +142,14 @@ impl EngineValues for Dummy {
         (engine == 4).then_some(DUMMY)
     }
     fn value(&self, param: &EngineParam) -> Data {
-        kept_value(&self.engine_values, param, EngineOwner::Dummy)
+        inert_value(&self.engine_values, param, EngineOwner::Dummy)
     }
     fn set(&mut self, param: &'static EngineParam, value: Data) {
         self.engine_values.set(param.name, value);
     }
 }
 
-fn kept_value(values: &Kept, param: &EngineParam, owner: EngineOwner) -> Data {
+fn inert_value(values: &InertValues, param: &EngineParam, owner: EngineOwner) -> Data {
     debug_assert_eq!(param.owner, owner, "numbers of one row belong to one owner");
     value_in(values, param)
 }

@@ -4,7 +4,7 @@
 use super::engine::{ENGINES, EngineOwner, EngineParam, Numbered, engine_params, is_step_size, numbered};
 use crate::scene::joint::Joint;
 use crate::scene::shape::Material;
-use crate::scene::{Data, Field, Handle, Kept, Object, Scene, SceneError, SceneResult};
+use crate::scene::{Data, Field, Handle, InertValues, Object, Scene, SceneError, SceneResult};
 
 /// The version of Bullet that has the newer friction; version 0 is Bullet 2.78.
 const BULLET_283: i64 = 283;
@@ -34,7 +34,7 @@ impl Scene {
             return Ok(());
         }
         let handle = object.ok_or(SceneError::InvalidArgument)?;
-        let field = if param.works { Field::Dynamics } else { Field::Kept };
+        let field = if param.works { Field::Dynamics } else { Field::Inert };
         self.try_modify(handle, field, |object| set_in(object, param, value))
     }
 
@@ -101,7 +101,7 @@ impl Scene {
 }
 
 /// Values that were not set are the default.
-pub(in crate::scene) fn value_in(values: &Kept, param: &EngineParam) -> Data {
+pub(in crate::scene) fn value_in(values: &InertValues, param: &EngineParam) -> Data {
     values.get(param.name).unwrap_or(&param.default).clone()
 }
 

@@ -39,8 +39,8 @@ impl Scene {
     pub fn set_int_param(&mut self, handle: Handle, id: i64, value: i64) -> SceneResult<bool> {
         match id {
             10 => self.modify(handle, Field::Layer, |object| object.layer = value & 0xffff)?,
-            27 => self.modify(handle, Field::Kept, |object| object.self_collision_indicator = value)?,
-            38 => self.modify(handle, Field::Kept, |object| object.hierarchy_colour = value)?,
+            27 => self.modify(handle, Field::Inert, |object| object.self_collision_indicator = value)?,
+            38 => self.modify(handle, Field::Inert, |object| object.hierarchy_colour = value)?,
             _ => return self.set_kind_int_param(handle, id, value),
         }
         Ok(true)
@@ -78,7 +78,7 @@ impl Scene {
     pub fn set_string_param(&mut self, handle: Handle, id: i64, value: &[u8]) -> SceneResult<bool> {
         let text = String::from_utf8_lossy(value).into_owned();
         let field = match (&self.object(handle)?.kind, id) {
-            (Kind::Dummy(_), ASSEMBLY_TAG) => Field::Kept,
+            (Kind::Dummy(_), ASSEMBLY_TAG) => Field::Inert,
             (Kind::Shape(_), COLOUR_NAME) => Field::Appearance,
             _ => return Ok(false),
         };

@@ -85,9 +85,9 @@ impl Volume {
         let mut edges = Vec::new();
         for turned in [false, true] {
             let place = |along: f64, across: f64| if turned { [0.0, across, along] } else { [across, 0.0, along] };
-            let [mut outline, inner] = [radii[1], radii[0]].map(|radius| self.arc(radius, place));
-            outline.extend(inner.into_iter().rev());
-            edges.extend(closed(&outline));
+            let [mut boundary, inner] = [radii[1], radii[0]].map(|radius| self.arc(radius, place));
+            boundary.extend(inner.into_iter().rev());
+            edges.extend(closed(&boundary));
         }
         for radius in radii {
             let (sin, cos) = (0.5 * self.angle).sin_cos();

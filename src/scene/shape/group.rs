@@ -99,7 +99,7 @@ impl Scene {
             object.layer = source.layer;
             object.size_factor = source.size_factor;
             object.movement = source.movement;
-            object.kept = source.kept;
+            object.inert = source.inert;
             object.custom_data = source.custom_data;
         })?;
         Ok(new)

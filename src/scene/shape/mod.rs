@@ -11,7 +11,7 @@ use geometry::{BoundingBox, MassProperties, Mesh, PrimitiveKind};
 
 use super::appearance::colour::Colour;
 use super::appearance::texture_mapping::TextureMapping;
-use super::{Kept, Pose, Uid};
+use super::{InertValues, Pose, Uid};
 
 /// Frictions of the presets that hold things, in the order of [`Material::of_frictions`].
 const GRIP: [f64; 5] = [1.0, 0.5, 1.0, 1.0, 1.0];
@@ -114,7 +114,7 @@ pub struct Material {
     pub linear_damping: f64,
     pub angular_damping: f64,
     /// Parameters of physics engines that have no field.
-    pub engine_values: Kept,
+    pub engine_values: InertValues,
 }
 
 impl Material {
@@ -123,7 +123,7 @@ impl Material {
 
     /// A material with the frictions of Bullet 2.78, Bullet 2.83, ODE, and Newton's static and kinetic one.
     fn of_frictions([friction, others @ ..]: [f64; 5]) -> Self {
-        let mut engine_values = Kept::default();
+        let mut engine_values = InertValues::default();
         let names = ["bullet.friction", "ode.friction", "newton.staticFriction", "newton.kineticFriction"];
         for (name, friction) in names.into_iter().zip(others) {
             engine_values.set(name, friction.into());

@@ -86,7 +86,7 @@ impl Shape {
     }
 
     /// Sets mass, centre and inertia from a density (kg/m3); false when the shape has no volume.
-    pub fn weigh(&mut self, density: f64) -> bool {
+    pub fn set_mass_from_density(&mut self, density: f64) -> bool {
         let primitive = match self.parts.as_slice() {
             [part] => part.primitive.as_ref().map(|primitive| (primitive.kind, primitive.size)),
             _ => None,

@@ -1,7 +1,7 @@
 //! Settings of a scene, as in CoppeliaSim's simulation dialog.
 
-use crate::scene::Kept;
-use crate::scene::appearance::environment::Surroundings;
+use crate::scene::InertValues;
+use crate::scene::appearance::environment::Environment;
 
 /// Scene-wide settings. Times in seconds.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +23,7 @@ pub struct Settings {
     pub acknowledgment: String,
     /// The scene may not be saved.
     pub locked: bool,
-    pub surroundings: Surroundings,
+    pub environment: Environment,
 }
 
 /// Settings of the physics.
@@ -38,7 +38,7 @@ pub struct DynamicsSettings {
     pub engine: [i64; 2],
     pub show_contact_points: bool,
     /// Parameters of physics engines, as they were set.
-    pub engine_values: Kept,
+    pub engine_values: InertValues,
 }
 
 impl Default for Settings {
@@ -57,7 +57,7 @@ impl Default for Settings {
             steps_per_rendering: 1,
             acknowledgment: String::new(),
             locked: false,
-            surroundings: Surroundings::default(),
+            environment: Environment::default(),
         }
     }
 }
@@ -70,7 +70,7 @@ impl Default for DynamicsSettings {
             gravity: [0.0, 0.0, -9.81],
             engine: [0, 0],
             show_contact_points: false,
-            engine_values: Kept::default(),
+            engine_values: InertValues::default(),
         }
     }
 }

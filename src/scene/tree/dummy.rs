@@ -1,6 +1,6 @@
 //! Dummies: frames, and the ends of loop closures.
 
-use crate::scene::{Field, Handle, Kept, Scene, SceneResult};
+use crate::scene::{Field, Handle, InertValues, Scene, SceneResult};
 
 /// What the link of two dummies means (`sim.dummytype_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,13 +21,13 @@ pub struct Dummy {
     /// Which dummies of other models this one takes when models are assembled; `*` for any.
     pub assembly_tag: String,
     /// Parameters of physics engines, as they were set.
-    pub engine_values: Kept,
+    pub engine_values: InertValues,
 }
 
 impl Dummy {
     pub fn new(size: f64) -> Self {
         let assembly_tag = "*".to_owned();
-        Self { size, link: None, link_type: LinkType::Default, assembly_tag, engine_values: Kept::default() }
+        Self { size, link: None, link_type: LinkType::Default, assembly_tag, engine_values: InertValues::default() }
     }
 }
 

@@ -13,7 +13,7 @@ use crate::scene::shape::Shape;
 use crate::scene::simulation::restore::InitialState;
 use crate::scene::voxels::octree::OcTree;
 use crate::scene::voxels::point_cloud::PointCloud;
-use crate::scene::{CustomData, Handle, Kept, Movement, Pose, SceneError, SceneResult, Uid};
+use crate::scene::{CustomData, Handle, InertValues, Movement, Pose, SceneError, SceneResult, Uid};
 
 /// The value of [`Object::model_property`] of an object that is no model base.
 pub const NOT_MODEL: i64 = 0xf000;
@@ -60,7 +60,7 @@ pub struct Object {
     /// Named values that last as long as the scripts that set them; they are not saved.
     pub signals: CustomData,
     /// Values that have no effect here, as scripts set them.
-    pub kept: Kept,
+    pub inert: InertValues,
     pub assembly: Assembly,
     /// Settings of renderers and the like, such as `povray {...} openGL3 {...}`.
     pub extension_string: String,
@@ -183,7 +183,7 @@ impl Object {
             priority: 1,
             custom_data: CustomData::default(),
             signals: CustomData::default(),
-            kept: Kept::default(),
+            inert: InertValues::default(),
             assembly: Assembly::default(),
             extension_string: String::new(),
             colour_extension: String::new(),

@@ -6,11 +6,11 @@ use crate::scene::{Change, Data, Field, Handle, Scene, SceneResult};
 
 /// Values by property name. Values that were not set are absent; callers supply the default.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Kept {
+pub struct InertValues {
     values: BTreeMap<&'static str, Data>,
 }
 
-impl Kept {
+impl InertValues {
     pub fn get(&self, name: &str) -> Option<&Data> {
         self.values.get(name)
     }
@@ -30,25 +30,25 @@ impl Scene {
     ///
     /// # Errors
     /// When the object does not exist.
-    pub fn kept(&self, owner: Option<Handle>, name: &str) -> SceneResult<Option<&Data>> {
-        let kept = match owner {
-            None => &self.kept,
-            Some(handle) => &self.object(handle)?.kept,
+    pub fn inert_value(&self, owner: Option<Handle>, name: &str) -> SceneResult<Option<&Data>> {
+        let values = match owner {
+            None => &self.inert,
+            Some(handle) => &self.object(handle)?.inert,
         };
-        Ok(kept.get(name))
+        Ok(values.get(name))
     }
 
-    /// Keeps a value with an object, or with the scene itself (None).
+    /// Sets an inert value of an object, or of the scene itself (None).
     ///
     /// # Errors
     /// When the object does not exist.
-    pub fn keep(&mut self, owner: Option<Handle>, name: &'static str, value: Data) -> SceneResult<()> {
-        let kept = match owner {
-            None => &mut self.kept,
-            Some(handle) => &mut self.object_in_place(handle)?.kept,
+    pub fn set_inert_value(&mut self, owner: Option<Handle>, name: &'static str, value: Data) -> SceneResult<()> {
+        let values = match owner {
+            None => &mut self.inert,
+            Some(handle) => &mut self.object_in_place(handle)?.inert,
         };
-        if kept.set(name, value) {
-            let change = owner.map_or(Change::Settings, |handle| Change::Modified(handle, Field::Kept));
+        if values.set(name, value) {
+            let change = owner.map_or(Change::Settings, |handle| Change::Modified(handle, Field::Inert));
             self.note(change);
         }
         Ok(())
@@ -69,12 +69,12 @@ mod tests {
         let mut cursor = scene.journal().follow(Topics::ALL);
         scene.journal().skip(&mut cursor);
         for _ in 0..2 {
-            scene.keep(Some(dummy), "assemblyTag", Data::text("a")).expect("the dummy exists");
+            scene.set_inert_value(Some(dummy), "assemblyTag", Data::text("a")).expect("the dummy exists");
         }
         let Unread::Changes(changes) = scene.journal().read(&mut cursor) else { panic!("nothing was lost") };
-        assert!(changes.eq(&[Change::Modified(dummy, Field::Kept)]));
+        assert!(changes.eq(&[Change::Modified(dummy, Field::Inert)]));
         let copies = scene.copy_objects(&[dummy], CopyOptions(0)).expect("there is room");
-        assert_eq!(scene.kept(Some(copies[&dummy]), "assemblyTag"), Ok(Some(&Data::text("a"))));
-        assert_eq!(scene.kept(None, "assemblyTag"), Ok(None));
+        assert_eq!(scene.inert_value(Some(copies[&dummy]), "assemblyTag"), Ok(Some(&Data::text("a"))));
+        assert_eq!(scene.inert_value(None, "assemblyTag"), Ok(None));
     }
 }

@@ -1,5 +1,7 @@
 //! Property types: numbers, names, storage marks, defaults, validation.
 
+use geometry::Finite;
+
 use crate::scene::Data;
 
 macro_rules! value_types {
@@ -92,7 +94,7 @@ impl ValueType {
                 items.truncate(default.len());
             }
         }
-        (self.is_kind_of(&value) && is_finite(&value)).then_some(value)
+        (self.is_kind_of(&value) && value.is_finite()).then_some(value)
     }
 
     /// Whether values differ in size.
@@ -127,11 +129,14 @@ fn list<T: std::str::FromStr + Clone + Into<Data>>(text: &str, empty: &[T]) -> O
     }
 }
 
-fn is_finite(value: &Data) -> bool {
-    match value {
-        Data::Float(number) => number.is_finite(),
-        Data::Array(items) => items.iter().all(is_finite),
-        _ => true,
+impl Finite for Data {
+    /// Whether all numbers in a value, or in a list of values, are finite.
+    fn is_finite(&self) -> bool {
+        match self {
+            Self::Float(number) => number.is_finite(),
+            Self::Array(items) => items.as_slice().is_finite(),
+            _ => true,
+        }
     }
 }
 

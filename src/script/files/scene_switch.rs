@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use crate::format::scene_file::{Loaded, LoadedScript, SceneFile};
 use crate::scene::tree::script_object::{ScriptObject, ScriptType};
-use crate::scene::{Edit, Handle, Kept, Kind, Namespace, Settings};
+use crate::scene::{Edit, Handle, InertValues, Kind, Namespace, Settings};
 use crate::script::calls::callback::SysCall;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::instance::Script;
@@ -119,7 +119,7 @@ impl Sim {
         }
         self.app.borrow_mut().closed_scenes += 1;
         let mut scene = self.scene.borrow_mut();
-        scene.kept = Kept::default();
+        scene.inert = InertValues::default();
         scene.clear_textures();
         scene.modify_settings(|settings| *settings = Settings::default());
         for namespace in [Namespace::CustomData, Namespace::Signal] {

@@ -2,6 +2,8 @@
 
 use std::rc::Rc;
 
+use geometry::Finite;
+
 use super::Target;
 use crate::scene::{Data, Handle, SceneError, SceneResult};
 use crate::script::error::{ApiError, ApiResult};
@@ -26,20 +28,15 @@ pub(super) fn refused() -> SceneError {
     SceneError::Refused(ApiError::PropertyNotWritable.to_string())
 }
 
-/// A number as it is; infinite ones and NaN are refused.
-pub(super) fn finite(value: f64) -> SceneResult<f64> {
-    if value.is_finite() { Ok(value) } else { Err(refused()) }
-}
-
 /// A length, at least 10 micrometres; infinite ones and NaN are refused.
 pub(super) fn length(value: f64) -> SceneResult<f64> {
-    Ok(finite(value)?.max(1e-5))
+    Ok(value.finite().ok_or_else(refused)?.max(1e-5))
 }
 
 /// The first two numbers; fewer, infinite ones and NaN are refused.
 pub(super) fn pair(values: &[f64]) -> SceneResult<[f64; 2]> {
     let &[first, second] = values.first_chunk().ok_or_else(refused)?;
-    Ok([finite(first)?, finite(second)?])
+    Ok([first.finite().ok_or_else(refused)?, second.finite().ok_or_else(refused)?])
 }
 
 impl Subject<'_> {

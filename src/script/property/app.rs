@@ -7,7 +7,7 @@ use geometry::pose::quaternion_to_array;
 
 use super::access::{Accessor, Subject, subject_properties};
 use super::{PropertyValue, Quaternion};
-use crate::scene::{CustomData, Data, Kept};
+use crate::scene::{CustomData, Data, InertValues};
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::events::Protocol;
 use crate::script::files::app_storage::AppStorage;
@@ -29,7 +29,7 @@ pub(crate) struct AppData {
     /// Persistent data that is not meant for the file; None hides what the file has.
     pub persistent_data: BTreeMap<String, Option<Vec<u8>>>,
     /// Values that have no effect here, as scripts set them.
-    pub kept: Kept,
+    pub inert: InertValues,
     /// Random numbers read as properties.
     pub random: Random,
     /// How many scenes were closed.
@@ -124,7 +124,7 @@ fn set_console_level(subject: &Subject<'_>, word: Data) -> ApiResult<()> {
 }
 
 fn set_level(subject: &Subject<'_>, property: &'static str, word: Data) -> ApiResult<()> {
-    subject.sim.app.borrow_mut().kept.set(property, level_of(word)?.into());
+    subject.sim.app.borrow_mut().inert.set(property, level_of(word)?.into());
     Ok(())
 }
 

@@ -1,7 +1,9 @@
 //! Properties of display objects: lights, graphs, octrees and point clouds.
 
+use geometry::Finite;
+
 use super::Color;
-use super::access::{Accessor, finite, length, object_properties, refused};
+use super::access::{Accessor, length, object_properties, refused};
 use crate::scene::graph::Graph;
 use crate::script::Bytes;
 
@@ -13,7 +15,7 @@ pub(super) const LIGHT: &[Accessor] = object_properties! {
         Appearance |o, exponent| o.light_mut()?.spot_exponent = exponent.clamp(0, 100);
     "spotCutoffAngle": f64, |o| o.light()?.spot_cutoff,
         Appearance |o, angle| {
-            o.light_mut()?.spot_cutoff = finite(angle)?.clamp(0.0, std::f64::consts::FRAC_PI_2);
+            o.light_mut()?.spot_cutoff = angle.finite().ok_or_else(refused)?.clamp(0.0, std::f64::consts::FRAC_PI_2);
         };
     "attenuationFactors": Vec<f64>, |o| o.light()?.attenuation.to_vec(), Appearance |o, factors| {
         let factors: &[f64; 3] = factors.first_chunk().ok_or_else(refused)?;
@@ -35,7 +37,7 @@ pub(super) const GRAPH: &[Accessor] = object_properties! {
 
 pub(super) const OCTREE: &[Accessor] = object_properties! {
     "voxelSize": f64, |o| o.octree()?.voxel_size(),
-        Geometry |o, size| o.octree_mut()?.set_voxel_size(finite(size)?);
+        Geometry |o, size| o.octree_mut()?.set_voxel_size(size.finite().ok_or_else(refused)?);
     "voxels": Vec<f64>, |o| o.octree()?.voxels().flat_map(|(centre, _)| centre).collect();
     "colors": Bytes, |o| Bytes(o.octree()?.voxels().flat_map(|(_, voxel)| voxel.colour).collect());
 };
@@ -49,7 +51,7 @@ pub(super) const POINT_CLOUD: &[Accessor] = object_properties! {
     "maxPointsInCell": i64, |o| o.point_cloud()?.max_points_in_cell,
         Geometry |o, count| o.point_cloud_mut()?.max_points_in_cell = count.clamp(1, 100_000);
     "cellSize": f64, |o| o.point_cloud()?.max_cell_size,
-        Geometry |o, size| o.point_cloud_mut()?.max_cell_size = finite(size)?.clamp(0.001, 1.0);
+        Geometry |o, size| o.point_cloud_mut()?.max_cell_size = size.finite().ok_or_else(refused)?.clamp(0.001, 1.0);
     "pointDisplayFraction": f64, |o| o.point_cloud()?.display_fraction,
-        Appearance |o, fraction| o.point_cloud_mut()?.display_fraction = finite(fraction)?.clamp(0.01, 1.0);
+        Appearance |o, fraction| o.point_cloud_mut()?.display_fraction = fraction.finite().ok_or_else(refused)?.clamp(0.01, 1.0);
 };

@@ -1,8 +1,9 @@
 //! Properties of force sensors.
 
+use geometry::Finite;
 use geometry::pose::pose_to_array;
 
-use super::access::{Accessor, finite, length, object_properties, refused};
+use super::access::{Accessor, length, object_properties, refused};
 use super::{PoseArray, Vector3};
 use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
 use crate::scene::{Object, Pose, SceneResult};
@@ -24,9 +25,9 @@ pub(super) const FORCE_SENSOR: &[Accessor] = object_properties! {
             o.force_sensor_mut()?.consecutive_violations = u32::try_from(count.max(1)).unwrap_or(u32::MAX);
         };
     "forceThreshold": f64, |o| o.force_sensor()?.force_threshold,
-        Sensor |o, force| o.force_sensor_mut()?.force_threshold = finite(force)?.max(0.0);
+        Sensor |o, force| o.force_sensor_mut()?.force_threshold = force.finite().ok_or_else(refused)?.max(0.0);
     "torqueThreshold": f64, |o| o.force_sensor()?.torque_threshold,
-        Sensor |o, torque| o.force_sensor_mut()?.torque_threshold = finite(torque)?.max(0.0);
+        Sensor |o, torque| o.force_sensor_mut()?.torque_threshold = torque.finite().ok_or_else(refused)?.max(0.0);
     "sensorForce": Vector3, |o| Vector3(o.force_sensor()?.raw.unwrap_or_default().0);
     "sensorTorque": Vector3, |o| Vector3(o.force_sensor()?.raw.unwrap_or_default().1);
     "filterSensorForce": Vector3, |o| Vector3(o.force_sensor()?.filtered.unwrap_or_default().0);

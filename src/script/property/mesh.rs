@@ -1,8 +1,8 @@
 //! Properties of the meshes of shapes. Texture properties apply while there is a texture.
 
-use geometry::Mesh;
+use geometry::{Finite, Mesh};
 
-use super::access::{Accessor, Subject, finite, subject_properties};
+use super::access::{Accessor, Subject, refused, subject_properties};
 use super::{IntPair, Target, Text};
 use crate::scene::appearance::texture::Texture;
 use crate::scene::appearance::texture_mapping::TextureMapping;
@@ -85,7 +85,7 @@ pub(super) const MESH: &[Accessor] = subject_properties! {
     "indices": Vec<i64>, |s| s.geometry(Mesh::flat_indices)?;
     "normals": Vec<f64>, |s| s.geometry(Mesh::flat_normals)?;
     "shadingAngle": f64, |s| s.with_mesh(|_, part| part.appearance.shading_angle)?, |s, angle| {
-        let angle = finite(angle)?;
+        let angle = angle.finite().ok_or_else(refused)?;
         s.change_mesh(|part| part.appearance.shading_angle = angle)?
     };
     "showEdges": bool, |s| s.with_mesh(|_, part| part.appearance.edges)?,

@@ -10,8 +10,8 @@ mod display;
 mod dummy;
 mod engine;
 mod force_sensor;
+mod inert;
 mod joint;
-mod kept;
 mod mesh;
 mod model_hash;
 mod object;
@@ -110,7 +110,7 @@ impl Sim {
                 let read = accessor.read.ok_or(ApiError::PropertyNotReadable)?;
                 read(&Subject { sim: self, target }).map_err(|error| refusal(error, ApiError::PropertyNotReadable))
             }
-            Source::Kept(default) => Ok(self.read_kept(target, row.name)?.unwrap_or_else(|| default.clone())),
+            Source::Inert(default) => Ok(self.read_inert(target, row.name)?.unwrap_or_else(|| default.clone())),
             Source::Constant(value) => Ok(value.clone()),
             Source::Engine(param) => Ok(self.scene.borrow().engine_value(param, target.object())?),
         }
@@ -138,9 +138,9 @@ impl Sim {
         }
         match &row.source {
             Source::Works(accessor) => self.write_through(accessor, target, row, value),
-            Source::Kept(default) => {
+            Source::Inert(default) => {
                 let value = row.ty.accept(default, value).ok_or(ApiError::PropertyNotWritable)?;
-                self.write_kept(target, row.name, value)
+                self.write_inert(target, row.name, value)
             }
             Source::Constant(_) => Err(ApiError::PropertyNotWritable),
             Source::Engine(param) => {

@@ -25,9 +25,9 @@ pub(super) const OWN: &[Accessor] = object_properties! {
     "calcLinearVelocity": Vector3, |o| Vector3(o.measured.linear);
     "calcRotationAxis": Vector3, |o| Vector3(rotation(o).0);
     "calcRotationVelocity": f64, |o| rotation(o).1;
-    "hierarchyColor": i64, |o| o.hierarchy_colour, Kept |o, colour| o.hierarchy_colour = colour;
+    "hierarchyColor": i64, |o| o.hierarchy_colour, Inert |o, colour| o.hierarchy_colour = colour;
     "collectionSelfCollisionIndicator": i64, |o| o.self_collision_indicator,
-        Kept |o, indicator| o.self_collision_indicator = indicator;
+        Inert |o, indicator| o.self_collision_indicator = indicator;
     "persistentUid": String, |o| o.persistent_uid.clone();
     "dna": Bytes, |o| Bytes(o.dna.clone());
     "bbPose": PoseArray, |o| PoseArray(pose_to_array(&o.bounding_box().pose));
@@ -94,7 +94,7 @@ pub(super) const FLAG_SETS: &[Accessor] = object_properties! {
 /// Rows of how a hand may move the object.
 macro_rules! movement {
     ($($name:literal: $ty:ty, $field:ident, |$v:ident| $set:expr, |$read:ident| $get:expr;)*) => { object_properties! { $(
-        $name: $ty, |o| { let $read = o.movement.$field; $get }, Kept |o, $v| o.movement.$field = $set;
+        $name: $ty, |o| { let $read = o.movement.$field; $get }, Inert |o, $v| o.movement.$field = $set;
     )* } };
 }
 
@@ -109,7 +109,7 @@ pub(super) const MOVEMENT: &[Accessor] = movement! {
 macro_rules! movement_bits {
     ($($name:literal: $flags:ident $(! $forbid:path)? $(= $allow:literal)?;)*) => { object_properties! { $(
         $name: bool, |o| movement_bits!(@get o.movement.$flags, $(! $forbid)? $(= $allow)?),
-            Kept |o, on| movement_bits!(@set o.movement.$flags, on, $(! $forbid)? $(= $allow)?);
+            Inert |o, on| movement_bits!(@set o.movement.$flags, on, $(! $forbid)? $(= $allow)?);
     )* } };
     (@get $flags:expr, ! $forbid:path) => { $flags & $forbid == 0 };
     (@get $flags:expr, = $allow:literal) => { $flags & $allow != 0 };

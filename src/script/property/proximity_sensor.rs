@@ -1,7 +1,9 @@
 //! Properties of proximity sensors and their volumes.
 
+use geometry::Finite;
+
 use super::Vector3;
-use super::access::{Accessor, finite, length, object_properties, pair, refused};
+use super::access::{Accessor, length, object_properties, pair, refused};
 use crate::scene::SceneResult;
 use crate::scene::sensor::volume::Volume;
 use crate::scene::sensor::{Detection, ProximitySensor};
@@ -22,16 +24,16 @@ pub(super) const PROXIMITY_SENSOR: &[Accessor] = object_properties! {
     "sensorType": i64, |o| o.proximity_sensor()?.volume_type;
     "detectedObjectHandle": i64, |o| detection(o.proximity_sensor()?).map_or(-1, |found| found.object.raw());
     "angleThreshold": f64, |o| o.proximity_sensor()?.angle_threshold,
-        Sensor |o, angle| o.proximity_sensor_mut()?.angle_threshold = finite(angle)?.max(0.0);
+        Sensor |o, angle| o.proximity_sensor_mut()?.angle_threshold = angle.finite().ok_or_else(refused)?.max(0.0);
     "detectedPoint": Vector3, |o| Vector3(detection(o.proximity_sensor()?).map_or([0.0; 3], |found| found.point));
     "detectedNormal": Vector3, |o| Vector3(detection(o.proximity_sensor()?).map_or([0.0; 3], |found| found.normal));
 };
 
 pub(super) const VOLUME: &[Accessor] = object_properties! {
     "closeThreshold": f64, |o| o.proximity_sensor()?.volume.close_threshold,
-        Sensor |o, distance| o.proximity_sensor_mut()?.volume.close_threshold = finite(distance)?.max(0.0);
+        Sensor |o, distance| o.proximity_sensor_mut()?.volume.close_threshold = distance.finite().ok_or_else(refused)?.max(0.0);
     "volume_offset": f64, |o| o.proximity_sensor()?.volume.offset,
-        Sensor |o, offset| o.proximity_sensor_mut()?.volume.offset = finite(offset)?;
+        Sensor |o, offset| o.proximity_sensor_mut()?.volume.offset = offset.finite().ok_or_else(refused)?;
     "volume_range": f64, |o| o.proximity_sensor()?.volume.range,
         Sensor |o, range| o.proximity_sensor_mut()?.volume.range = length(range)?;
     "volume_xSize": Vec<f64>, |o| o.proximity_sensor()?.volume.x_size.to_vec(),

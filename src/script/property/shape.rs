@@ -1,8 +1,9 @@
 //! Properties of shapes.
 
+use geometry::Finite;
 use geometry::pose::quaternion_to_array;
 
-use super::access::{Accessor, finite, object_properties, refused};
+use super::access::{Accessor, object_properties, refused};
 use super::{Color, Quaternion, Vector3};
 use crate::scene::Field;
 use crate::script::error::ApiError;
@@ -63,7 +64,7 @@ pub(super) const APPLY: &[Accessor] = applied! {
 
 pub(super) const MASS: &[Accessor] = object_properties! {
     "mass": f64, |o| o.shape()?.mass.mass, Geometry |o, mass| {
-        o.shape_mut()?.mass.set_mass(finite(mass)?);
+        o.shape_mut()?.mass.set_mass(mass.finite().ok_or_else(refused)?);
         o.dynamics_reset = true;
     };
     "centerOfMass": Vector3, |o| Vector3(o.shape()?.mass.com), Geometry |o, com| {

@@ -15,7 +15,7 @@ use crate::scene::{Data, Kind, ValueType};
 
 /// `part<TAB>name<TAB>type<TAB>flags<TAB>state<TAB>default`, in the order of enumeration within a part.
 ///
-/// The state is `works`, `kept` (stored and read back, no effect) or `constant` (always the default); what works has an accessor, and
+/// The state is `works`, `inert` (stored and read back, no effect) or `constant` (always the default); what works has an accessor, and
 /// what needs more than storage may have one. An empty default is false, 0, no text, an empty list, the origin or no rotation; numbers
 /// in lists are separated by spaces. A list that has a default keeps its length. In place of a default, what works may have the name of the
 /// property it is an older word for.
@@ -47,7 +47,7 @@ pub(crate) struct Row {
 pub(crate) enum Source {
     Works(&'static Accessor),
     /// Stored as scripts set it, without effect; the default until then.
-    Kept(Data),
+    Inert(Data),
     Constant(Data),
     /// A parameter of a physics engine.
     Engine(&'static EngineParam),
@@ -231,7 +231,7 @@ fn parts() -> Parts {
         let value = || ty.parse(default).expect("static.tsv holds defaults of the row's type");
         let source = match (accessors.get(&(part, if is_other_word { default } else { name })), state) {
             (Some(accessor), _) => Source::Works(accessor),
-            (None, "kept") => Source::Kept(value()),
+            (None, "inert") => Source::Inert(value()),
             (None, "constant") => Source::Constant(value()),
             _ => panic!("a property in static.tsv that works has an accessor: {part} {name}"),
         };
@@ -272,7 +272,7 @@ pub(crate) fn described() -> Vec<Line> {
         name: param.name,
         ty: param.ty,
         flags: param.flags,
-        state: if param.works { "works" } else { "kept" },
+        state: if param.works { "works" } else { "inert" },
         default: "",
     };
     let engines = ENGINE_PARTS.into_iter().flat_map(|(part, owner)| {
@@ -366,7 +366,7 @@ mod tests {
 
     #[test]
     fn every_line_says_what_becomes_of_it() {
-        assert!(lines().all(|line| ["works", "kept", "constant"].contains(&line.state)));
+        assert!(lines().all(|line| ["works", "inert", "constant"].contains(&line.state)));
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! Properties of cameras and vision sensors.
 
-use super::access::{Accessor, finite, length, object_properties, pair, placed_properties, refused};
+use geometry::Finite;
+
+use super::access::{Accessor, length, object_properties, pair, placed_properties, refused};
 use super::{Color, IntPair, Vector3};
 use crate::scene::sensor::View;
 use crate::scene::{Handle, Kind, Object, SceneError, SceneResult};
@@ -11,7 +13,7 @@ const ANGLES: (f64, f64) = (0.001, 3.1);
 
 pub(super) const VIEWABLE: &[Accessor] = object_properties! {
     "viewAngle": f64, |o| o.view()?.angle,
-        Sensor |o, angle| o.view_mut()?.angle = finite(angle)?.clamp(ANGLES.0, ANGLES.1);
+        Sensor |o, angle| o.view_mut()?.angle = angle.finite().ok_or_else(refused)?.clamp(ANGLES.0, ANGLES.1);
     "viewSize": f64, |o| o.view()?.ortho_size, Sensor |o, size| o.view_mut()?.ortho_size = length(size)?;
     "clippingPlanes": Vec<f64>, |o| o.view()?.clipping.to_vec(),
         Sensor |o, planes| o.view_mut()?.clipping = clipping(&planes)?;

@@ -27,7 +27,7 @@ impl Mesh {
     /// The tightest box found, its size in the order x <= y <= z; `None` without vertices.
     ///
     /// Tries the axes of the frame, then boxes with one side flush with a face of the convex hull and
-    /// another flush with an edge of the outline seen along it.
+    /// another flush with an edge of the hull of its projection along it.
     pub fn oriented_box(&self) -> Option<BoundingBox> {
         let hull = Self::convex_hull(&self.vertices);
         let source = hull.as_ref().unwrap_or(self);
@@ -92,10 +92,10 @@ fn sorted_axes(b: &BoundingBox) -> UnitQuaternion<f64> {
 fn flush_frame(points: &[Vector3<f64>], direction: &Vector3<f64>) -> Option<Rotation3<f64>> {
     let u = direction.cross(&Vector3::ith(direction.iamin(), 1.0)).try_normalize(0.0)?;
     let v = direction.cross(&u);
-    let outline = outline(points.iter().map(|p| [p.dot(&u), p.dot(&v)]).collect());
+    let hull = planar_hull(points.iter().map(|p| [p.dot(&u), p.dot(&v)]).collect());
     let area = |s: &[f64; 2]| {
         let extent = |x: f64, y: f64| {
-            let along = outline.iter().map(|p| p[0] * x + p[1] * y);
+            let along = hull.iter().map(|p| p[0] * x + p[1] * y);
             let (low, high) = along.fold((f64::MAX, f64::MIN), |(l, h), d| (l.min(d), h.max(d)));
             high - low
         };
@@ -106,14 +106,14 @@ fn flush_frame(points: &[Vector3<f64>], direction: &Vector3<f64>) -> Option<Rota
         let length = x.hypot(y);
         (length > 0.0).then(|| [x / length, y / length])
     };
-    let sides = outline.iter().zip(outline.iter().cycle().skip(1)).filter_map(side);
+    let sides = hull.iter().zip(hull.iter().cycle().skip(1)).filter_map(side);
     let best = sides.map(|s| (area(&s), s)).min_by(|a, b| a.0.total_cmp(&b.0))?.1;
     let x = u * best[0] + v * best[1];
     Some(Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, direction.cross(&x), *direction])))
 }
 
-/// Convex outline of points in a plane, counter-clockwise.
-fn outline(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+/// Convex hull of points in a plane, counter-clockwise (A. M. Andrew's monotone chain).
+fn planar_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let turn = |a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {

@@ -67,7 +67,7 @@ fn model(new: &mut Object, common: &Common) {
     let property = common.model_property.unwrap_or(0).into();
     new.set_model_property(if switches & 1 == 0 { NOT_MODEL } else { property });
     if let Some(text) = common.acknowledgment.as_ref().filter(|text| !text.0.is_empty()) {
-        new.kept.set("modelAcknowledgment", Data::Text(text.0.clone()));
+        new.inert.set("modelAcknowledgment", Data::Text(text.0.clone()));
     }
 }
 

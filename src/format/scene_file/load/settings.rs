@@ -2,9 +2,9 @@
 
 use super::custom_data;
 use super::material::load_all;
-use crate::format::ttt::chunks::{Dynamics, Environment, Simulation};
+use crate::format::ttt::chunks::{self, Dynamics, Simulation};
 use crate::format::ttt::{File, Text};
-use crate::scene::appearance::environment::{Fog, Surroundings};
+use crate::scene::appearance::environment::{Environment, Fog};
 use crate::scene::{Data, DynamicsSettings, Scene, SceneResult, Settings};
 
 /// Simulation steps of the presets of old files, seconds; the next number means a step of one's own.
@@ -12,7 +12,7 @@ const STEP_PRESETS: [f64; 5] = [0.2, 0.1, 0.05, 0.025, 0.01];
 /// The preset of the physics that means settings of one's own.
 const CUSTOM: i32 = 5;
 const MICROSECOND: f64 = 1e-6;
-/// Bits of the surroundings.
+/// Bits of the environment.
 const FOG: u8 = 0x10;
 const LOCKED: u8 = 0x20;
 
@@ -30,7 +30,11 @@ pub(super) fn apply(scene: &mut Scene, file: &File) -> SceneResult<()> {
         }
     });
     if let Some(light) = contents.environment.as_ref().and_then(ambient_light) {
-        scene.keep(None, "ambientLight", Data::Array(light.iter().map(|c| Data::Float((*c).into())).collect()))?;
+        scene.set_inert_value(
+            None,
+            "ambientLight",
+            Data::Array(light.iter().map(|c| Data::Float((*c).into())).collect()),
+        )?;
     }
     let mut data = std::mem::take(&mut scene.custom_data);
     custom_data::fill(
@@ -84,7 +88,7 @@ fn dynamics(settings: &mut DynamicsSettings, chunk: &Dynamics) {
     settings.step = if step.is_finite() && step > 0.0 { step } else { 0.005 };
 }
 
-fn environment(settings: &mut Settings, chunk: &Environment) {
+fn environment(settings: &mut Settings, chunk: &chunks::Environment) {
     settings.visibility_layers = chunk.active_layers.map_or(settings.visibility_layers, i64::from);
     settings.acknowledgment = chunk.acknowledgment.as_ref().map(Text::decode).unwrap_or_default();
     let switches = chunk.switches.unwrap_or(0);
@@ -92,9 +96,9 @@ fn environment(settings: &mut Settings, chunk: &Environment) {
     let (fog_type, [start, density]) = chunk.fog.unwrap_or_default();
     let fog =
         Fog { enabled: switches & FOG != 0, fog_type, start, end: chunk.fog_end, density, colour: chunk.fog_colour };
-    let usual = Surroundings::default();
+    let usual = Environment::default();
     let [largest, relative] = usual.triangle_sizes;
-    settings.surroundings = Surroundings {
+    settings.environment = Environment {
         fog,
         background: chunk.bg_up.map(|up| [up, chunk.bg_down.unwrap_or(up)]),
         display: switches & !(LOCKED | FOG),
@@ -104,6 +108,6 @@ fn environment(settings: &mut Settings, chunk: &Environment) {
 }
 
 /// Before 3.2 it was half as bright.
-fn ambient_light(chunk: &Environment) -> Option<[f32; 3]> {
+fn ambient_light(chunk: &chunks::Environment) -> Option<[f32; 3]> {
     chunk.ambient.or(chunk.old_ambient.map(|light| light.map(|c| (2.0 * c).min(0.4))))
 }

@@ -100,7 +100,7 @@ fn user_params(object: &Object) -> Option<UserParams> {
 }
 
 fn acknowledgment(object: &Object) -> Text {
-    match object.kept.get("modelAcknowledgment") {
+    match object.inert.get("modelAcknowledgment") {
         Some(Data::Text(text)) => Text(text.clone()),
         _ => Text::default(),
     }

@@ -71,9 +71,9 @@ fn dynamics(settings: &Settings) -> Dynamics {
 }
 
 fn environment(scene: &Scene) -> Environment {
-    let around = &scene.settings().surroundings;
+    let around = &scene.settings().environment;
     let (fog, [largest, relative]) = (&around.fog, around.triangle_sizes);
-    let ambient = scene.kept.get("ambientLight").and_then(three);
+    let ambient = scene.inert.get("ambientLight").and_then(three);
     Environment {
         active_layers: Some(scene.settings().visibility_layers as u16),
         old_ambient: ambient.map(|light| light.map(|c| c / 2.0)),

@@ -48,7 +48,7 @@ streams! {
         ode: Option<EngineBlock> = b"_dN" / b"OdN",
     }
 
-    /// Surroundings and remarks.
+    /// Environment and remarks.
     Environment until b"EOO" {
         fog_end: Option<f64> = b"_dn" / b"Fdn",
         active_layers: Option<u16> = b"Vil",
