@@ -1,6 +1,8 @@
 //! The embedding API: a simulator as a value.
 
 mod builder;
+#[cfg(test)]
+mod journal_tests;
 mod run;
 
 use std::cell::{Ref, RefMut};
