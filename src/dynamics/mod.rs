@@ -289,7 +289,7 @@ fn request(handle: Handle, joint: &Joint, link: &links::Link) -> JointRequest {
         first: link.fresh,
         position: link.motion.position,
         velocity: link.motion.velocity,
-        error: motors::position_error(joint, link.motion.position),
+        error: joint.position_error(link.motion.position),
         effort: link.efforts.last().copied().unwrap_or(0.0),
     }
 }

@@ -2,7 +2,6 @@
 //!
 //! Pure functions; values in rad or m, N m or N, seconds.
 
-use articulation::wrap_angle;
 use motion::{ruckig, ruckig_plan};
 
 use crate::scene::joint::{Control, Joint};
@@ -58,7 +57,7 @@ impl Motor {
                 Some(Drive { velocity: self.approach(joint, joint.gains_with(engine), now, step), force: limit })
             }
             Control::Spring | Control::SpringOrCallback => {
-                let effort = joint.spring[0] * position_error(joint, now.position) - joint.spring[1] * now.velocity;
+                let effort = joint.spring[0] * joint.position_error(now.position) - joint.spring[1] * now.velocity;
                 Some(Drive { velocity: joint.target_velocity.abs().copysign(effort), force: effort.abs() })
             }
         }
@@ -87,7 +86,7 @@ impl Motor {
     }
 
     fn approach(&mut self, joint: &Joint, [p, i, d]: [f64; 3], now: Motion, step: f64) -> f64 {
-        let error = position_error(joint, now.position);
+        let error = joint.position_error(now.position);
         if joint.position_profile {
             let (velocity, acceleration) = self.profile;
             let limits = (joint.max_vel, joint.max_accel, joint.max_jerk);
@@ -138,16 +137,8 @@ fn push(force: f64) -> Drive {
     Drive { velocity: PUSH_VELOCITY.copysign(force), force: force.abs() }
 }
 
-/// Target minus position; the shortest way for a cyclic joint.
-pub(super) fn position_error(joint: &Joint, position: f64) -> f64 {
-    let error = joint.target_position - position;
-    if joint.cyclic { wrap_angle(error) } else { error }
-}
-
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::TAU;
-
     use super::*;
     use crate::scene::joint::{JointMode, JointType};
 
@@ -171,11 +162,5 @@ mod tests {
         let drive = Motor::default().drive(&joint, 0, Motion { position: 0.0, velocity: 1.0 }, 0.005).expect("on");
         assert!((drive.force - 0.9).abs() < 1e-12);
         assert_eq!(drive.velocity, 1000.0);
-    }
-
-    #[test]
-    fn a_cyclic_joint_takes_the_short_way() {
-        let joint = Joint { target_position: -3.0, ..joint(Control::Position) };
-        assert!((position_error(&joint, 3.0) - (TAU - 6.0)).abs() < 1e-12);
     }
 }

@@ -1,6 +1,5 @@
 //! Results for the scene: after a sub-step and at the end of a call.
 
-use articulation::wrap_angle;
 use nalgebra::UnitQuaternion;
 use rapier3d_f64::prelude::RigidBody;
 
@@ -12,6 +11,7 @@ use super::plan::LinkKind;
 use super::world::World;
 use super::{Dynamics, SubStep};
 use crate::scene::joint::Joint;
+use crate::scene::joint::control::wrap_angle;
 use crate::scene::pose::placement::is_place;
 use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
 use crate::scene::shape::Velocity;

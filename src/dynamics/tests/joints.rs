@@ -1,5 +1,7 @@
 //! Single joints: control, stops, readings.
 
+use std::f64::consts::PI;
+
 use super::*;
 use crate::scene::joint::JointSolver;
 
@@ -14,6 +16,20 @@ fn position_control_decays_geometrically() {
     });
     bench.run(1);
     near(bench.joint(joint).position, 0.1 * (1.0 - 0.9f64.powi(10)), 1e-5);
+}
+
+#[test]
+fn a_cyclic_joint_asked_for_half_a_turn_turns_the_way_of_its_sign() {
+    for target in [PI, -PI] {
+        let mut bench = Bench::new();
+        bench.gravity(0.0);
+        let (joint, _) = bench.arm(0.01, 0.0, |joint| {
+            (joint.control, joint.target_force, joint.target_position) = (Control::Position, 1000.0, target);
+        });
+        bench.run(1);
+        let turned = bench.joint(joint).position;
+        assert!(turned / target > 0.05, "on the way to {target} it is at {turned}");
+    }
 }
 
 #[test]

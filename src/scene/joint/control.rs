@@ -72,9 +72,9 @@ impl Joint {
         if self.cyclic { wrap_angle(position) } else { position.max(self.min).min(self.min + self.range) }
     }
 
-    /// From the present to `target`, the shortest way for cyclic joints.
-    pub fn error_to(&self, target: f64) -> f64 {
-        let difference = target - self.position;
+    /// Target position minus `position`; for cyclic joints the shortest way, and half a turn in the direction of its sign.
+    pub fn position_error(&self, position: f64) -> f64 {
+        let difference = self.target_position - position;
         if self.cyclic { wrap_angle(difference) } else { difference }
     }
 
@@ -289,6 +289,15 @@ mod tests {
     fn both_ends_of_a_turn_are_kept() {
         assert_eq!((wrap_angle(PI), wrap_angle(-PI)), (PI, -PI));
         assert!((wrap_angle(4.0) - (4.0 - TAU)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_cyclic_joint_takes_the_short_way_and_half_a_turn_as_it_was_asked() {
+        let joint = |target_position| Joint { target_position, ..Joint::new(JointType::Revolute, JointMode::Dynamic) };
+        assert_eq!((joint(PI).position_error(0.0), joint(-PI).position_error(0.0)), (PI, -PI));
+        assert!((joint(-3.0).position_error(3.0) - (TAU - 6.0)).abs() < 1e-12);
+        let limited = Joint { cyclic: false, ..joint(-3.0) };
+        assert_eq!(limited.position_error(3.0), -6.0);
     }
 
     #[test]

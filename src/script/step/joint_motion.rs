@@ -35,7 +35,7 @@ impl Sim {
         let mut add = |key: &str, value: f64| entries.push((Key::Text(key.as_bytes().to_vec()), value.into()));
         match motion {
             Motion::ToPosition => {
-                let error = joint.error_to(joint.target_position);
+                let error = joint.position_error(joint.position);
                 add("targetPos", joint.target_position);
                 add("error", error);
                 add("errorValue", error);
