@@ -60,6 +60,33 @@ function sysCall_actuation()
     for i = 1, 1000 do sim.setObjectPosition(objects[i], {x, i, 0}) end
 end
 ";
+/// 1000 objects, each ten levels deep, on a hundred bases; a script moves the bases or leaves them, and reads all world poses.
+const DEEP: &str = "
+sim = require 'sim'
+local bases, objects = {}, {}
+for i = 1, 100 do
+    local parent = -1
+    for level = 1, 9 do
+        local dummy = sim.createDummy(0.01)
+        sim.setObjectPosition(dummy, {i, 0, 0.1 * level})
+        sim.setObjectParent(dummy, parent, true)
+        if level == 1 then bases[i] = dummy end
+        parent = dummy
+    end
+    for side = 1, 10 do
+        local dummy = sim.createDummy(0.01)
+        sim.setObjectPosition(dummy, {i, 0.1 * side, 1})
+        sim.setObjectParent(dummy, parent, true)
+        objects[#objects + 1] = dummy
+    end
+end
+local x = 0
+function sysCall_actuation()
+    x = x + 0.001
+    for i = 1, MOVED do sim.setObjectPosition(bases[i], {i, x, 0}) end
+    for i = 1, 1000 do sim.getObjectPose(objects[i]) end
+end
+";
 const LISTENER: &str = "function sysCall_event(events) received = (received or 0) + #events end";
 const FILTERED: &str = "
 sim.setEventFilters({[sim.handle_sceneobject] = {'pose'}})
@@ -110,6 +137,16 @@ fn arm(criterion: &mut Criterion) {
     group.finish();
 }
 
+fn world_poses(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("1000 world poses ten levels deep");
+    group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
+    for (name, moved) in [("nothing moves", "0"), ("all move", "100")] {
+        let mut sim = running(ScriptKind::Customization, &DEEP.replace("MOVED", moved));
+        group.bench_function(name, |bencher| bencher.iter(|| sim.iterate()));
+    }
+    group.finish();
+}
+
 fn events(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("1000 moving objects");
     group.throughput(Throughput::Elements(1)).sampling_mode(SamplingMode::Flat).sample_size(20);
@@ -120,5 +157,5 @@ fn events(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, child_scripts, pile, arm, events);
+criterion_group!(benches, child_scripts, pile, arm, events, world_poses);
 criterion_main!(benches);
