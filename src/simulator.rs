@@ -51,7 +51,7 @@ pub enum ScriptKind {
     AddOn,
     /// Runs once as a chunk in the sandbox.
     Sandbox,
-    /// Takes the place of the built-in main script.
+    /// Replaces the built-in main script.
     Main,
 }
 

@@ -35,7 +35,7 @@ function graph.handle(recordingTime)
     if graph.model then sim.handleGraph(graph.model, time) end
 end
 
---- Forgets what was recorded.
+--- Clears the recorded data.
 function graph.reset()
     if graph.model then sim.resetGraph(graph.model) end
 end

@@ -13,7 +13,7 @@ const TRIED_PORTS: u16 = 100;
 /// A remote API and its port.
 struct Api {
     name: &'static str,
-    /// The port of the first instance; others take the next free one.
+    /// The port of the first instance; others use the next free one.
     first_port: u16,
     /// The parameter that chooses the port, as in CoppeliaSim.
     param: &'static str,
@@ -73,7 +73,7 @@ impl Remote {
         }
     }
 
-    /// Serves the remote APIs, unless parameters say not to, and tells where; ZeroMQ's if `zmq`, the other one if it is asked for.
+    /// Starts the remote APIs unless disabled by parameters, and prints their addresses: ZeroMQ if `zmq`, WebSocket on request.
     ///
     /// # Errors
     /// When a port is not free.

@@ -178,7 +178,7 @@ fn read_scene(path: &Path) -> Result<Scene, String> {
     }
 }
 
-/// The folder a file lies in; scripts find their modules there.
+/// The folder of a file, where scripts find their modules.
 fn folder_of(file: &Path) -> PathBuf {
     match file.parent() {
         Some(folder) if folder != Path::new("") => folder.to_owned(),

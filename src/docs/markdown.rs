@@ -88,7 +88,7 @@ fn slug(category: &str) -> String {
     category.to_lowercase().replace(' ', "-")
 }
 
-/// The anchor Markdown viewers give a heading.
+/// The anchor of a heading in Markdown viewers.
 fn anchor(heading: &str) -> String {
     heading.to_lowercase().replace('.', "")
 }

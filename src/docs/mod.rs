@@ -82,7 +82,7 @@ pub fn reference_signature(name: &str) -> Option<&'static str> {
 }
 
 /// One row of CoppeliaSim's reference.
-/// Where a function stands in the history of the reference.
+/// The age of a function in the reference.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Age {
     Current,

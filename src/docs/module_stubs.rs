@@ -11,7 +11,7 @@ use super::row::Function;
 use super::stubs::parameter_name;
 use crate::modules::ALL;
 
-/// What a stub tells of a function.
+/// The description of a function in a stub.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Stub {
     /// Called with a colon.
@@ -129,7 +129,7 @@ fn taken(module: &str, source: &str) -> Stubs {
     functions.map(stub).filter(|(name, _)| is_name(name) && handed_on(name)).collect()
 }
 
-/// Functions the head tells of: in lines indented by four, in columns with two spaces or more between.
+/// Functions described in the head: lines indented by four, columns separated by at least two spaces.
 fn told(head: &str) -> Stubs {
     let mut stubs = Stubs::new();
     for line in head.lines().filter_map(|line| line.strip_prefix("    ")).filter(|line| !line.starts_with(' ')) {

@@ -1,4 +1,4 @@
-//! A function as its documentation tells it.
+//! A function as described by its documentation.
 
 use crate::api::ApiFn;
 

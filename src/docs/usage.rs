@@ -27,7 +27,7 @@ pub enum Support {
 pub struct Use {
     /// As it would be called today: `sim.getObject`, `simUI.create`, or the name of a module.
     pub name: String,
-    /// The old name that stands in the code, where it is another.
+    /// The old name used in the code, if different.
     pub written: Option<String>,
     pub line: usize,
     pub support: Support,
@@ -54,7 +54,7 @@ pub fn foreign_script(language: &str) -> Vec<Use> {
     vec![Use { name: format!("scripts in {name}"), written: None, line: 1, support: Support::Missing }]
 }
 
-/// What the names of one file stand for.
+/// The meaning of the names in one file.
 struct Scope {
     /// Variables that hold a module.
     modules: HashMap<String, String>,

@@ -1,6 +1,6 @@
 //! The modules beside `sim`: one folder or file for each.
 //!
-//! Here stand their native functions. What is better said in Lua stands in `lua/`, in a file of the module's name.
+//! Their native functions are here; parts that are better written in Lua are in `lua/`, in a file of the module's name.
 
 mod cbor;
 mod lfs;

@@ -40,7 +40,7 @@ impl Processes {
         self.by_handle.get_mut(handle).ok_or_else(unknown)
     }
 
-    /// Takes note of those that have ended, so that the system forgets them.
+    /// Reaps ended processes.
     fn reap(&mut self) {
         self.by_handle.values_mut().for_each(|process| drop(process.exit_code()));
     }
@@ -100,7 +100,7 @@ fn wait(cx: &Cx, handle: String, #[default(5.0)] timeout: f64) -> Result<Results
     Ok(Results(vec![exit_code.map_or(Data::Nil, |code| Data::Int(code.into()))]))
 }
 
-/// Seconds as scripts give them; None for no limit: less than nothing, or more than there is.
+/// A time limit of a script in seconds; None for no limit (negative or too large).
 fn limit(timeout: f64) -> Option<Duration> {
     if timeout.is_nan() { Some(Duration::ZERO) } else { Duration::try_from_secs_f64(timeout).ok() }
 }

@@ -45,7 +45,7 @@ fn start(cx: &mut Cx, listen_port: i64) -> Result<String> {
         .map_err(|error| unusable(&format!("{address}:{port}"), &error))
 }
 
-/// Where a server listens. Not in CoppeliaSim.
+/// The port of a server. Not in CoppeliaSim.
 ///
 /// @param serverHandle
 /// @return port

@@ -12,11 +12,11 @@ pub struct RunLimits {
     pub time: Option<f64>,
     /// Loop iterations of a paused simulation before it is stopped.
     pub idle: u64,
-    /// A simulation that a script starts anew is another run, and this one is over.
+    /// A simulation restarted by a script is another run; this one is over.
     pub once: bool,
 }
 
-/// What a run has done, with the simulations that scripts started anew.
+/// Result of a run, including simulations restarted by scripts.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct RunTotals {
     pub steps: u64,

@@ -20,7 +20,7 @@ pub(super) fn run_apart(options: Options, request: &RunRequest) -> Result<RunRep
     Ok(report)
 }
 
-/// Runs a scene to its end. With `once`, a simulation that a script starts anew does not belong to it.
+/// Runs a scene to its end. With `once`, a simulation restarted by a script is not part of it.
 pub(super) fn run(options: Options, input: &SceneInput, request: &RunRequest, once: bool) -> Result<RunReport, String> {
     let bench = TestBench::new(request.scene.to_string_lossy().into_owned(), request.time_limit, None);
     let mut patience = Patience { options: options.clone(), time_limit: request.time_limit, time: 0.0 };

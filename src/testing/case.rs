@@ -14,7 +14,7 @@ use crate::script::test_bench::{ConsoleLine, Golden};
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TestCase {
     pub file: PathBuf,
-    /// Its number in the file, from 1; 0 stands for the file itself.
+    /// Its number in the file, from 1; 0 for the file itself.
     pub index: usize,
     /// The names of its groups, then its own.
     pub name: Vec<String>,
@@ -27,7 +27,7 @@ pub struct TestCase {
 }
 
 impl TestCase {
-    /// What stands for a file itself.
+    /// The case of a file itself.
     pub(super) fn of_file(file: &Path) -> Self {
         Self { file: file.to_owned(), index: 0, name: vec!["(file)".into()], line: None, repetition: 0, seed: 0 }
     }

@@ -54,7 +54,7 @@ fn cut(line: &str) -> String {
     }
 }
 
-/// The places `[string "NAME"]:LINE:` a message tells before its traceback.
+/// The positions `[string "NAME"]:LINE:` of a message, before its traceback.
 pub(super) fn positions(message: &str) -> Vec<(&str, u32)> {
     let text = message.split("\nstack traceback:").next().unwrap_or_default();
     let mut found = Vec::new();

@@ -91,7 +91,7 @@ pub struct Allowance {
     pub memory: usize,
 }
 
-/// Is told how the tests get on.
+/// Receives the progress of the tests.
 pub trait Reporter {
     /// All tests are known. A file that could not be loaded stands among them as a test of its own.
     fn begin(&mut self, tests: &[Arc<TestCase>]) {

@@ -24,7 +24,7 @@ impl Collection {
     }
 }
 
-/// A test as its file tells it.
+/// A test as declared in its file.
 pub(super) struct Found {
     pub name: Vec<String>,
     pub line: Option<u32>,

@@ -1,4 +1,4 @@
-//! What the tests of a run came to, in the order in which it is told.
+//! Outcomes of the tests of a run, in the order of reports.
 //!
 //! An outcome is told at once. Only one with recordings waits until the tests before it in its file are over: a recording belongs to the first
 //! test of that name, whichever ends first.
@@ -68,7 +68,7 @@ impl<'a> Results<'a> {
         self.open.range((file.to_owned(), 0, 0)..).next().filter(|(of, _, _)| of.as_path() == file).cloned()
     }
 
-    /// Tells those waiting outcomes whose turn it is, in the order of their files.
+    /// Reports the waiting outcomes whose turn it is, in the order of their files.
     fn tell_waiting(&mut self, is_due: impl Fn(&Outcome) -> bool) {
         let (mut due, waiting) = std::mem::take(&mut self.waiting).into_iter().partition::<Vec<_>, _>(is_due);
         self.waiting = waiting;
@@ -89,7 +89,7 @@ impl<'a> Results<'a> {
         self.told.push(outcome);
     }
 
-    /// Whether a test has failed, told or not.
+    /// Whether a test has failed, reported or not.
     pub(super) fn has_failure(&self) -> bool {
         self.has_failure
     }

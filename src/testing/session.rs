@@ -46,7 +46,7 @@ impl Session {
         Self { sim, sandbox, bench, _data: data }
     }
 
-    /// Loads the file and tells its tests.
+    /// Loads the file and returns its tests.
     pub(super) fn collect(&mut self, file: &Path) -> Collection {
         let name = Data::text(&file.to_string_lossy());
         let answer = self.call("package.loaded.busted.collect", &[name]);

@@ -21,7 +21,7 @@ use crate::Simulator;
 
 /// How often the clock is looked at.
 const TICK: Duration = Duration::from_millis(20);
-/// How long a test has to stop when it was told to.
+/// Time for a test to stop on request.
 const GRACE: Duration = Duration::from_secs(2);
 
 /// A piece of work.
@@ -237,7 +237,7 @@ impl Worker {
         let _ = self.sender.send((self.id, news));
     }
 
-    /// What is left of a job is for others, or for nobody.
+    /// The rest of a job is left to other workers, or dropped.
     fn is_to_end(&self) -> bool {
         self.shared.cancelled.load(Ordering::Relaxed) || self.shared.queue().given_up.contains(&self.id)
     }

@@ -40,7 +40,7 @@ pub struct Head {
 pub enum HeadError {
     #[error("no more input")]
     NoMoreInput,
-    /// RFC 8949 keeps the byte for later, or gives it no meaning.
+    /// The byte is reserved by RFC 8949, or has no meaning.
     #[error("invalid data: byte {0:#04x}")]
     Reserved(u8),
 }

@@ -18,7 +18,7 @@ pub enum Format {
     Argb,
 }
 
-/// Where the channels of a pixel stand in it: red, green, blue; alpha.
+/// Positions of the channels in a pixel: red, green, blue; alpha.
 #[derive(Clone, Copy)]
 struct Channels {
     colours: [usize; 3],

@@ -41,7 +41,7 @@ pub fn is_packed(bytes: &[u8]) -> bool {
     matches!(bytes.first(), Some(&(VERSION | OLD_VERSION)))
 }
 
-/// `table` packed. None if a string or table in it is longer than the format can tell.
+/// `table` packed. None if a string or table in it is longer than the format allows.
 pub fn encode(table: &Data) -> Option<Vec<u8>> {
     let mut out = Writer { bytes: vec![VERSION], flags: Vec::new() };
     out.table(table)?;

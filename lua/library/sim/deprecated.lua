@@ -67,12 +67,12 @@ function M.setThreadSwitchTiming(milliseconds)
     sim.setAutoYieldDelay((milliseconds + 0.001) / 1000) -- the delay is cut to whole milliseconds
 end
 
---- How long a thread may run before it is interrupted.
+--- The time slice of a thread.
 -- @api float value = sim.getThreadSwitchTiming()
 -- @return value milliseconds times 1000, as in 4.10
 function M.getThreadSwitchTiming() return sim.getAutoYieldDelay() * 1000 end
 
---- Whether the simulation keeps to wall-clock time.
+--- Whether the simulation runs in real time.
 -- @api int result = sim.getIsRealTimeSimulation()
 -- @return result 1 or 0
 function M.getIsRealTimeSimulation() return sim.getBoolParam(sim.boolparam_realtime_simulation) and 1 or 0 end

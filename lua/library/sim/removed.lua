@@ -187,7 +187,7 @@ function M.displayDialog(title, text, style, modal, ...) return -1 end
 -- @return result 0
 function M.endDialog(handle) return 0 end
 
---- What the user chose; there is none.
+--- The user's choice; there is none.
 -- @api int result = sim.getDialogResult(int handle)
 -- @param handle from sim.displayDialog
 -- @return result sim.dlgret_still_open

@@ -50,7 +50,7 @@ end
 
 local function flagOf(shape, parameter) return sim.getObjectInt32Param(shape, parameter) end
 
---- What a shape looks like.
+--- The appearance of a shape.
 -- @api map appearance = sim.getShapeAppearance(int handle, map options = {})
 -- @param handle the shape
 -- @return appearance for sim.setShapeAppearance

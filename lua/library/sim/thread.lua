@@ -183,7 +183,7 @@ function M.scheduleExecution(f, args, timePoint, simulationTime)
     return lastId
 end
 
---- Forgets a scheduled function.
+--- Cancels a scheduled function.
 -- @api bool cancelled = sim.cancelScheduledExecution(int id)
 -- @param id from sim.scheduleExecution
 -- @return cancelled false if it has run already, or never existed

@@ -155,7 +155,7 @@ fn remove_property(
     options.apply(cx.remove_property(&target, property_name.as_str())).map(drop)
 }
 
-/// What is known about a property; nothing when there is none of that name.
+/// Type, flags and description of a property; nothing if unknown.
 ///
 /// @param target object or script, sim.handle_app, sim.handle_scene, sim.handle_self
 /// @param propertyName its name

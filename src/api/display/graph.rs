@@ -93,7 +93,7 @@ fn set_graph_stream_value(cx: &mut Cx, graph_handle: Handle, stream_id: Number, 
     })
 }
 
-/// What a stream makes of the values it records.
+/// Sets the transformation of a stream: raw, derivative, integral, cumulative.
 ///
 /// @param graphHandle the graph
 /// @param streamId from sim.addGraphStream
@@ -239,7 +239,7 @@ fn described(style: &Style, fixed: bool, points: &[[f64; 3]], dimensions: usize,
     all
 }
 
-/// How a graph looks.
+/// Display settings of a graph.
 ///
 /// @param graphHandle the graph
 /// @return bitCoded 1: the oldest values are replaced, 16: handled explicitly; 2, 4 and 8, for its drawing, are always there
@@ -284,7 +284,7 @@ fn handle_graph(cx: &mut Cx, object_handle: Number, simulation_time: f64) -> Res
     Ok(())
 }
 
-/// Forgets what was recorded.
+/// Clears the recorded data.
 ///
 /// @param objectHandle the graph, sim.handle_all or sim.handle_all_except_explicit
 #[api("sim.resetGraph")]

@@ -139,7 +139,7 @@ fn scene_file(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<SceneFi
     file.map_err(|error| ApiError::Other(format!("{name}: {error}")))
 }
 
-/// Where files that belong to a scene are looked for.
+/// Search folders for files of a scene.
 fn folder_of(name: &str) -> Option<&Path> {
     Path::new(name).parent()
 }

@@ -50,7 +50,7 @@ fn serial_send(cx: &mut Cx, port_handle: Number, data: Bytes) -> Result<i64> {
     })
 }
 
-/// How many bytes wait to be read from a serial port.
+/// Number of bytes available at a serial port.
 ///
 /// @param portHandle from sim.serialOpen
 /// @return byteCount -1 when the device is gone

@@ -97,7 +97,7 @@ fn reset_dynamic_object(cx: &mut Cx, object_handle: i64) -> Result<i64> {
 /// `sim.handleflag_model`.
 const MODEL: i64 = 0x80_0000;
 
-/// Whether the physics holds a shape, or works on a joint or force sensor. False while the simulation is stopped.
+/// Whether a shape, joint or force sensor is dynamically simulated. False while the simulation is stopped.
 ///
 /// @param objectHandle the object
 /// @return enabled whether it takes part
@@ -138,7 +138,7 @@ fn existing(cx: &Cx, raw: i64) -> Result<Handle> {
     Ok(handle)
 }
 
-/// What a force sensor measures, in its own frame: the load its child applies to its parent.
+/// The measurement of a force sensor, in its own frame: the load of its child on its parent.
 ///
 /// @param objectHandle the force sensor; with sim.handleflag_rawvalue the value of the last sub-step
 /// @return result bit 0: there is data; bit 1: the sensor holds nothing

@@ -139,7 +139,7 @@ fn get_joint_velocity(cx: &Cx, joint_handle: Handle) -> Result<f64> {
     Ok(cx.scene().joint_velocity(joint_handle)?)
 }
 
-/// What a joint follows: position = offset + multCoeff * position of the master.
+/// The dependency of a joint: position = offset + multCoeff * position of the master.
 ///
 /// @param jointHandle the joint
 /// @return masterJointHandle -1 if there is none

@@ -99,7 +99,7 @@ fn ruckig_step(cx: &mut Cx, handle: Number, cycle_time: f64) -> Result<(i64, Vec
     }
 }
 
-/// Forgets a trajectory.
+/// Removes a trajectory.
 ///
 /// @param handle from sim.ruckigPos or sim.ruckigVel
 #[api("sim.ruckigRemove")]

@@ -80,7 +80,7 @@ impl Lookup {
         }
     }
 
-    /// Where relative paths start: the proxy, the script object that asks, or what it sits on if it is an old one.
+    /// Start of relative paths: the proxy, the calling script object, or the object of an attached script.
     fn emitter(&self, cx: &Cx) -> Result<Option<Handle>> {
         if let Some(raw) = self.proxy {
             let proxy = Handle::from_raw(raw).filter(|&handle| cx.scene().exists(handle));

@@ -41,7 +41,7 @@ fn set_object_property(cx: &mut Cx, object_handle: Handle, property: Number) -> 
     Ok(cx.scene_mut().modify(object_handle, Field::ObjectProperty, |object| object.object_property = property.0)?)
 }
 
-/// What an object can be to sensors and checks: its own flags, whatever its model says.
+/// Special properties of an object: collidable, measurable, detectable; its own flags, without those of models.
 ///
 /// @param objectHandle the object
 /// @return property sim.objectspecialproperty_* bits
@@ -87,7 +87,7 @@ fn explicit_flag(object: &mut Object) -> std::result::Result<&mut bool, SceneErr
     }
 }
 
-/// What an object, or the scene, says to renderers: `povray {focalBlur {true}} openGL3 {...}`.
+/// The extension string of an object or the scene, for renderers: `povray {focalBlur {true}} openGL3 {...}`.
 ///
 /// @param objectHandle the object, or sim.handle_scene
 /// @param index -1: of the object itself; from 0: of the colour of a mesh, of another object only 0
@@ -123,7 +123,7 @@ fn colour_extension(object: &Object, index: usize) -> Option<&String> {
     }
 }
 
-/// Whether a sensor or graph is left out when all are handled.
+/// Whether a sensor or graph is handled explicitly, so that handling all leaves it out.
 ///
 /// @param objectHandle proximity sensor, vision sensor or graph
 /// @return explicitHandlingFlags 1 if so

@@ -26,7 +26,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     set_script_text,
 ];
 
-/// What a numbered attribute or parameter of scripts is.
+/// Meaning of a numbered attribute or parameter of scripts.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Attribute {
     Priority,

@@ -42,7 +42,7 @@ fn tube_read(cx: &mut Cx, tube_handle: Number) -> Result<Option<Bytes>> {
     Ok(cx.tubes_mut().read(tube_handle.0).map(Bytes))
 }
 
-/// How it is with a tube.
+/// The state of a tube.
 ///
 /// @param tubeHandle from sim.tubeOpen
 /// @return result 1 if both ends are open, 0 if only this one is, -1 if there is no such tube

@@ -19,7 +19,7 @@ fn set_auto_yield_delay(cx: &mut Cx, delay: f64) -> Result<()> {
     Ok(())
 }
 
-/// How long a thread runs before it is pre-empted.
+/// The time slice of a thread before it is pre-empted.
 ///
 /// @return delay milliseconds, as in CoppeliaSim 4.10
 #[api("sim.getAutoYieldDelay")]

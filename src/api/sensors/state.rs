@@ -45,7 +45,7 @@ fn warn_if_any(cx: &Cx, what: &str, is: impl Fn(&Kind) -> bool) {
     }
 }
 
-/// Forgets what proximity sensors detected.
+/// Clears the results of proximity sensors.
 ///
 /// @param sensorHandle a sensor, sim.handle_all or sim.handle_all_except_explicit
 #[api("sim.resetProximitySensor")]
@@ -54,7 +54,7 @@ fn reset_proximity_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<()> {
     Ok(())
 }
 
-/// Forgets what vision sensors saw.
+/// Clears the results of vision sensors.
 ///
 /// @param sensorHandle a sensor, sim.handle_all or sim.handle_all_except_explicit
 #[api("sim.resetVisionSensor")]

@@ -25,7 +25,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 const RELATIVE: i64 = 1;
 /// A colour, and a tag, for each point.
 const EACH: i64 = 2;
-/// How near another point is the same one, metres.
+/// Distance below which points are duplicates, metres.
 const DUPLICATE_TOLERANCE: f64 = 0.0;
 
 type Point = [f64; 3];
@@ -249,7 +249,7 @@ fn cloud_points(cx: &Cx, point_cloud_handle: Handle) -> Result<Vec<f64>> {
     Ok(scene.object(point_cloud_handle)?.point_cloud()?.points.iter().flat_map(|point| point.position).collect())
 }
 
-/// How a point cloud keeps and shows its points.
+/// Options of a point cloud.
 ///
 /// @param pointCloudHandle the point cloud
 /// @return maxVoxelSize largest cell, metres

@@ -193,7 +193,7 @@ fn get_shape_bb(cx: &Cx, shape_handle: Handle) -> Result<([f64; 3], [f64; 7])> {
     Ok((bounding_box.size, pose_to_array(&bounding_box.pose)))
 }
 
-/// What kind of geometry a shape is.
+/// The kind of geometry of a shape.
 ///
 /// @param shapeHandle the shape
 /// @return result 1: compound, 2: primitive for the physics, 4: convex
@@ -212,7 +212,7 @@ fn get_shape_geom_info(cx: &Cx, shape_handle: Handle) -> Result<(i64, i64, [f64;
     Ok((mask, kind, [x, y, z, 0.0]))
 }
 
-/// What one mesh of a shape looks like.
+/// The appearance of one mesh of a shape.
 ///
 /// @param shapeHandle the shape
 /// @param itemIndex which mesh, from 0

@@ -47,7 +47,7 @@ impl ReportArgs {
         [&self.junit, &self.html].into_iter().flatten().try_for_each(|file| check(file))
     }
 
-    /// What is told while the tests run.
+    /// Output while the tests run.
     pub(super) fn reporter(&self) -> Reports {
         let stream = if self.tap { Some(Stream::Tap(0)) } else { self.json.then_some(Stream::Json) };
         // A terminal that shows the report already has no place for a second one.
@@ -57,7 +57,7 @@ impl ReportArgs {
         Reports { terminal: (!is_silent).then(|| Terminal::new(wishes)), stream }
     }
 
-    /// Tells the user something that belongs to no report: where it does not disturb one.
+    /// Prints a message that belongs to no report, without disturbing one.
     pub(super) fn tell(&self, text: &str) {
         // A reader that closes the pipe has seen enough, which is no error.
         let _ = match (self.tap || self.json, std::io::stdout().is_terminal()) {
@@ -82,7 +82,7 @@ impl ReportArgs {
     }
 }
 
-/// All that is told while the tests run.
+/// All output while the tests run.
 pub(super) struct Reports {
     terminal: Option<Terminal>,
     stream: Option<Stream>,
@@ -127,13 +127,13 @@ impl Reporter for Reports {
     }
 }
 
-/// At once, for whoever reads along. A reader that closes the pipe has seen enough, which is no error.
+/// Flushes at once, for readers of the pipe. A closed pipe is not an error.
 fn say(text: &str) {
     let mut out = std::io::stdout().lock();
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
 }
 
-/// A pipe or a device takes the report as it comes; anything else is replaced as a whole.
+/// Pipes and devices are written directly; files are replaced atomically.
 fn is_special(file: &Path) -> bool {
     fs::metadata(file).is_ok_and(|data| !data.is_file() && !data.is_dir())
 }

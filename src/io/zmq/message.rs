@@ -94,7 +94,7 @@ impl Message {
         check(unsafe { ffi::zmq_msg_set(&raw mut self.raw, property, value) }).map(drop)
     }
 
-    /// What the sender's side said about itself.
+    /// Metadata of the sender.
     pub(crate) fn property(&self, name: &str) -> ZmqResult<Vec<u8>> {
         self.require_open()?;
         let name = c_text(name)?;

@@ -12,7 +12,7 @@ use std::ffi::c_int;
 use super::{ApiFn, Args, Module, Param, Result};
 use crate::script::needs_lua;
 
-/// How deep arrays, maps and tags may be nested.
+/// Nesting limit of arrays, maps and tags.
 const MAX_DEPTH: usize = 500;
 /// The text for what is nested deeper: a cycle most of the time.
 const TOO_DEEP: &str = "nested too deeply (500 levels): does a table contain itself?";

@@ -1,7 +1,7 @@
 //! The native part of the Lua modules `lfs` and `lfsx`: folders, links and what is known of files. `lua/public/lfs.lua` gives it
 //! LuaFileSystem's form.
 //!
-//! These functions tell failures by results, as that library does: nil, the reason, and the system's number of it.
+//! These functions return failures, as that library does: nil, the reason, and the system's error number.
 
 mod lock;
 
@@ -111,7 +111,7 @@ fn time(seconds: f64) -> io::Result<SystemTime> {
     time.ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "Invalid argument"))
 }
 
-/// What the system knows of a file, as a table; of a link itself unless `follow`.
+/// File attributes as a table; of a link itself unless `follow`.
 #[api("lfs.attributes")]
 fn attributes(_cx: &Cx, path: String, follow: bool) -> Result<Results> {
     let known = if follow { fs::metadata(&path) } else { fs::symlink_metadata(&path) };

@@ -66,7 +66,7 @@ fn msg_close(cx: &Cx, msg: String) -> Result<i64> {
     Ok(objects.done(objects.with_message(&msg, Message::close)?))
 }
 
-/// Forgets the message.
+/// Destroys the message.
 ///
 /// @param msg the message
 #[api("simZMQ.msg_destroy")]
@@ -124,7 +124,7 @@ fn msg_set(cx: &Cx, msg: String, property: Number, value: Number) -> Result<i64>
     Ok(objects.done(objects.with_message(&msg, |message| message.set(int(property), int(value)))?))
 }
 
-/// What the sender's side said about itself.
+/// Metadata of the sender.
 ///
 /// @param msg the message
 /// @param property its name

@@ -14,7 +14,7 @@ use crate::script::{Bytes, Number, Table};
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![close, bind, unbind, connect, disconnect, setsockopt, getsockopt, socket_monitor, send, recv, poll,];
 
-/// How long a wait goes on before the end of the program is thought of, milliseconds.
+/// Longest wait between checks for the end of the program, milliseconds.
 const SLICE: i64 = 50;
 /// The time left of a wait without a limit.
 const FOREVER: i64 = -1;

@@ -19,7 +19,7 @@ fn addresses(cx: &Cx, host: &str, service: &str, family: Family) -> Found<Vec<So
     Lookup { family, datagrams: false, stop: stop(cx) }.resolve(host, service)
 }
 
-/// What is known of a host: `name`, `alias`, `ip`.
+/// Information about a host: `name`, `alias`, `ip`.
 fn resolved(name: &str, ips: &[String]) -> Data {
     let ips = ips.iter().map(|ip| Data::text(ip)).collect();
     Data::map([("name", Data::text(name)), ("alias", Data::Array(Vec::new())), ("ip", Data::Array(ips))])

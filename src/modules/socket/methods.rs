@@ -37,7 +37,7 @@ fn collect(cx: &Cx, object: AnySocket) -> Result<()> {
     Ok(())
 }
 
-/// What the object has become, for `tostring`.
+/// Class of the object, for `tostring`.
 #[api("socket.core.class_name")]
 fn class_name(_cx: &Cx, object: AnySocket) -> Result<String> {
     Ok(object.class_name())
@@ -93,7 +93,7 @@ fn dirty(_cx: &Cx, object: AnySocket) -> Result<bool> {
     })
 }
 
-/// Limits each wait (mode b) or whole operations (mode t); nil and negative numbers take the limit away.
+/// Limits each wait (mode b) or whole operations (mode t); nil and negative numbers remove the limit.
 #[api("socket.core.any:settimeout")]
 fn settimeout(_cx: &Cx, object: AnySocket, seconds: Option<LuaNumber>, mode: Option<LuaString>) -> Result<f64> {
     let seconds = seconds.map_or(-1.0, |seconds| seconds.0);
@@ -164,7 +164,7 @@ fn described(place: std::result::Result<Place, Failure>, port: impl Fn(u16) -> D
     }))
 }
 
-/// The places a host and a service, or a path, stand for.
+/// The addresses of a host and a service, or of a path.
 pub(super) fn places(
     cx: &Cx,
     family: Family,

@@ -89,7 +89,7 @@ fn unsupported(name: &str) -> ApiError {
     ApiError::BadArgument { position: 2, reason: format!("unsupported option `{name}'") }
 }
 
-/// The value as the option takes it.
+/// The value in the form of the option.
 fn typed(name: &str, value: &Data) -> Result<OptionValue> {
     let wrong = |wanted: &str| ApiError::BadArgument { position: 3, reason: format!("{wanted} expected") };
     match (name, value) {

@@ -175,7 +175,7 @@ fn getstats(_cx: &Cx, object: Client) -> Result<(f64, f64, f64)> {
     Ok(object.stream.borrow().stats())
 }
 
-/// What `getstats` begins with from now on.
+/// Sets the values of `getstats`.
 #[api("socket.core.stream:setstats")]
 fn setstats(
     _cx: &Cx,

@@ -47,7 +47,7 @@ fn errors(cx: &Cx) -> Result<i64> {
     Ok(cx.errors() as i64)
 }
 
-/// What has been printed and logged.
+/// Captured prints and log lines.
 ///
 /// @param first lines to leave out
 /// @param unfinished with those that have no end so far
@@ -90,7 +90,7 @@ fn file(cx: &Cx) -> Result<String> {
     Ok(bench(cx)?.file.clone())
 }
 
-/// How long a test may simulate, seconds.
+/// Limit of the simulated time of a test, seconds.
 ///
 /// @return seconds
 #[api("swanilda.test.timeLimit")]

@@ -24,7 +24,7 @@ impl Graph {
         }
     }
 
-    /// Forgets what was recorded. What is fixed stays.
+    /// Clears the recorded data. What is fixed stays.
     pub fn reset(&mut self) {
         self.times.clear();
         for stream in &mut self.streams {

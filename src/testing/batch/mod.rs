@@ -20,7 +20,7 @@ use super::workers::{Message, Task, work};
 /// What is run.
 #[derive(Debug, Clone)]
 pub struct Batch {
-    /// A scene, as `swanilda run` takes it.
+    /// A scene, as for `swanilda run`.
     pub scene: PathBuf,
     pub seeds: Vec<u32>,
     /// Parameters with the values each takes; every combination is run.

@@ -64,7 +64,7 @@ pub(in super::super) fn simulate(config: &Config, job: &Job, stop: &Arc<AtomicBo
 }
 
 impl Job {
-    /// A paused run is ended, since nobody would resume it.
+    /// A paused run is stopped, since it would never resume.
     fn request(&self) -> RunRequest {
         RunRequest {
             scene: self.scene.path.clone(),

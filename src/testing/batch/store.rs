@@ -32,7 +32,7 @@ pub struct Store {
 }
 
 impl Store {
-    /// Opens the folder of a batch, or makes it. With `anew`, rows that are there are forgotten.
+    /// Opens or creates the folder of a batch. With `anew`, existing rows are discarded.
     ///
     /// # Errors
     /// When it cannot be written, or holds another batch.

@@ -135,7 +135,7 @@ pub(super) fn record(outcome: &mut Outcome) {
     }
 }
 
-/// Writes pictures of what differs into `folder`; the message tells where they are.
+/// Writes plots of differing traces into `folder`; the message has their paths.
 pub(super) fn draw(outcome: &mut Outcome, folder: &Path) {
     let mut notes = String::new();
     for comparison in outcome.comparisons.iter().filter(|comparison| comparison.is_bad()) {

@@ -164,7 +164,7 @@ fn duration(seconds: f64) -> String {
     if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.2} s") }
 }
 
-/// Text that says what it says, wherever it stands in the page.
+/// Escaped text for any place in the page.
 struct Quoted<'a>(&'a str);
 
 impl fmt::Display for Quoted<'_> {

@@ -2,7 +2,7 @@
 
 /// The encoder. What cannot be decided before more comes (a space that may end a line, a CR) waits in `pending`.
 pub(crate) struct QuotedPrintable<'a> {
-    /// What stands for a line end.
+    /// The representation of a line end.
     pub marker: &'a [u8],
     pub pending: Vec<u8>,
 }
