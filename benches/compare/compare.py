@@ -96,10 +96,10 @@ def end_states(results):
     lines = [
         ("pendulum", "angle, largest error in 10 s, rad", 0.0,
          each("pendulum", lambda rows: np.abs(np.unwrap(angle_of(rows[:200])) - late).max())),
-        ("box on a slope", "way after 2 s, m", slide, each("box on a slope", lambda rows: body(rows, 0)[0][-1, 0])),
+        ("box on a slope", "distance after 2 s, m", slide, each("box on a slope", lambda rows: body(rows, 0)[0][-1, 0])),
         ("tower of ten boxes", "height of the top box after 60 s, m", 0.95,
          each("tower of ten boxes", lambda rows: height_of_top(rows)[-1])),
-        ("tower of ten boxes", "its way aside, m", 0.0,
+        ("tower of ten boxes", "its lateral displacement, m", 0.0,
          each("tower of ten boxes", lambda rows: np.hypot(*body(rows, 9)[0][-1, :2]))),
         ("arm of seven joints", "first joint after 4 s, rad", 0.3,
          each("arm of seven joints", lambda rows: first_joint(rows)[-1])),

@@ -1,4 +1,4 @@
--- Newton's cradle with gaps of 1 cm, so that one collision follows the other: only the last ball moves on.
+-- Newton's cradle with gaps of 1 cm, so that the collisions happen one after the other: only the last ball keeps moving.
 local bench = require 'lib.bench'
 
 bench.gravity(0)

@@ -1,4 +1,4 @@
--- A sensor between a base and a load: weight and moment.
+-- A force sensor between a base and a load: weight and moment.
 local bench = require 'lib.bench'
 
 local base = bench.body{at = {0, 0, 1}, fixed = true}

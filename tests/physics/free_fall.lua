@@ -1,4 +1,4 @@
--- A body falls, and one is thrown: by the steps the integrator makes, and by Galilei.
+-- A falling body and a projectile, compared with the integrator's sum and with g t^2 / 2.
 local bench = require 'lib.bench'
 
 local ball = bench.body{at = {0, 0, 100}, mass = 1}
@@ -13,6 +13,6 @@ bench.run(function()
     bench.check('drop after 1 s, sum over the sub-steps', 100 - z, bench.g * h * h * n * (n + 1) / 2, 1e-5)
     bench.check('drop after 1 s, g t^2 / 2', 100 - z, bench.g / 2, 0.03)
     local p = sim.getObjectPosition(thrown)
-    bench.check('way of a projectile after 1 s', p[1] - 10, 3, 1e-6)
+    bench.check('distance of a projectile after 1 s', p[1] - 10, 3, 1e-6)
     bench.check('height of a projectile after 1 s', p[3], 4 - bench.g / 2, 0.03)
 end)

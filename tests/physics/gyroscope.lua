@@ -1,4 +1,4 @@
--- A body turns freely: its angular momentum stays, and a top without torque precesses at I3/I1 - 1 of its spin.
+-- Free rotation: angular momentum is conserved, and a torque-free top precesses at I3/I1 - 1 of its spin.
 local bench = require 'lib.bench'
 
 bench.gravity(0)
@@ -33,7 +33,7 @@ bench.run(function()
     end
     local _, after = turning()
     local apart = math.sqrt((after[1] - before[1]) ^ 2 + (after[2] - before[2]) ^ 2 + (after[3] - before[3]) ^ 2)
-    bench.check('change of the angular momentum in 10 s, of itself', apart / (I[3] * SPIN), 0, 0.02)
+    bench.check('relative change of angular momentum in 10 s', apart / (I[3] * SPIN), 0, 0.02)
     local rate = turned / (sim.getSimulationTime() - t0 - 0.05)
     bench.check('precession in the body, rad/s', math.abs(rate), (I[3] / I[1] - 1) * SPIN, 0.05)
 end)

@@ -1,4 +1,4 @@
--- A rod that swings about its end: the period tells its inertia.
+-- A rod that swings about its end: its period, which depends on the inertia.
 local bench = require 'lib.bench'
 
 local LENGTH <const>, AMPLITUDE <const> = 0.6, math.rad(3)

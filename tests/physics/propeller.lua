@@ -1,4 +1,4 @@
--- Propellers at 5000 rad/s, four turns in a sub-step: driven within a torque, on a body that is free to turn against it, and free.
+-- Propellers at 5000 rad/s, four turns in a sub-step: driven with limited torque, on a free body that turns in reaction, and free.
 local bench = require 'lib.bench'
 
 local SPEED <const>, TORQUE <const> = 5000, 10
@@ -38,18 +38,18 @@ bench.run(function()
     sim.step()
     local start = momentum(tilted, rotor)
     bench.untilTime(0.25)
-    bench.check('speed after 0.25 s within its torque, rad/s', sim.getJointVelocity(fixed), TORQUE / BLADE * 0.25, 1)
+    bench.check('speed after 0.25 s with limited torque, rad/s', sim.getJointVelocity(fixed), TORQUE / BLADE * 0.25, 1)
     bench.untilTime(2)
     local _, spin = sim.getVelocity(free)
     local _, hullSpin = sim.getVelocity(hull)
     local _, bladeSpin = sim.getVelocity(blade)
-    bench.check('speed at last, rad/s', sim.getJointVelocity(fixed), SPEED, 1e-3)
-    bench.check('way in 2 s, rad', sim.getJointPosition(fixed), SPEED * 2 - SPEED ^ 2 * BLADE / TORQUE / 2, 15)
-    bench.check('speed of the hull against it, rad/s', hullSpin[3], -SPEED * BLADE / (BLADE + HULL), 1e-3)
+    bench.check('final speed, rad/s', sim.getJointVelocity(fixed), SPEED, 1e-3)
+    bench.check('angle in 2 s, rad', sim.getJointPosition(fixed), SPEED * 2 - SPEED ^ 2 * BLADE / TORQUE / 2, 15)
+    bench.check('speed of the body in reaction, rad/s', hullSpin[3], -SPEED * BLADE / (BLADE + HULL), 1e-3)
     bench.check('angular momentum of both, N m s', HULL * hullSpin[3] + BLADE * bladeSpin[3], 0, 1e-6)
     local change = 0
     for i, l in ipairs(momentum(tilted, rotor)) do change = change + (l - start[i]) ^ 2 end
     bench.check('change of the angular momentum of one that nods, of 5 N m s', math.sqrt(change), 0, 0.1)
-    bench.check('place of the hull, m', sim.getObjectPosition(hull)[1], 1, 1e-6)
-    bench.check('speed of the free one, rad/s', spin[3], SPEED, 1e-3)
+    bench.check('position of the body, m', sim.getObjectPosition(hull)[1], 1, 1e-6)
+    bench.check('speed of the free propeller, rad/s', spin[3], SPEED, 1e-3)
 end)

@@ -1,4 +1,4 @@
--- Balls that drop from 1 m: the height they come back to is that of the restitution squared.
+-- Balls dropped from 1 m: the rebound height is the restitution squared.
 local bench = require 'lib.bench'
 
 local RADIUS <const> = 0.1
@@ -24,6 +24,6 @@ bench.run(function()
         end
     end
     for _, ball in ipairs(balls) do
-        bench.check(('height of return at restitution %.2f, m'):format(ball.bounce), ball.top, ball.bounce ^ 2, 0.02)
+        bench.check(('rebound height at restitution %.2f, m'):format(ball.bounce), ball.top, ball.bounce ^ 2, 0.02)
     end
 end)

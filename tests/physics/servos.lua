@@ -1,4 +1,4 @@
--- Motors: velocity within a force, position by the law of CoppeliaSim, and a lift against gravity.
+-- Motors: velocity with limited force, position by CoppeliaSim's control law, and a lift against gravity.
 local bench = require 'lib.bench'
 
 local function rig(x, type, mode, force, mass)
@@ -21,10 +21,10 @@ bench.run(function()
     bench.check('position servo after 50 ms, 0.1 (1 - 0.9^10) rad', sim.getJointPosition(servo), 0.1 * (1 - 0.9 ^ 10), 1e-6)
     bench.untilTime(1)
     -- 0.02 N m on 0.01 kg m2: 2 rad/s2, until 5 rad/s are reached after 2.5 s.
-    bench.check('wheel within its torque after 1 s, rad/s', sim.getJointVelocity(wheel), 2, 1e-3)
+    bench.check('wheel with limited torque after 1 s, rad/s', sim.getJointVelocity(wheel), 2, 1e-3)
     bench.check('torque of that motor, N m', -sim.getJointForce(wheel), 0.02, 1e-6)
     bench.untilTime(4)
-    bench.check('wheel at its velocity, rad/s', sim.getJointVelocity(wheel), 5, 1e-3)
-    bench.check('way of a lift after 4 s, m', sim.getJointPosition(lift), 0.8, 1e-3) -- two sub-steps to get going
+    bench.check('wheel at its target velocity, rad/s', sim.getJointVelocity(wheel), 5, 1e-3)
+    bench.check('distance of a lift after 4 s, m', sim.getJointPosition(lift), 0.8, 1e-3) -- two sub-steps to get going
     bench.check('force of the lift, m g, N', -sim.getJointForce(lift), 3 * bench.g, 1e-4)
 end)

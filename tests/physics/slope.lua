@@ -1,4 +1,4 @@
--- Friction: the slope on which a box begins to slide, and how far one slides on the level.
+-- Friction: the slope at which a box begins to slide, and its sliding distance on the horizontal.
 local bench = require 'lib.bench'
 
 local FRICTION <const> = 0.5
@@ -22,9 +22,9 @@ bench.run(function()
         local p = sim.getObjectPosition(boxes[i])
         return math.sqrt((p[1] - start[i][1]) ^ 2 + (p[3] - start[i][3]) ^ 2)
     end
-    bench.check('way on a slope 1 deg below the angle of friction in 2 s, m', way(1), 0, 1e-3)
+    bench.check('distance on a slope 1 deg below the angle of friction in 2 s, m', way(1), 0, 1e-3)
     local slope = math.atan(FRICTION) + math.rad(1)
     local friction = math.tan(slope) - way(2) / 2 / (bench.g * math.cos(slope))
-    bench.check('friction, from the way 1 deg above that angle in 2 s', friction, FRICTION, 0.005)
+    bench.check('friction, from the distance 1 deg above that angle in 2 s', friction, FRICTION, 0.005)
     bench.check('sliding distance, v^2 / 2 mu g, m', sim.getObjectPosition(slider)[1], 4 / (2 * 0.3 * bench.g), 0.01)
 end)

@@ -1,4 +1,4 @@
--- Colliders of all kinds: a ball in a bowl of terrain, a box on a mesh, compounds on a plane, a divided mesh on the ground.
+-- Colliders of all kinds: a ball in a height field, a box on a mesh, compounds on a plane, a decomposed mesh on the ground.
 local bench = require 'lib.bench'
 
 local SIDE <const>, WIDTH <const>, CURVE <const> = 101, 4, 0.25 -- height: CURVE times the square of the distance from the middle
@@ -51,8 +51,8 @@ bench.run(function()
     local stiffness = 2 * CURVE / (1 - 2 * CURVE * RADIUS) -- curvature of the way of the ball's centre
     local period = 2 * math.pi / math.sqrt(5 / 7 * bench.g * stiffness)
     bench.check('period of a ball in a bowl, s', crossings[3] - crossings[1], period, 0.05 * period)
-    bench.check('way of the ball out of its plane, m', sim.getObjectPosition(ball)[2], 0, 0.01)
+    bench.check('displacement of the ball out of its plane, m', sim.getObjectPosition(ball)[2], 0, 0.01)
     bench.check('height of a box at rest on a mesh, m', sim.getObjectPosition(box)[3], 1.05, 1e-3)
-    bench.check('height of a group of groups at rest on a plane, m', sim.getObjectPosition(group)[3], 0.05, 1e-3)
-    bench.check('height of a divided shape at rest on a plane, m', sim.getObjectPosition(divided)[3], 0.05, 5e-3)
+    bench.check('height of nested groups at rest on a plane, m', sim.getObjectPosition(group)[3], 0.05, 1e-3)
+    bench.check('height of a decomposed shape at rest on a plane, m', sim.getObjectPosition(divided)[3], 0.05, 5e-3)
 end)

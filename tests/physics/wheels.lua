@@ -1,4 +1,4 @@
--- A cart with two driven wheels and a sliding foot: it rolls as far as its wheels turn, and drives the circle its speeds say.
+-- A cart with two driven wheels and a sliding foot: distance driven, and radius of a circle.
 local bench = require 'lib.bench'
 
 local RADIUS <const>, TRACK <const> = 0.1, 0.4
@@ -43,8 +43,8 @@ bench.run(function()
         for i = 1, 2 do low[i], high[i] = math.min(low[i], p[i]), math.max(high[i], p[i]) end
     end
     local to = sim.getObjectPosition(straight)
-    bench.check('way of a cart, radius times angle, m', to[1] - from[1], RADIUS * angle, 0.01 * RADIUS * angle)
-    bench.check('its drift to the side, m', to[2] - from[2], 0, 0.05)
+    bench.check('distance of a cart, radius times angle, m', to[1] - from[1], RADIUS * angle, 0.01 * RADIUS * angle)
+    bench.check('its lateral drift, m', to[2] - from[2], 0, 0.05)
     -- The middle of the axle goes round at track / 2 * (vr + vl) / (vr - vl).
     local radius = TRACK / 2 * (3 + 2) / (3 - 2)
     bench.check('radius of the circle, m', (high[1] - low[1]) / 2, radius, 0.05 * radius)
