@@ -27,7 +27,7 @@ function graph.prepareCurves() end
 --- Settings of the display: bitCoded, graphPos, updateFreq.
 function graph.readInfo() end
 
---- Forgets what was recorded.
+--- Clears the recorded data.
 function graph.reset() end
 
 function graph.updateCurves() end

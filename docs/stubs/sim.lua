@@ -307,7 +307,7 @@ function sim.buildPose(position, eulerAnglesOrAxis, mode, axis2) end
 ---@return any ... what the function returned
 function sim.callScriptFunction(functionName, scriptHandle, ...) end
 
---- Forgets a scheduled function.
+--- Cancels a scheduled function.
 ---@param id integer from sim.scheduleExecution
 ---@return boolean cancelled false if it has run already, or never existed
 function sim.cancelScheduledExecution(id) end
@@ -678,7 +678,7 @@ function sim.getArrayParameter(parameter) end
 ---@return integer level
 function sim.getAutoYield() end
 
---- How long a thread runs before it is pre-empted.
+--- The time slice of a thread before it is pre-empted.
 ---@return number delay milliseconds, as in CoppeliaSim 4.10
 function sim.getAutoYieldDelay() end
 
@@ -758,7 +758,7 @@ function sim.getContactInfo(dynamicPass, objectHandle, index) end
 ---@return integer scriptHandle -1 if there is none
 function sim.getCustomizationScriptAssociatedWithObject(objectHandle) end
 
---- What the user chose; there is none.
+--- The user's choice; there is none.
 ---@deprecated the simUI functionality
 ---@param handle integer from sim.displayDialog
 ---@return integer result sim.dlgret_still_open
@@ -820,12 +820,12 @@ function sim.getEngineInt32Parameter(paramId, objectHandle) end
 ---@return number[] eulerAngles alpha, beta, gamma, radians
 function sim.getEulerAnglesFromMatrix(matrix) end
 
---- Whether a sensor or graph is left out when all are handled.
+--- Whether a sensor or graph is handled explicitly, so that handling all leaves it out.
 ---@param objectHandle integer proximity sensor, vision sensor or graph
 ---@return integer explicitHandlingFlags 1 if so
 function sim.getExplicitHandling(objectHandle) end
 
---- What an object, or the scene, says to renderers: `povray {focalBlur {true}} openGL3 {...}`.
+--- The extension string of an object or the scene, for renderers: `povray {focalBlur {true}} openGL3 {...}`.
 ---@param objectHandle integer the object, or sim.handle_scene
 ---@param index integer -1: of the object itself; from 0: of the colour of a mesh, of another object only 0
 ---@param key? string one entry, the innermost name first: `focalBlur@povray`; nothing for the whole text
@@ -876,7 +876,7 @@ function sim.getGenesisEvents() end
 ---@return any label attributes, curveColor, xData, yData, minMax, curveId, curveWidth nothing past the last one; a curve of three dimensions has
 function sim.getGraphCurve(graphHandle, graphType, curveIndex) end
 
---- How a graph looks.
+--- Display settings of a graph.
 ---@param graphHandle integer the graph
 ---@return integer bitCoded 1: the oldest values are replaced, 16: handled explicitly; 2, 4 and 8, for its drawing, are always there
 ---@return number[] bgColor of the background
@@ -937,11 +937,11 @@ function sim.getIntegerSignal(signalName) end
 ---@return number[] inverse another table
 function sim.getInvertedMatrix(matrix) end
 
---- Whether the simulation keeps to wall-clock time.
+--- Whether the simulation runs in real time.
 ---@return integer result 1 or 0
 function sim.getIsRealTimeSimulation() end
 
---- What a joint follows: position = offset + multCoeff * position of the master.
+--- The dependency of a joint: position = offset + multCoeff * position of the master.
 ---@param jointHandle integer the joint
 ---@return integer masterJointHandle -1 if there is none
 ---@return number offset rad or metres
@@ -1241,7 +1241,7 @@ function sim.getObjectSelection() end
 ---@return number sizeFactor the product
 function sim.getObjectSizeFactor(objectHandle) end
 
---- What an object can be to sensors and checks: its own flags, whatever its model says.
+--- Special properties of an object: collidable, measurable, detectable; its own flags, without those of models.
 ---@param objectHandle integer the object
 ---@return integer property sim.objectspecialproperty_* bits
 function sim.getObjectSpecialProperty(objectHandle) end
@@ -1332,7 +1332,7 @@ function sim.getPersistentDataTags() end
 ---@return string pluginName nil
 function sim.getPluginName(index) end
 
---- How a point cloud keeps and shows its points.
+--- Options of a point cloud.
 ---@param pointCloudHandle integer the point cloud
 ---@return number maxVoxelSize largest cell, metres
 ---@return integer maxPtCntPerVoxel most points in a cell
@@ -1382,7 +1382,7 @@ function sim.getProperty(target, name, options) end
 ---@return function getter for instance sim.getIntProperty
 function sim.getPropertyGetter(type, onlyName) end
 
---- What is known about a property; nothing when there is none of that name.
+--- Type, flags and description of a property; nothing if unknown.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
 ---@param propertyName string its name
 ---@param Options? table
@@ -1562,7 +1562,7 @@ function sim.getSettingInt32(key) end
 ---@return string value nil if there is none
 function sim.getSettingString(key) end
 
---- What a shape looks like.
+--- The appearance of a shape.
 ---@param handle integer the shape
 ---@param options? table
 ---@return table appearance for sim.setShapeAppearance
@@ -1582,7 +1582,7 @@ function sim.getShapeBB(shapeHandle) end
 ---@return number[] rgbData red, green, blue; one number for transparency, 1 for opaque
 function sim.getShapeColor(shapeHandle, colorName, colorComponent) end
 
---- What kind of geometry a shape is.
+--- The kind of geometry of a shape.
 ---@param shapeHandle integer the shape
 ---@return integer result 1: compound, 2: primitive for the physics, 4: convex
 ---@return integer pureType sim.primitiveshape_*, 0 if it is none
@@ -1621,7 +1621,7 @@ function sim.getShapeMesh(shapeHandle) end
 ---@return integer textureId a texture, the handle of a vision sensor whose picture it is, or -1
 function sim.getShapeTextureId(shapeHandle) end
 
---- What one mesh of a shape looks like.
+--- The appearance of one mesh of a shape.
 ---@param shapeHandle integer the shape
 ---@param itemIndex integer which mesh, from 0
 ---@return any data vertices, indices, normals, colors, shadingAngle, transparency, options, texture; nothing past the last mesh
@@ -1737,7 +1737,7 @@ function sim.getThreadExitRequest() end
 ---@return boolean allowed
 function sim.getThreadSwitchAllowed() end
 
---- How long a thread may run before it is interrupted.
+--- The time slice of a thread.
 ---@deprecated
 ---@return number value milliseconds times 1000, as in 4.10
 function sim.getThreadSwitchTiming() end
@@ -2005,7 +2005,7 @@ function sim.invertMatrix(matrix) end
 ---@return integer result 1
 function sim.invertPose(pose) end
 
---- Whether the physics holds a shape, or works on a joint or force sensor. False while the simulation is stopped.
+--- Whether a shape, joint or force sensor is dynamically simulated. False while the simulation is stopped.
 ---@param objectHandle integer the object
 ---@return boolean enabled whether it takes part
 function sim.isDynamicallyEnabled(objectHandle) end
@@ -2296,7 +2296,7 @@ function sim.readCustomStringData(objectHandle, tagName) end
 ---@return table data empty if there is none
 function sim.readCustomTableData(handle, tag, options) end
 
---- What a force sensor measures, in its own frame: the load its child applies to its parent.
+--- The measurement of a force sensor, in its own frame: the load of its child on its parent.
 ---@param objectHandle integer the force sensor; with sim.handleflag_rawvalue the value of the last sub-step
 ---@return integer result bit 0: there is data; bit 1: the sensor holds nothing
 ---@return number[] forceVector newtons
@@ -2447,7 +2447,7 @@ function sim.resetDistance(distanceObjectHandle) end
 ---@return integer result
 function sim.resetDynamicObject(objectHandle) end
 
---- Forgets what was recorded.
+--- Clears the recorded data.
 ---@param objectHandle integer the graph, sim.handle_all or sim.handle_all_except_explicit
 function sim.resetGraph(objectHandle) end
 
@@ -2461,11 +2461,11 @@ function sim.resetMill(millHandle) end
 ---@return integer result 0
 function sim.resetMilling(objectHandle) end
 
---- Forgets what proximity sensors detected.
+--- Clears the results of proximity sensors.
 ---@param sensorHandle integer a sensor, sim.handle_all or sim.handle_all_except_explicit
 function sim.resetProximitySensor(sensorHandle) end
 
---- Forgets what vision sensors saw.
+--- Clears the results of vision sensors.
 ---@param sensorHandle integer a sensor, sim.handle_all or sim.handle_all_except_explicit
 function sim.resetVisionSensor(sensorHandle) end
 
@@ -2529,7 +2529,7 @@ function sim.rmlMoveToPosition(object, relativeTo, flags, currentVel, currentAcc
 ---@return integer handle for sim.ruckigStep
 function sim.rmlPos(dofs, baseCycleTime, flags, currentPosVelAccel, maxVelAccelJerk, selection, targetPosVel) end
 
---- Forgets a trajectory.
+--- Removes a trajectory.
 ---@deprecated sim.ruckigRemove
 ---@param handle integer from sim.ruckigPos or sim.ruckigVel
 function sim.rmlRemove(handle) end
@@ -2574,7 +2574,7 @@ function sim.rotateAroundAxis(matrixIn, axis, axisPos, angle) end
 ---@return integer handle for sim.ruckigStep
 function sim.ruckigPos(dofs, baseCycleTime, flags, currentPosVelAccel, maxVelAccelJerk, selection, targetPosVel) end
 
---- Forgets a trajectory.
+--- Removes a trajectory.
 ---@param handle integer from sim.ruckigPos or sim.ruckigVel
 function sim.ruckigRemove(handle) end
 
@@ -2648,7 +2648,7 @@ function sim.scheduleExecution(f, args, timePoint, simulationTime) end
 ---@param ... any
 function sim.sendData(targetID, dataHeader, dataName, data, ...) end
 
---- How many bytes wait to be read from a serial port.
+--- Number of bytes available at a serial port.
 ---@param portHandle integer from sim.serialOpen
 ---@return integer byteCount -1 when the device is gone
 function sim.serialCheck(portHandle) end
@@ -2823,7 +2823,7 @@ function sim.setFloatProperty(target, propertyName, propertyState, options) end
 ---@return integer result 1
 function sim.setFloatSignal(signalName, signalValue) end
 
---- What a stream makes of the values it records.
+--- Sets the transformation of a stream: raw, derivative, integral, cumulative.
 ---@param graphHandle integer the graph
 ---@param streamId integer from sim.addGraphStream
 ---@param trType integer sim.stream_transf_*
@@ -3444,7 +3444,7 @@ function sim.tubeOpen(dataHeader, dataName, readBufferSize) end
 ---@return string|table data nothing if no packet waits
 function sim.tubeRead(tubeHandle) end
 
---- How it is with a tube.
+--- The state of a tube.
 ---@param tubeHandle integer from sim.tubeOpen
 ---@return integer result 1 if both ends are open, 0 if only this one is, -1 if there is no such tube
 ---@return integer readPacketsCount packets that wait here

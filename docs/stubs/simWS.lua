@@ -32,7 +32,7 @@ function simWS.connect(uri) end
 --- Ends a client at once.
 function simWS.disconnect(clientHandle) end
 
---- Where a server listens. Not in CoppeliaSim.
+--- The port of a server. Not in CoppeliaSim.
 function simWS.getPort(serverHandle) end
 
 --- Sends a message.

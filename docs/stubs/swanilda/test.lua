@@ -66,7 +66,7 @@ function t.gauss() end
 
 function t.golden(name, quantities, options) end
 
---- What has been printed and logged.
+--- Captured prints and log lines.
 function t.lines() end
 
 function t.load(file) end
