@@ -1,57 +1,15 @@
-//! The wall between the layers: imports point inwards only (docs/ARCHITECTURE.md).
+//! The wall between the layers, and between the rooms of a layer: imports point inwards only (docs/ARCHITECTURE.md).
 
-use std::fs;
+mod imports;
+mod rules;
+
 use std::path::{Path, PathBuf};
 
-/// The layers from the inside out; a module may import from its own row's modules it belongs to, and from rows above it.
-const LAYERS: &[&[&str]] = &[
-    &["scene"],
-    &["wire"],
-    &["dynamics", "format", "io"],
-    &["script"],
-    &["api"],
-    &["modules"],
-    &["simulator"],
-    &["docs", "testing"],
-    &["cli"],
-];
-
-/// Who may name what comes from outside the crate.
-const OWNERS: &[(&str, &str)] = &[
-    ("rapier3d", "src/dynamics"),
-    ("mlua", "src/script"),
-    ("mlua", "src/simulator/builder.rs"),
-    ("mlua", "src/lib.rs"),
-    ("directories", "src/script/files/app_storage"),
-    ("fs4", "src/script"),
-    ("image", "src/format/picture.rs"),
-    ("dns_lookup", "src/io/socket"),
-    ("rustix", "src/io/socket"),
-    ("rustls", "src/io/socket/tls.rs"),
-    ("rustls_native_certs", "src/io/socket/tls.rs"),
-    ("socket2", "src/io/socket"),
-    ("zmq_sys", "src/io/zmq"),
-    ("tokio", "src/io"),
-    ("tokio_tungstenite", "src/io/ws"),
-    ("httparse", "src/io/ws"),
-    ("futures", "src/io"),
-    ("serialport", "src/io/serial.rs"),
-    ("csv", "src/testing/batch/store.rs"),
-    ("plotters", "src/testing/golden/plot.rs"),
-    ("dejavu", "src/testing/golden/plot.rs"),
-    ("notify", "src/cli/test/watch.rs"),
-    ("quick_xml", "src/format/xml"),
-    ("quick_xml", "src/testing/report/junit.rs"),
-    ("clap", "src/cli"),
-    ("indicatif", "src/cli"),
-    ("ctrlc", "src/cli"),
-];
-
-/// Where functions for scripts stand. What they may touch is in their signature: `&Cx` reads, `&mut Cx` changes something or calls scripts.
-const FUNCTIONS_FOR_SCRIPTS: &[&str] = &["src/api", "src/modules"];
-
-/// The edges to libraries written in C.
-const UNSAFE: &[&str] = &["src/script", "src/io/zmq"];
+use imports::{
+    code_lines, crate_paths, dependencies, has_word, is_test, module_of, module_path, names_crate, read, relative,
+    rooms_used, root, sources, sources_of_crates, without_tests,
+};
+use rules::{FUNCTIONS_FOR_SCRIPTS, LAYERS, OWNERS, ROOMS, Rooms, UNSAFE};
 
 #[test]
 fn imports_point_inwards() {
@@ -72,18 +30,59 @@ fn imports_point_inwards() {
 }
 
 #[test]
+fn rooms_use_what_they_may() {
+    let wrong: Vec<String> =
+        sources().iter().filter(|file| !is_test(file)).flat_map(|file| forbidden_rooms(file)).collect();
+    assert!(wrong.is_empty(), "see ROOMS in tests/architecture/rules.rs:\n{}", wrong.join("\n"));
+}
+
+/// The rooms that a file uses, though its own may not.
+fn forbidden_rooms(file: &Path) -> Vec<String> {
+    let path = module_path(file);
+    let [layer, room, ..] = path.as_slice() else { return Vec::new() };
+    let Some((_, rooms)) = ROOMS.iter().find(|(of, _)| of == layer) else { return Vec::new() };
+    let Some((_, may_use)) = rooms.iter().find(|(of, _)| of == room) else {
+        return vec![format!("{}: `{room}` is no room of `{layer}`", file.display())];
+    };
+    let is_forbidden = |used: &String| used != room && is_room(rooms, used) && !may_use.contains(&used.as_str());
+    let used = rooms_used(&without_tests(&read(file)), &path, layer);
+    used.into_iter()
+        .filter(is_forbidden)
+        .map(|used| format!("{}: {room} must not use {used}", file.display()))
+        .collect()
+}
+
+fn is_room(rooms: Rooms, name: &str) -> bool {
+    rooms.iter().any(|(room, _)| *room == name)
+}
+
+#[test]
 fn every_dependency_has_one_owner() {
     let mut wrong = Vec::new();
-    for file in sources() {
-        let text = read(&file);
-        for (name, owner) in OWNERS {
-            let owned = OWNERS.iter().any(|(of, folder)| of == name && relative(&file).starts_with(folder));
+    for file in sources().iter().chain(&sources_of_crates()) {
+        let text = without_tests(&read(file));
+        let own_name = |name: &str| relative(file).starts_with(Path::new("crates").join(name.replace('_', "-")));
+        for (name, owner) in OWNERS.iter().filter(|(name, _)| !own_name(name)) {
+            let owned = OWNERS.iter().any(|(of, folder)| of == name && relative(file).starts_with(folder));
             if code_lines(&text).any(|line| names_crate(line, name)) && !owned {
                 wrong.push(format!("{}: only {owner} may name {name}", file.display()));
             }
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_dependency_is_listed() {
+    let unlisted: Vec<String> = dependencies().into_iter().filter(|name| !has_owner(name)).collect();
+    assert!(unlisted.is_empty(), "add them to OWNERS in tests/architecture/rules.rs: {unlisted:?}");
+    let unknown: Vec<&str> =
+        OWNERS.iter().map(|(_, folder)| *folder).filter(|folder| !root().join(folder).exists()).collect();
+    assert!(unknown.is_empty(), "OWNERS names what is not there: {unknown:?}");
+}
+
+fn has_owner(dependency: &str) -> bool {
+    OWNERS.iter().any(|(name, _)| dependency == *name || dependency == format!("{name}_f64"))
 }
 
 /// `Sim` is the whole simulator: who holds it may do anything, whatever the signature says.
@@ -121,109 +120,13 @@ fn unsafe_code_stays_at_the_edges_to_c() {
 
 #[test]
 fn every_module_says_what_it_is_for() {
-    let silent: Vec<_> = sources().into_iter().filter(|file| !read(file).starts_with("//!")).collect();
+    let silent: Vec<_> =
+        sources().into_iter().chain(sources_of_crates()).filter(|file| !read(file).starts_with("//!")).collect();
     assert!(silent.is_empty(), "these begin without `//!`: {silent:?}");
-}
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn relative(file: &Path) -> &Path {
-    file.strip_prefix(root()).expect("sources lie below the root")
-}
-
-fn read(file: &Path) -> String {
-    fs::read_to_string(file).expect("sources are readable")
-}
-
-/// Every Rust file below `src`.
-fn sources() -> Vec<PathBuf> {
-    let mut pending = vec![root().join("src")];
-    let mut files = Vec::new();
-    while let Some(dir) = pending.pop() {
-        for path in fs::read_dir(&dir).expect("src is readable").flatten().map(|entry| entry.path()) {
-            if path.is_dir() {
-                pending.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                files.push(path);
-            }
-        }
-    }
-    files.sort();
-    files
-}
-
-/// The top-level module a file belongs to; none for `lib.rs` and `main.rs`, which only put the layers together.
-fn module_of(file: &Path) -> Option<String> {
-    let first = relative(file).strip_prefix("src").ok()?.components().next()?;
-    let name = Path::new(first.as_os_str()).file_stem()?.to_str()?;
-    (!matches!(name, "lib" | "main")).then(|| name.to_owned())
 }
 
 /// A name re-exported at the root counts as the embedding API's.
 fn layer_of(module: &str) -> Option<usize> {
     let name = if module.starts_with(char::is_uppercase) { "simulator" } else { module };
     LAYERS.iter().position(|layer| layer.contains(&name))
-}
-
-/// What follows each `crate::` in the code: `crate::a::b` and `crate::{a, b::c}`.
-fn crate_paths(text: &str) -> Vec<String> {
-    let code: String = code_lines(text).collect::<Vec<_>>().join("\n");
-    let mut names = Vec::new();
-    for (at, _) in code.match_indices("crate::") {
-        if code[..at].ends_with('$') {
-            continue;
-        }
-        let rest = &code[at + "crate::".len()..];
-        match rest.strip_prefix('{') {
-            Some(group) => names.extend(top_level_names(group)),
-            None => names.push(identifier(rest)),
-        }
-    }
-    names
-}
-
-/// The first names of a use group, up to its closing brace.
-fn top_level_names(group: &str) -> Vec<String> {
-    let mut depth = 0;
-    let mut names = Vec::new();
-    let mut item = 0;
-    for (at, letter) in group.char_indices() {
-        match letter {
-            '{' => depth += 1,
-            '}' if depth > 0 => depth -= 1,
-            ',' | '}' if depth == 0 => {
-                names.push(identifier(group[item..at].trim_start()));
-                item = at + 1;
-                if letter == '}' {
-                    break;
-                }
-            }
-            _ => {}
-        }
-    }
-    names.retain(|name| !name.is_empty());
-    names
-}
-
-fn identifier(text: &str) -> String {
-    text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
-}
-
-fn code_lines(text: &str) -> impl Iterator<Item = &str> {
-    text.lines().filter(|line| !line.trim_start().starts_with("//"))
-}
-
-fn has_word(line: &str, word: &str) -> bool {
-    line.split(|c: char| !c.is_alphanumeric() && c != '_').any(|part| part == word)
-}
-
-fn names_crate(line: &str, name: &str) -> bool {
-    line.match_indices(name).any(|(at, _)| {
-        let before = line[..at].chars().next_back();
-        let after = &line[at + name.len()..];
-        before.is_none_or(|c| !c.is_alphanumeric() && c != '_')
-            && (after.starts_with("::") || after.starts_with("_f64"))
-    })
 }

@@ -1,0 +1,194 @@
+//! The rules: layers, owners of dependencies, rooms within layers.
+
+/// The layers from the inside out; a module may import from its own row's modules it belongs to, and from rows above it.
+pub const LAYERS: &[&[&str]] = &[
+    &["scene"],
+    &["wire"],
+    &["dynamics", "format", "io"],
+    &["script"],
+    &["api"],
+    &["modules"],
+    &["simulator"],
+    &["docs", "testing"],
+    &["cli"],
+];
+
+/// Who may name what comes from outside of a package: a line for each dependency, several where several folders need it.
+pub const OWNERS: &[(&str, &str)] = &[
+    ("api_macro", "src/api"),
+    ("api_macro", "src/modules"),
+    ("articulation", "src/dynamics"),
+    ("base64", "src/api/data"),
+    ("base64", "src/format"),
+    ("base64", "src/testing/report"),
+    ("base64", "src/wire/mime"),
+    ("ciborium_io", "src/wire"),
+    ("ciborium_ll", "src/wire"),
+    ("clap", "src/cli"),
+    ("clap_complete", "src/cli"),
+    ("csv", "src/testing/batch/store.rs"),
+    ("ctrlc", "src/cli"),
+    ("dejavu", "src/testing/golden/plot.rs"),
+    ("directories", "src/script/files/app_storage"),
+    ("dns_lookup", "src/io/socket"),
+    ("fs4", "src/script"),
+    ("futures", "src/io"),
+    ("geometry", "crates/articulation"),
+    ("geometry", "src/api"),
+    ("geometry", "src/dynamics"),
+    ("geometry", "src/format"),
+    ("geometry", "src/modules"),
+    ("geometry", "src/scene"),
+    ("geometry", "src/script/property"),
+    ("httparse", "src/io/ws"),
+    ("image", "src/format/picture.rs"),
+    ("indicatif", "src/cli"),
+    ("memchr", "src/format/xml"),
+    ("memchr", "src/io/socket"),
+    ("memchr", "src/wire/mime"),
+    ("mlua", "src/lib.rs"),
+    ("mlua", "src/script"),
+    ("mlua", "src/simulator/builder.rs"),
+    ("motion", "src/api"),
+    ("motion", "src/dynamics"),
+    ("motion", "src/script/step"),
+    ("nalgebra", "crates"),
+    ("nalgebra", "src"),
+    ("notify", "src/cli/test/watch.rs"),
+    ("parry3d", "crates/geometry"),
+    ("parry3d", "src/scene/voxels"),
+    ("plotters", "src/testing/golden/plot.rs"),
+    ("proc_macro2", "crates/api-macro"),
+    ("quick_xml", "src/format/xml"),
+    ("quick_xml", "src/testing/report/junit.rs"),
+    ("quote", "crates/api-macro"),
+    ("rand_mt", "src/script/lifecycle"),
+    ("rapier3d", "src/dynamics"),
+    ("rsruckig", "crates/motion"),
+    ("rustix", "src/io/socket"),
+    ("rustls", "src/io/socket/tls.rs"),
+    ("rustls_native_certs", "src/io/socket/tls.rs"),
+    ("serde_json", "src/cli"),
+    ("serde_json", "src/format/ttt"),
+    ("serde_json", "src/script/property"),
+    ("serde_json", "src/testing"),
+    ("serialport", "src/io/serial.rs"),
+    ("socket2", "src/io/socket"),
+    ("syn", "crates/api-macro"),
+    ("tempfile", "src/cli/test"),
+    ("tempfile", "src/format"),
+    ("tempfile", "src/script/files/app_storage"),
+    ("tempfile", "src/testing"),
+    ("thiserror", "crates"),
+    ("thiserror", "src"),
+    ("tokio", "src/io"),
+    ("tokio_tungstenite", "src/io/ws"),
+    ("zmq_sys", "src/io/zmq"),
+];
+
+/// The rooms of a layer, and which of the others each may use. What stands at the root of the layer, such as `Scene`, is for all.
+pub type Rooms = &'static [(&'static str, &'static [&'static str])];
+
+/// The layers that consist of rooms.
+pub const ROOMS: &[(&str, Rooms)] = &[("scene", SCENE), ("dynamics", DYNAMICS), ("format", FORMAT), ("script", SCRIPT)];
+
+const SCENE: Rooms = &[
+    ("error", &[]),
+    ("values", &[]),
+    ("journal", &["values"]),
+    ("voxels", &[]),
+    ("graph", &[]),
+    // Images lie on the meshes of shapes.
+    ("appearance", &["shape"]),
+    ("sensor", &["appearance"]),
+    ("shape", &["appearance", "voxels"]),
+    ("joint", &["parameters"]),
+    ("pose", &["joint"]),
+    ("simulation", &["appearance", "joint", "pose", "shape"]),
+    ("tree", &["appearance", "graph", "joint", "pose", "sensor", "shape", "simulation", "voxels"]),
+    ("parameters", &["appearance", "joint", "sensor", "shape", "tree"]),
+    ("store", &["appearance", "joint", "pose", "shape", "tree"]),
+];
+
+const DYNAMICS: Rooms = &[
+    ("convert", &[]),
+    ("frozen", &[]),
+    ("motors", &[]),
+    ("world", &[]),
+    ("plan", &["frozen"]),
+    ("colliders", &["convert", "plan"]),
+    ("bodies", &["colliders", "convert", "plan", "world"]),
+    ("contacts", &["bodies", "convert", "world"]),
+    ("contact_log", &["bodies", "convert", "world"]),
+    ("load", &["convert", "plan", "world"]),
+    ("links", &["bodies", "convert", "load", "motors", "plan", "world"]),
+    ("mechanisms", &["bodies", "contacts", "convert", "links", "plan", "world"]),
+    ("report", &["bodies", "convert", "links", "load", "plan", "world"]),
+];
+
+const FORMAT: Rooms = &[
+    ("picture", &[]),
+    ("ttt", &[]),
+    ("xml", &["picture", "ttt"]),
+    ("scene_file", &["ttt", "xml"]),
+    ("scene_folder", &["scene_file", "ttt"]),
+    ("scene_outline", &["scene_file", "ttt"]),
+    ("scene_input", &["scene_file", "scene_folder", "ttt"]),
+];
+
+/// `sim` is the simulator that consists of all, `error` and `log` are for all.
+const SCRIPT: Rooms = &[
+    ("error", &["lua"]),
+    ("log", &[]),
+    // A state carries the environment of its script.
+    ("lua", &["lifecycle"]),
+    (
+        "binding",
+        &[
+            "calls",
+            "channels",
+            "coverage",
+            "error",
+            "events",
+            "files",
+            "lifecycle",
+            "log",
+            "lua",
+            "property",
+            "sim",
+            "step",
+            "test_bench",
+        ],
+    ),
+    ("calls", &["binding", "error", "lifecycle", "log", "lua", "sim"]),
+    ("channels", &["binding", "calls", "error", "lifecycle", "log", "sim", "step"]),
+    ("coverage", &["error", "lifecycle", "log", "lua", "sim"]),
+    ("events", &["calls", "error", "lifecycle", "log", "property", "sim", "step"]),
+    ("files", &["calls", "error", "lifecycle", "log", "sim", "step"]),
+    ("lifecycle", &["binding", "calls", "coverage", "error", "events", "log", "lua", "sim"]),
+    ("property", &["binding", "error", "events", "files", "lifecycle", "log", "lua", "sim"]),
+    (
+        "sim",
+        &[
+            "binding",
+            "calls",
+            "channels",
+            "coverage",
+            "error",
+            "events",
+            "files",
+            "lifecycle",
+            "log",
+            "property",
+            "step",
+            "test_bench",
+        ],
+    ),
+    ("step", &["calls", "error", "lifecycle", "log", "sim"]),
+    ("test_bench", &["coverage", "error", "log"]),
+];
+/// Where functions for scripts stand. What they may touch is in their signature: `&Cx` reads, `&mut Cx` changes something or calls scripts.
+pub const FUNCTIONS_FOR_SCRIPTS: &[&str] = &["src/api", "src/modules"];
+
+/// The edges to libraries written in C.
+pub const UNSAFE: &[&str] = &["src/script", "src/io/zmq"];
