@@ -6,7 +6,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use swanilda::docs;
+use swanilda::scene::Data;
+use swanilda::{Options, ScriptKind, Simulator, docs};
 
 #[test]
 fn reference_is_current() {
@@ -40,6 +41,34 @@ fn documented_parameters_exist() {
         for parameter in &function.parameters {
             assert!(seen.insert(&parameter.name), "{}: two parameters named {}", function.name, parameter.name);
         }
+    }
+}
+
+/// Modules whose functions are described with types: what `require` returns is what the reference has.
+#[test]
+fn modules_have_the_functions_their_pages_describe() {
+    const MODULES: &[&str] = &["lfs", "simCmd", "simConvex", "simSubprocess", "simWS", "simZMQ"];
+    const CODE: &str = "function functions(module)
+        local names = {}
+        for name, member in pairs(require(module)) do
+            if type(member) == 'function' and name:sub(1, 1) ~= '_' then names[#names + 1] = name end
+        end
+        table.sort(names)
+        return names
+    end";
+    let mut sim = Simulator::new(Options::default());
+    let sandbox = sim.add_script(ScriptKind::Sandbox, "functions", CODE.as_bytes()).expect("the chunk runs");
+    let functions = docs::module_functions();
+    for module in MODULES {
+        let described: Vec<String> =
+            functions.iter().filter(|f| f.category == *module).map(|f| f.name.clone()).collect();
+        let found = sim.call(&sandbox, "functions", &[Data::text(module)]).expect("the module loads");
+        let [Data::Array(found)] = &found[..] else { panic!("a list of names: {found:?}") };
+        let found = found.iter().map(|name| match name {
+            Data::Text(name) => format!("{module}.{}", String::from_utf8_lossy(name)),
+            other => panic!("a name: {other:?}"),
+        });
+        assert_eq!(described, found.collect::<Vec<_>>());
     }
 }
 

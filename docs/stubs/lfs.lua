@@ -19,24 +19,37 @@ local lfs = {}
 function lfs.attributes(path, what) end
 
 --- Changes the working directory of the process.
+---@param path string
+---@return any result
 function lfs.chdir(path) end
 
 --- The working directory of the process.
+---@return any result
 function lfs.currentdir() end
 
 --- iterator over names, and an object with next() and close()
 function lfs.dir(path) end
 
 --- Makes a hard link, or a symbolic one.
+---@param old string
+---@param new string
+---@param symbolic? boolean
+---@return any result
 function lfs.link(old, new, symbolic) end
 
 --- Locks an open file (`r`: shared, `w`: alone) or releases it (`u`), without waiting.
+---@param file any
+---@param mode string
 function lfs.lock(file, mode) end
 
 --- Makes a folder.
+---@param path string
+---@return any result
 function lfs.mkdir(path) end
 
 --- Removes an empty folder.
+---@param path string
+---@return any result
 function lfs.rmdir(path) end
 
 --- no effect outside of Windows

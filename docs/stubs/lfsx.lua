@@ -16,6 +16,7 @@ function lfs.basename(path) end
 function lfs.dirname(path) end
 
 --- The folder for temporary files.
+---@return any result
 function lfs.gettempdir() end
 
 function lfs.isdir(p) end
@@ -40,6 +41,8 @@ function lfs.pathsep() end
 function lfs.pathsplit(p) end
 
 --- The absolute path without links and dots.
+---@param path string
+---@return any result
 function lfs.realpath(path) end
 
 --- Removes a folder with all in it; links are removed, not followed.

@@ -2784,7 +2784,6 @@ function sim.setEngineInt32Param(paramId, objectHandle, int32Param) end
 function sim.setEngineInt32Parameter(paramId, objectHandle, int32Param) end
 
 --- Selects the events delivered to `sysCall_event` of this script. The filter ends with the script's Lua state.
----@param filters? any from handles (of objects, `sim.handle_app`, `sim.handle_scene`, `sim.handle_sceneobject` for all other objects, ...) to lists of property names; an empty list means all of them. An empty table removes all filters
 function sim.setEventFilters(filters) end
 
 --- Sets whether a sensor or graph is left out when all are handled.

@@ -14,15 +14,28 @@
 local module = {}
 
 --- The same: the parameters of the other algorithm mean nothing here.
+---@param shapeHandle integer
+---@param params? table
+---@return integer[] result
 function module.hacd(shapeHandle, params) end
 
 --- The hull of shapes, dummies, point clouds and octrees together.
+---@param objectHandles integer[]
+---@param growth? number
+---@return integer result
 function module.hull(objectHandles, growth) end
 
 --- The hull of points.
+---@param points number[]
+---@param growth? number
+---@return number[] result
+---@return integer[] result
 function module.qhull(points, growth) end
 
 --- Convex pieces of a shape, as new shapes.
+---@param shapeHandle integer
+---@param params? table
+---@return integer[] result
 function module.vhacd(shapeHandle, params) end
 
 return module

@@ -19,21 +19,41 @@
 local module = {}
 
 --- Runs a program to its end; the simulator waits.
+---@param programPath string
+---@param arguments table
+---@param input? string|table
+---@param opts? table
+---@return integer result
+---@return string|table result
+---@return string|table result
 function module.exec(programPath, arguments, input, opts) end
 
 --- Starts a program.
+---@param programPath string
+---@param arguments table
+---@param opts? table
+---@return string result
 function module.execAsync(programPath, arguments, opts) end
 
 --- The system's number of a program.
+---@param handle string
+---@return integer result
 function module.getpid(handle) end
 
 --- Whether a program still runs.
+---@param handle string
+---@return boolean result
 function module.isRunning(handle) end
 
 --- Ends a program at once; its handle is void then.
+---@param handle string
+---@return nil result
 function module.kill(handle) end
 
 --- Waits for the end of a program; nil when it still runs after that many seconds.
+---@param handle string
+---@param timeout? number
+---@return any result
 function module.wait(handle, timeout) end
 
 return module

@@ -27,36 +27,63 @@
 local simWS = {}
 
 --- Connects to a server; one of the handlers for open and fail will be called.
+---@param uri string ws://host:port/path
+---@return string clientHandle
 function simWS.connect(uri) end
 
 --- Ends a client at once.
+---@param clientHandle string
 function simWS.disconnect(clientHandle) end
 
 --- The port of a server. Not in CoppeliaSim.
+---@param serverHandle string
+---@return integer port
 function simWS.getPort(serverHandle) end
 
 --- Sends a message.
+---@param serverOrClientHandle string
+---@param connectionHandle string as handlers get it
+---@param data string|table text must be valid UTF-8
+---@param opcode? integer simWS.opcode.*
 function simWS.send(serverOrClientHandle, connectionHandle, data, opcode) end
 
 --- Sets what is called with endpoint and connection when a connection has ended.
+---@param serverOrClientHandle string
+---@param callbackFn function a function, or the name of a global one of the script that called start or connect
 function simWS.setCloseHandler(serverOrClientHandle, callbackFn) end
 
 --- Sets what is called with endpoint and connection when there will be no connection.
+---@param serverOrClientHandle string
+---@param callbackFn function a function, or the name of a global one of the script that called start or connect
 function simWS.setFailHandler(serverOrClientHandle, callbackFn) end
 
 --- Sets what is called with server, connection, resource and data when an HTTP request has come; it returns status and data.
+---@param serverHandle string
+---@param callbackFn function a function, or the name of a global one of the script that called start
 function simWS.setHTTPHandler(serverHandle, callbackFn) end
 
 --- Sets what is called with endpoint, connection and data when a message has come.
+---@param serverOrClientHandle string
+---@param callbackFn function a function, or the name of a global one of the script that called start or connect
 function simWS.setMessageHandler(serverOrClientHandle, callbackFn) end
 
 --- Sets what is called with endpoint and connection when a connection is open.
+---@param serverOrClientHandle string
+---@param callbackFn function a function, or the name of a global one of the script that called start or connect
 function simWS.setOpenHandler(serverOrClientHandle, callbackFn) end
 
 --- Starts a server.
+---@param listenPort integer 0 for any free one
+---@return string serverHandle
 function simWS.start(listenPort) end
 
 --- Stops a server; its connections end at once.
+---@param serverHandle string
 function simWS.stop(serverHandle) end
+
+simWS.opcode = {}
+simWS.opcode.continuation = 0
+simWS.opcode.text = 1
+simWS.opcode.binary = 2
 
 return simWS

@@ -4,27 +4,6 @@
 
 --- ZeroMQ: sockets that carry whole messages between programs. The functions and constants of libzmq 4.3.4 without the prefix zmq_.
 ---
----     ctx_new() -> context                              ctx_singleton() -> context, one for all scripts
----     ctx_get(context, option) -> value                 ctx_set(context, option, value) -> result
----     ctx_shutdown(context), ctx_term(context) -> result
----     socket(context, type) -> socket                   close(socket) -> result
----     bind, unbind, connect, disconnect(socket, endpoint) -> result
----     setsockopt(socket, option, bytes) -> result       getsockopt(socket, option, len) -> result, bytes
----     getsockopt_int(socket, option) -> result, value
----     send(socket, data, flags) -> result               recv(socket, flags, max_buf_size) -> result, data
----     poll(sockets, events, timeout = 0) -> result, revents
----     proxy(frontend, backend, capture), proxy_steerable(frontend, backend, capture, control) -> result
----     socket_monitor(socket, endpoint, events) -> result
----     msg_new() -> msg                                  msg_destroy(msg)
----     msg_init(msg), msg_init_size(msg, size), msg_close(msg) -> result
----     msg_data(msg) -> data                             msg_size(msg), msg_more(msg) -> number
----     msg_get(msg, property), msg_set(msg, property, value) -> result
----     msg_gets(msg, property) -> result, text           msg_copy(dest, src), msg_move(dest, src) -> result
----     msg_send(msg, socket, flags), msg_recv(msg, socket, flags) -> result
----     errnum() -> number                                strerror(number) -> text
----     has(capability) -> 0 or 1                         version() -> major, minor, patch
----     z85_encode(data) -> text                          z85_decode(text) -> data
----
 --- Failures return -1 and set errnum(). __raiseErrors(true) turns them into errors for the calling script; __noError.name and
 --- __raiseError.name are the two forms of each function. Options are bytes: sim.packInt32Table{0} for most.
 ---
@@ -39,88 +18,483 @@
 --- msg_set_group and msg_group do nothing.
 local simZMQ = {}
 
+--- Accepts connections at an address.
+---@param socket string the socket
+---@param endpoint string such as tcp://127.0.0.1:5555
+---@return integer result 0 or -1
 function simZMQ.bind(socket, endpoint) end
 
+--- Closes a socket.
+---@param socket string the socket
+---@return integer result 0 or -1
 function simZMQ.close(socket) end
 
+--- Connects to an address, now or as soon as a peer binds it.
+---@param socket string the socket
+---@param endpoint string such as tcp://127.0.0.1:5555
+---@return integer result 0 or -1
 function simZMQ.connect(socket, endpoint) end
 
-function simZMQ.ctx_get(context, option) end
+--- Without effect: drafts of libzmq are not built.
+---@param socket string
+---@param addr string
+---@return integer result
+function simZMQ.connect_peer(socket, addr) end
 
+--- An option of a context.
+---@param context string the context
+---@param optionName integer one of simZMQ's constants
+---@return integer result the value, or -1
+function simZMQ.ctx_get(context, optionName) end
+
+--- Without effect: drafts of libzmq are not built.
+---@param context string
+---@param option_name integer
+---@return integer result
+---@return string|table data
+function simZMQ.ctx_get_ext(context, option_name) end
+
+--- Makes a context.
+---@return string context
 function simZMQ.ctx_new() end
 
-function simZMQ.ctx_set(context, option, value) end
+--- Sets an option of a context.
+---@param context string the context
+---@param optionName integer one of simZMQ's constants
+---@param optionValue integer its value
+---@return integer result 0 or -1
+function simZMQ.ctx_set(context, optionName, optionValue) end
 
+--- Without effect: drafts of libzmq are not built.
+---@param context string
+---@param option_name integer
+---@param option_value string|table
+---@return integer result
+function simZMQ.ctx_set_ext(context, option_name, option_value) end
+
+--- Makes all sockets of a context answer that it is over.
+---@param context string the context
+---@return integer result 0 or -1
 function simZMQ.ctx_shutdown(context) end
 
+--- The context all scripts share.
+---@return string context
 function simZMQ.ctx_singleton() end
 
+--- Ends a context. In a thread the simulation goes on meanwhile.
+---@param context string
+---@return integer result 0, or -1: try again with EINTR
 function simZMQ.ctx_term(context) end
 
+--- Ends a connection.
+---@param socket string the socket
+---@param endpoint string the address
+---@return integer result 0 or -1
 function simZMQ.disconnect(socket, endpoint) end
 
+--- Why the last call of this script that failed did.
+---@return integer result one of simZMQ's constants, or a number of the system
 function simZMQ.errnum() end
 
-function simZMQ.getsockopt(socket, option, len) end
+--- An option of a socket.
+---@param socket string the socket
+---@param optionName integer one of simZMQ's constants
+---@param optionLen integer most bytes
+---@return integer result 0 or -1
+---@return string|table value its bytes
+function simZMQ.getsockopt(socket, optionName, optionLen) end
 
-function simZMQ.getsockopt_int(socket, option) end
+--- The value of a socket option that is an integer.
+---@param socket string
+---@param option_name integer
+---@return integer result
+---@return integer option_value
+function simZMQ.getsockopt_int(socket, option_name) end
 
+--- Whether libzmq was built with a capability.
+---@param capability string its name
+---@return integer result 1 or 0
 function simZMQ.has(capability) end
 
+--- Without effect: drafts of libzmq are not built.
+---@param socket string
+---@param group string
+---@return integer result
+function simZMQ.join(socket, group) end
+
+--- Without effect: drafts of libzmq are not built.
+---@param socket string
+---@param group string
+---@return integer result
+function simZMQ.leave(socket, group) end
+
+--- Releases the content; the handle stays.
+---@param msg string the message
+---@return integer result 0 or -1
 function simZMQ.msg_close(msg) end
 
+--- Copies the content of a message to another.
+---@param dest string gets it
+---@param src string keeps it
+---@return integer result 0 or -1
 function simZMQ.msg_copy(dest, src) end
 
+--- The content.
+---@param msg string the message
+---@return any data its bytes
 function simZMQ.msg_data(msg) end
 
+--- Destroys the message.
+---@param msg string the message
 function simZMQ.msg_destroy(msg) end
 
+--- A property.
+---@param msg string the message
+---@param property integer one of simZMQ's constants
+---@return integer result the value, or -1
 function simZMQ.msg_get(msg, property) end
 
+--- Metadata of the sender.
+---@param msg string the message
+---@param property string its name
+---@return integer result 0 or -1
+---@return string value empty on failure
 function simZMQ.msg_gets(msg, property) end
 
+--- Without effect: drafts of libzmq are not built.
+---@param msg string
+---@return integer result
+---@return string group
+function simZMQ.msg_group(msg) end
+
+--- Makes it an empty message.
+---@param msg string the message
+---@return integer result 0
 function simZMQ.msg_init(msg) end
 
+--- Makes it a message of zeros.
+---@param msg string the message
+---@param size integer how many
+---@return integer result 0 or -1
 function simZMQ.msg_init_size(msg, size) end
 
+--- Whether more parts of the same message follow.
+---@param msg string the message
+---@return integer result 1 or 0
 function simZMQ.msg_more(msg) end
 
+--- Moves the content of a message to another; the source becomes empty.
+---@param dest string gets it
+---@param src string loses it
+---@return integer result 0 or -1
 function simZMQ.msg_move(dest, src) end
 
+--- Makes a message that must be initialised before it is used.
+---@return string msg
 function simZMQ.msg_new() end
 
+--- Receives into a message without waiting.
+---@param msg string the message
+---@param socket string the socket
+---@param flags integer none has an effect
+---@return integer result its length, or -1
 function simZMQ.msg_recv(msg, socket, flags) end
 
+--- Without effect: drafts of libzmq are not built.
+---@param msg string
+---@return integer result
+function simZMQ.msg_routing_id(msg) end
+
+--- Hands the content to a socket without waiting.
+---@param msg string the message, empty afterwards
+---@param socket string the socket
+---@param flags integer simZMQ.SNDMORE when more parts follow
+---@return integer result bytes sent, or -1
 function simZMQ.msg_send(msg, socket, flags) end
 
+--- Sets a property.
+---@param msg string the message
+---@param property integer one of simZMQ's constants
+---@param value integer its value
+---@return integer result 0 or -1
 function simZMQ.msg_set(msg, property, value) end
 
+--- Without effect: drafts of libzmq are not built.
+---@param msg string
+---@param group string
+---@return integer result
+function simZMQ.msg_set_group(msg, group) end
+
+--- Without effect: drafts of libzmq are not built.
+---@param msg string
+---@param routing_id integer
+---@return integer result
+function simZMQ.msg_set_routing_id(msg, routing_id) end
+
+--- The length of the content.
+---@param msg string the message
+---@return integer result bytes
 function simZMQ.msg_size(msg) end
 
+--- Waits until a socket is ready; an error when the program is about to end.
+---@param sockets table the sockets
+---@param events integer[] what each is waited for
+---@param timeout integer milliseconds, -1 without limit
+---@return integer result how many are ready, or -1
+---@return integer[] revents what each is ready for
 function simZMQ.poll(sockets, events, timeout) end
 
+--- Passes messages between two sockets until the context ends.
+---@param frontend string
+---@param backend string
+---@param capture string gets a copy of every message; an empty handle for none
+---@return integer result
 function simZMQ.proxy(frontend, backend, capture) end
 
+--- The same, with a socket that takes PAUSE, RESUME and TERMINATE.
+---@param frontend string
+---@param backend string
+---@param capture string
+---@param control string
+---@return integer result
 function simZMQ.proxy_steerable(frontend, backend, capture, control) end
 
-function simZMQ.recv(socket, flags, max_buf_size) end
+--- Receives a part of a message without waiting.
+---@param socket string the socket
+---@param flags integer none has an effect
+---@param maxBufSize integer most bytes to return
+---@return integer result length of the message, or -1
+---@return any data its bytes, nil on failure
+function simZMQ.recv(socket, flags, maxBufSize) end
 
+--- Sends a part of a message, or all of it, without waiting.
+---@param socket string the socket
+---@param data string|table its bytes
+---@param flags integer simZMQ.SNDMORE when more parts follow
+---@return integer result bytes sent, or -1
 function simZMQ.send(socket, data, flags) end
 
-function simZMQ.setsockopt(socket, option, bytes) end
+--- Sets an option of a socket.
+---@param socket string the socket
+---@param optionName integer one of simZMQ's constants
+---@param optionValue string|table its bytes
+---@return integer result 0 or -1
+function simZMQ.setsockopt(socket, optionName, optionValue) end
 
-function simZMQ.socket(context, type) end
+--- Makes a socket.
+---@param context string the context
+---@param kind integer
+---@return string socket
+function simZMQ.socket(context, kind) end
 
+--- Reports connection events of a socket.
+---@param socket string the socket
+---@param endpoint string inproc address of the teller
+---@param events integer which
+---@return integer result 0 or -1
 function simZMQ.socket_monitor(socket, endpoint, events) end
 
-function simZMQ.strerror(number) end
+--- The text of an error.
+---@param errnum integer from simZMQ.errnum
+---@return string message
+function simZMQ.strerror(errnum) end
 
+--- Accepts no more connections at an address.
+---@param socket string the socket
+---@param endpoint string the address
+---@return integer result 0 or -1
 function simZMQ.unbind(socket, endpoint) end
 
+--- The version of libzmq.
+---@return integer major
+---@return integer minor
+---@return integer patch
 function simZMQ.version() end
 
+--- The bytes of a text that simZMQ.z85_encode made.
+---@param text string|table the text
+---@return string|table data nothing for another text
 function simZMQ.z85_decode(text) end
 
+--- Bytes as printable text.
+---@param data string|table as many bytes as can be divided by 4
+---@return string text nothing for another number of bytes
 function simZMQ.z85_encode(data) end
+
+simZMQ.HAUSNUMERO = 156384712
+simZMQ.IO_THREADS = 1
+simZMQ.MAX_SOCKETS = 2
+simZMQ.SOCKET_LIMIT = 3
+simZMQ.THREAD_PRIORITY = 3
+simZMQ.THREAD_SCHED_POLICY = 4
+simZMQ.MAX_MSGSZ = 5
+simZMQ.MSG_T_SIZE = 6
+simZMQ.THREAD_AFFINITY_CPU_ADD = 7
+simZMQ.THREAD_AFFINITY_CPU_REMOVE = 8
+simZMQ.THREAD_NAME_PREFIX = 9
+simZMQ.IO_THREADS_DFLT = 1
+simZMQ.MAX_SOCKETS_DFLT = 1023
+simZMQ.THREAD_PRIORITY_DFLT = -1
+simZMQ.THREAD_SCHED_POLICY_DFLT = -1
+simZMQ.PAIR = 0
+simZMQ.PUB = 1
+simZMQ.SUB = 2
+simZMQ.REQ = 3
+simZMQ.REP = 4
+simZMQ.DEALER = 5
+simZMQ.ROUTER = 6
+simZMQ.PULL = 7
+simZMQ.PUSH = 8
+simZMQ.XPUB = 9
+simZMQ.XSUB = 10
+simZMQ.STREAM = 11
+simZMQ.XREQ = 5
+simZMQ.XREP = 6
+simZMQ.AFFINITY = 4
+simZMQ.ROUTING_ID = 5
+simZMQ.SUBSCRIBE = 6
+simZMQ.UNSUBSCRIBE = 7
+simZMQ.RATE = 8
+simZMQ.RECOVERY_IVL = 9
+simZMQ.SNDBUF = 11
+simZMQ.RCVBUF = 12
+simZMQ.RCVMORE = 13
+simZMQ.FD = 14
+simZMQ.EVENTS = 15
+simZMQ.TYPE = 16
+simZMQ.LINGER = 17
+simZMQ.RECONNECT_IVL = 18
+simZMQ.BACKLOG = 19
+simZMQ.RECONNECT_IVL_MAX = 21
+simZMQ.MAXMSGSIZE = 22
+simZMQ.SNDHWM = 23
+simZMQ.RCVHWM = 24
+simZMQ.MULTICAST_HOPS = 25
+simZMQ.RCVTIMEO = 27
+simZMQ.SNDTIMEO = 28
+simZMQ.LAST_ENDPOINT = 32
+simZMQ.ROUTER_MANDATORY = 33
+simZMQ.TCP_KEEPALIVE = 34
+simZMQ.TCP_KEEPALIVE_CNT = 35
+simZMQ.TCP_KEEPALIVE_IDLE = 36
+simZMQ.TCP_KEEPALIVE_INTVL = 37
+simZMQ.IMMEDIATE = 39
+simZMQ.XPUB_VERBOSE = 40
+simZMQ.ROUTER_RAW = 41
+simZMQ.IPV6 = 42
+simZMQ.MECHANISM = 43
+simZMQ.PLAIN_SERVER = 44
+simZMQ.PLAIN_USERNAME = 45
+simZMQ.PLAIN_PASSWORD = 46
+simZMQ.CURVE_SERVER = 47
+simZMQ.CURVE_PUBLICKEY = 48
+simZMQ.CURVE_SECRETKEY = 49
+simZMQ.CURVE_SERVERKEY = 50
+simZMQ.PROBE_ROUTER = 51
+simZMQ.REQ_CORRELATE = 52
+simZMQ.REQ_RELAXED = 53
+simZMQ.CONFLATE = 54
+simZMQ.ZAP_DOMAIN = 55
+simZMQ.ROUTER_HANDOVER = 56
+simZMQ.TOS = 57
+simZMQ.CONNECT_ROUTING_ID = 61
+simZMQ.GSSAPI_SERVER = 62
+simZMQ.GSSAPI_PRINCIPAL = 63
+simZMQ.GSSAPI_SERVICE_PRINCIPAL = 64
+simZMQ.GSSAPI_PLAINTEXT = 65
+simZMQ.HANDSHAKE_IVL = 66
+simZMQ.SOCKS_PROXY = 68
+simZMQ.XPUB_NODROP = 69
+simZMQ.BLOCKY = 70
+simZMQ.XPUB_MANUAL = 71
+simZMQ.XPUB_WELCOME_MSG = 72
+simZMQ.STREAM_NOTIFY = 73
+simZMQ.INVERT_MATCHING = 74
+simZMQ.HEARTBEAT_IVL = 75
+simZMQ.HEARTBEAT_TTL = 76
+simZMQ.HEARTBEAT_TIMEOUT = 77
+simZMQ.XPUB_VERBOSER = 78
+simZMQ.CONNECT_TIMEOUT = 79
+simZMQ.TCP_MAXRT = 80
+simZMQ.THREAD_SAFE = 81
+simZMQ.MULTICAST_MAXTPDU = 84
+simZMQ.VMCI_BUFFER_SIZE = 85
+simZMQ.VMCI_BUFFER_MIN_SIZE = 86
+simZMQ.VMCI_BUFFER_MAX_SIZE = 87
+simZMQ.VMCI_CONNECT_TIMEOUT = 88
+simZMQ.USE_FD = 89
+simZMQ.GSSAPI_PRINCIPAL_NAMETYPE = 90
+simZMQ.GSSAPI_SERVICE_PRINCIPAL_NAMETYPE = 91
+simZMQ.BINDTODEVICE = 92
+simZMQ.MORE = 1
+simZMQ.SHARED = 3
+simZMQ.DONTWAIT = 1
+simZMQ.SNDMORE = 2
+simZMQ.NULL = 0
+simZMQ.PLAIN = 1
+simZMQ.CURVE = 2
+simZMQ.GSSAPI = 3
+simZMQ.GROUP_MAX_LENGTH = 255
+simZMQ.IDENTITY = 5
+simZMQ.CONNECT_RID = 61
+simZMQ.TCP_ACCEPT_FILTER = 38
+simZMQ.IPC_FILTER_PID = 58
+simZMQ.IPC_FILTER_UID = 59
+simZMQ.IPC_FILTER_GID = 60
+simZMQ.IPV4ONLY = 31
+simZMQ.DELAY_ATTACH_ON_CONNECT = 39
+simZMQ.NOBLOCK = 1
+simZMQ.FAIL_UNROUTABLE = 33
+simZMQ.ROUTER_BEHAVIOR = 33
+simZMQ.SRCFD = 2
+simZMQ.GSSAPI_NT_HOSTBASED = 0
+simZMQ.GSSAPI_NT_USER_NAME = 1
+simZMQ.GSSAPI_NT_KRB5_PRINCIPAL = 2
+simZMQ.EVENT_CONNECTED = 1
+simZMQ.EVENT_CONNECT_DELAYED = 2
+simZMQ.EVENT_CONNECT_RETRIED = 4
+simZMQ.EVENT_LISTENING = 8
+simZMQ.EVENT_BIND_FAILED = 16
+simZMQ.EVENT_ACCEPTED = 32
+simZMQ.EVENT_ACCEPT_FAILED = 64
+simZMQ.EVENT_CLOSED = 128
+simZMQ.EVENT_CLOSE_FAILED = 256
+simZMQ.EVENT_DISCONNECTED = 512
+simZMQ.EVENT_MONITOR_STOPPED = 1024
+simZMQ.EVENT_ALL = 65535
+simZMQ.EVENT_HANDSHAKE_FAILED_NO_DETAIL = 2048
+simZMQ.EVENT_HANDSHAKE_SUCCEEDED = 4096
+simZMQ.EVENT_HANDSHAKE_FAILED_PROTOCOL = 8192
+simZMQ.EVENT_HANDSHAKE_FAILED_AUTH = 16384
+simZMQ.PROTOCOL_ERROR_ZMTP_UNSPECIFIED = 268435456
+simZMQ.PROTOCOL_ERROR_ZMTP_UNEXPECTED_COMMAND = 268435457
+simZMQ.PROTOCOL_ERROR_ZMTP_INVALID_SEQUENCE = 268435458
+simZMQ.PROTOCOL_ERROR_ZMTP_KEY_EXCHANGE = 268435459
+simZMQ.PROTOCOL_ERROR_ZMTP_MALFORMED_COMMAND_UNSPECIFIED = 268435473
+simZMQ.PROTOCOL_ERROR_ZMTP_MALFORMED_COMMAND_MESSAGE = 268435474
+simZMQ.PROTOCOL_ERROR_ZMTP_MALFORMED_COMMAND_HELLO = 268435475
+simZMQ.PROTOCOL_ERROR_ZMTP_MALFORMED_COMMAND_INITIATE = 268435476
+simZMQ.PROTOCOL_ERROR_ZMTP_MALFORMED_COMMAND_ERROR = 268435477
+simZMQ.PROTOCOL_ERROR_ZMTP_MALFORMED_COMMAND_READY = 268435478
+simZMQ.PROTOCOL_ERROR_ZMTP_MALFORMED_COMMAND_WELCOME = 268435479
+simZMQ.PROTOCOL_ERROR_ZMTP_INVALID_METADATA = 268435480
+simZMQ.PROTOCOL_ERROR_ZMTP_CRYPTOGRAPHIC = 285212673
+simZMQ.PROTOCOL_ERROR_ZMTP_MECHANISM_MISMATCH = 285212674
+simZMQ.PROTOCOL_ERROR_ZAP_UNSPECIFIED = 536870912
+simZMQ.PROTOCOL_ERROR_ZAP_MALFORMED_REPLY = 536870913
+simZMQ.PROTOCOL_ERROR_ZAP_BAD_REQUEST_ID = 536870914
+simZMQ.PROTOCOL_ERROR_ZAP_BAD_VERSION = 536870915
+simZMQ.PROTOCOL_ERROR_ZAP_INVALID_STATUS_CODE = 536870916
+simZMQ.PROTOCOL_ERROR_ZAP_INVALID_METADATA = 536870917
+simZMQ.PROTOCOL_ERROR_WS_UNSPECIFIED = 805306368
+simZMQ.POLLIN = 1
+simZMQ.POLLOUT = 2
+simZMQ.POLLERR = 4
+simZMQ.POLLPRI = 8
+simZMQ.POLLITEMS_DFLT = 16
+simZMQ.HAS_CAPABILITIES = 1
+simZMQ.STREAMER = 1
+simZMQ.FORWARDER = 2
+simZMQ.QUEUE = 3
 
 return simZMQ

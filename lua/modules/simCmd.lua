@@ -1,10 +1,5 @@
 --[[
 The command line of CoppeliaSim's user interface, as far as applicable without one.
-
-    exec(lang, code)                 runs code in the selected script and prints the result. Lua only
-    setSelectedScript(handle, lang)  selects a script; default: the sandbox
-    help(), helpText()               prints, or returns, a few hints for beginners
-    helpClose(), setVisible(visible), clearHistory(), toggleStatusbarHeight()     have no effect
 ]]
 
 local sim = require('sim')
@@ -23,21 +18,43 @@ local function show(result, first, ...)
     if result == 0 and (select('#', ...) > 0 or type(first) ~= 'table' or next(first) ~= nil) then print(first, ...) end
 end
 
+--- Runs code as the user would: in the selected script, and prints its results.
+-- @api simCmd.exec(string lang, string code)
+-- @param lang only Lua
 function simCmd.exec(...)
     local lang, code = require('checkargs')({{type = 'string'}, {type = 'string'}}, ...)
     if lang:lower() ~= 'lua' then error('not implemented in Swanilda: simCmd.exec in ' .. lang, 2) end
     show(sim.executeScriptString(code .. '@Lua', selected or sim.getScript(sim.scripttype_sandbox)))
 end
 
+--- Chooses the script in which `exec` runs code; the sandbox is chosen first.
+-- @api simCmd.setSelectedScript(int scriptHandle, string lang = '')
 function simCmd.setSelectedScript(...)
     selected = require('checkargs')({{type = 'int'}, {type = 'string', default = ''}}, ...)
 end
 
+--- A few hints for beginners.
+-- @api string text = simCmd.helpText()
 function simCmd.helpText() return HELP end
+
+--- Prints the hints for beginners.
+-- @api simCmd.help()
 function simCmd.help() print(HELP) end
+
+--- No effect: there is no window.
+-- @api simCmd.helpClose()
 function simCmd.helpClose() end
+
+--- No effect: there is no window.
+-- @api simCmd.setVisible(bool visible)
 function simCmd.setVisible(...) require('checkargs')({{type = 'bool'}}, ...) end
+
+--- No effect: there is no window.
+-- @api simCmd.clearHistory()
 function simCmd.clearHistory() end
+
+--- No effect: there is no window.
+-- @api simCmd.toggleStatusbarHeight()
 function simCmd.toggleStatusbarHeight() end
 
 return simCmd

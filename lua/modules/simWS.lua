@@ -23,11 +23,8 @@ script that created them.
 Named parameters: simWS.verbose (1: connections are logged), simWS.userAgent (of clients).
 ]]
 
-local _, native = ...
+local _, simWS = ...
 local sim = require('sim')
-
-local simWS = {opcode = {continuation = 0, text = 1, binary = 2}}
-for name, f in pairs(native) do simWS[name] = f end
 
 local AGENT <const> = 'simWS.userAgent'
 if not sim.getNamedStringParam(AGENT) then

@@ -1,27 +1,6 @@
 --[[
 ZeroMQ: sockets that carry whole messages between programs. The functions and constants of libzmq 4.3.4 without the prefix zmq_.
 
-    ctx_new() -> context                              ctx_singleton() -> context, one for all scripts
-    ctx_get(context, option) -> value                 ctx_set(context, option, value) -> result
-    ctx_shutdown(context), ctx_term(context) -> result
-    socket(context, type) -> socket                   close(socket) -> result
-    bind, unbind, connect, disconnect(socket, endpoint) -> result
-    setsockopt(socket, option, bytes) -> result       getsockopt(socket, option, len) -> result, bytes
-    getsockopt_int(socket, option) -> result, value
-    send(socket, data, flags) -> result               recv(socket, flags, max_buf_size) -> result, data
-    poll(sockets, events, timeout = 0) -> result, revents
-    proxy(frontend, backend, capture), proxy_steerable(frontend, backend, capture, control) -> result
-    socket_monitor(socket, endpoint, events) -> result
-    msg_new() -> msg                                  msg_destroy(msg)
-    msg_init(msg), msg_init_size(msg, size), msg_close(msg) -> result
-    msg_data(msg) -> data                             msg_size(msg), msg_more(msg) -> number
-    msg_get(msg, property), msg_set(msg, property, value) -> result
-    msg_gets(msg, property) -> result, text           msg_copy(dest, src), msg_move(dest, src) -> result
-    msg_send(msg, socket, flags), msg_recv(msg, socket, flags) -> result
-    errnum() -> number                                strerror(number) -> text
-    has(capability) -> 0 or 1                         version() -> major, minor, patch
-    z85_encode(data) -> text                          z85_decode(text) -> data
-
 Failures return -1 and set errnum(). __raiseErrors(true) turns them into errors for the calling script; __noError.name and
 __raiseError.name are the two forms of each function. Options are bytes: sim.packInt32Table{0} for most.
 
@@ -40,7 +19,7 @@ local _, native = ...
 local sim = require 'sim'
 
 local simZMQ = {__checkError = {}, __noError = {}, __raiseError = {}, __patience = 60}
-for name, value in pairs(require 'simZMQ.constants') do simZMQ[name] = value end
+for name, value in pairs(native) do if math.type(value) then simZMQ[name] = value end end
 for name, value in pairs(native.errors()) do simZMQ[name] = value end
 
 local DONTWAIT <const>, POLLIN <const>, POLLOUT <const> = simZMQ.DONTWAIT, simZMQ.POLLIN, simZMQ.POLLOUT
@@ -220,6 +199,9 @@ declare('ctx_shutdown', 'context:string')
 -- How long the end of a context is waited for, milliseconds: in a thread, where it is tried again, and elsewhere.
 local SHORTLY <const>, PATIENTLY <const> = 10, 2000
 
+--- Ends a context. In a thread the simulation goes on meanwhile.
+-- @api int result = simZMQ.ctx_term(string context)
+-- @return result 0, or -1: try again with EINTR
 declare('ctx_term', 'context:string', function(context)
     local patience = SHORTLY
     while true do
@@ -241,6 +223,8 @@ declare('disconnect', 'socket:string endpoint:string')
 declare('setsockopt', 'socket:string option_name:int option_value:buffer')
 declare('getsockopt', 'socket:string option_name:int option_len:int')
 
+--- The value of a socket option that is an integer.
+-- @api int result, int option_value = simZMQ.getsockopt_int(string socket, int option_name)
 declare('getsockopt_int', 'socket:string option_name:int', function(socket, option)
     local ok, result, value = pcall(native.getsockopt, socket, option, 4)
     if not ok then blame(result) end
@@ -286,7 +270,12 @@ local function proxyOf(...)
     return proxy(...)
 end
 
+--- Passes messages between two sockets until the context ends.
+-- @api int result = simZMQ.proxy(string frontend, string backend, string capture)
+-- @param capture gets a copy of every message; an empty handle for none
 declare('proxy', 'frontend:string backend:string capture:string', proxyOf)
+--- The same, with a socket that takes PAUSE, RESUME and TERMINATE.
+-- @api int result = simZMQ.proxy_steerable(string frontend, string backend, string capture, string control)
 declare('proxy_steerable', 'frontend:string backend:string capture:string control:string', proxyOf)
 
 declare('msg_new', '')
@@ -312,14 +301,41 @@ declare('z85_decode', 'text:buffer')
 
 -- Without drafts the original's functions of drafts return what nothing leaves behind.
 local function nothing() return 0 end
+
+--- Without effect: drafts of libzmq are not built.
+-- @api int result = simZMQ.ctx_set_ext(string context, int option_name, buffer option_value)
 declare('ctx_set_ext', 'context:string option_name:int option_value:buffer', nothing)
+
+--- Without effect: drafts of libzmq are not built.
+-- @api int result, buffer data = simZMQ.ctx_get_ext(string context, int option_name)
 declare('ctx_get_ext', 'context:string option_name:int', function() return 0, nil end)
+
+--- Without effect: drafts of libzmq are not built.
+-- @api int result = simZMQ.join(string socket, string group)
 declare('join', 'socket:string group:string', nothing)
+
+--- Without effect: drafts of libzmq are not built.
+-- @api int result = simZMQ.leave(string socket, string group)
 declare('leave', 'socket:string group:string', nothing)
+
+--- Without effect: drafts of libzmq are not built.
+-- @api int result = simZMQ.connect_peer(string socket, string addr)
 declare('connect_peer', 'socket:string addr:string', nothing)
+
+--- Without effect: drafts of libzmq are not built.
+-- @api int result = simZMQ.msg_set_routing_id(string msg, int routing_id)
 declare('msg_set_routing_id', 'msg:string routing_id:int', nothing)
+
+--- Without effect: drafts of libzmq are not built.
+-- @api int result = simZMQ.msg_routing_id(string msg)
 declare('msg_routing_id', 'msg:string', nothing)
+
+--- Without effect: drafts of libzmq are not built.
+-- @api int result = simZMQ.msg_set_group(string msg, string group)
 declare('msg_set_group', 'msg:string group:string', nothing)
+
+--- Without effect: drafts of libzmq are not built.
+-- @api int result, string group = simZMQ.msg_group(string msg)
 declare('msg_group', 'msg:string', function() return 0, '' end)
 
 ---------------------------------------------------------------- errors instead of results

@@ -19,11 +19,16 @@ pub(super) struct Args {
 }
 
 pub(super) fn api(args: &Args) -> ExitCode {
-    let functions = docs::functions();
+    let mut functions = docs::functions();
     let Some(name) = &args.name else {
         say(list(&functions).as_bytes());
         return ExitCode::SUCCESS;
     };
+    functions.extend(docs::module_functions());
+    if docs::module_names().contains(name) {
+        say(list_module(name, &functions).as_bytes());
+        return ExitCode::SUCCESS;
+    }
     if let Some(function) = functions.iter().find(|function| function.name == *name || function.member() == name) {
         say(docs::function_text(function).as_bytes());
         return ExitCode::SUCCESS;
@@ -40,6 +45,12 @@ fn list(functions: &[Function]) -> String {
         lines.push_str(&format!("  {:<36} {}{mark}\n", function.name, function.summary()));
     }
     categories.iter().map(|(category, lines)| format!("{category}\n{lines}")).collect::<Vec<_>>().join("\n")
+}
+
+/// The functions of a module with their summaries.
+fn list_module(module: &str, functions: &[Function]) -> String {
+    let of_module = functions.iter().filter(|function| function.category == module);
+    of_module.map(|function| format!("{:<38} {}\n", function.name, function.summary())).collect()
 }
 
 /// The message for an unknown name.

@@ -149,7 +149,11 @@ impl Patient {
             return String::new();
         }
         let rows = lines.iter().map(|((support, name), lines)| {
-            let how = if let Support::Approximated(how) = support { format!(" ({how})") } else { String::new() };
+            let how = match support {
+                Support::Approximated(how) => format!(" ({how})"),
+                Support::Missing => docs::remedy(name).map(|remedy| format!(" (use {remedy})")).unwrap_or_default(),
+                Support::Works => String::new(),
+            };
             format!("  {:<12} {name}: line {}{how}\n", word(*support), lines.join(", "))
         });
         format!("{}\n{}", self.name, rows.collect::<String>())

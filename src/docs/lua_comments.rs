@@ -26,6 +26,15 @@ pub(super) fn functions() -> Vec<Function> {
     api::SIM.member_files(FILES).flat_map(|(module, source)| in_file(module, source)).collect()
 }
 
+/// The functions that the Lua part of a module describes: any comment with `@api module.name(...)`.
+pub(super) fn in_module(module: &str, source: &str) -> Vec<Function> {
+    let lines: Vec<&str> = source.lines().collect();
+    let comments = lines.split(|line| !line.starts_with("--"));
+    let texts =
+        comments.map(|comment| comment.iter().map(|line| line.trim_start_matches('-').trim()).collect::<Vec<_>>());
+    texts.filter_map(|comment| from_comment(module, module, &comment)).collect()
+}
+
 fn in_file(module: &str, source: &str) -> Vec<Function> {
     let category = CATEGORIES.iter().find(|(name, _)| *name == module).map_or("Other", |(_, category)| category);
     let mut comment: Vec<&str> = Vec::new();
@@ -36,25 +45,26 @@ fn in_file(module: &str, source: &str) -> Vec<Function> {
             continue;
         }
         if line.starts_with("function M.") {
-            found.extend(from_comment(category, &comment));
+            found.extend(from_comment("sim", category, &comment));
         }
         comment.clear();
     }
     found
 }
 
-fn from_comment(category: &str, comment: &[&str]) -> Option<Function> {
+fn from_comment(module: &str, category: &str, comment: &[&str]) -> Option<Function> {
     let declaration = comment.iter().find_map(|line| line.strip_prefix("@api "))?;
-    let (results, call) = match declaration.split_once("= sim.") {
+    let prefix = format!("{module}.");
+    let (results, call) = match declaration.split_once(&format!("= {prefix}")) {
         Some((results, call)) => (results.trim(), call),
-        None => ("", declaration.strip_prefix("sim.")?),
+        None => ("", declaration.strip_prefix(&prefix)?),
     };
     let (member, parameters) = call.split_once('(')?;
     let prose: Vec<&str> = comment.iter().copied().filter(|line| !line.starts_with("@api ")).collect();
     let doc = Doc::parse(&prose.join("\n"));
     let parameters = split_list(parameters.trim_end().strip_suffix(')')?);
     Some(Function {
-        name: format!("sim.{member}"),
+        name: format!("{module}.{member}"),
         category: category.to_owned(),
         parameters: parameters.iter().map(|text| parameter(text, &doc)).collect(),
         results: split_list(results).iter().map(|text| result(text, &doc)).collect(),

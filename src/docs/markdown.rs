@@ -46,7 +46,7 @@ fn page(category: &str, functions: &[&Function]) -> String {
     out
 }
 
-fn body(function: &Function) -> String {
+pub(super) fn body(function: &Function) -> String {
     let mut out = String::new();
     if let Some(replacement) = &function.deprecated {
         let advice = if replacement.is_empty() { String::new() } else { format!("; use `{replacement}`") };

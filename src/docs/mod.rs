@@ -18,7 +18,8 @@ mod usage;
 use std::collections::BTreeMap;
 
 use crate::api;
-use crate::script::pairs;
+use crate::modules::registry;
+use crate::script::{Member, pairs};
 
 pub use approximated::difference;
 pub use markdown::function_text;
@@ -53,6 +54,24 @@ pub fn functions() -> Vec<Function> {
     all.into_values().filter(|function| !function.is_inner()).collect()
 }
 
+/// What to use instead of a function of CoppeliaSim that is not here; None when there is nothing.
+pub fn remedy(name: &str) -> Option<&'static str> {
+    let member = name.strip_prefix("sim.")?;
+    let (_, replacement) = pairs(api::SIM.deprecated).find(|(old, _)| *old == member)?;
+    let is_built = |name: &str| matches!(registry().find(name), Some(member) if !matches!(member, Member::Missing(_)));
+    Some(replacement).filter(|replacement| is_built(replacement))
+}
+
+/// Every function of the modules beside `sim`, module by module.
+pub fn module_functions() -> Vec<Function> {
+    modules::names().flat_map(|module| module_stubs::of_module(&module)).collect()
+}
+
+/// The names of the modules beside `sim`.
+pub fn module_names() -> Vec<String> {
+    modules::names().collect()
+}
+
 /// The names of the native functions of `sim`, and of the global ones.
 pub fn native_functions() -> impl Iterator<Item = &'static str> {
     api::SIM.public_functions().map(|function| function.name)
@@ -63,6 +82,7 @@ pub fn files() -> Vec<(String, String)> {
     let functions = functions();
     let mut files = markdown::pages(&functions);
     files.push(("docs/api/modules.md".to_owned(), modules::page()));
+    files.extend(modules::own_pages());
     files.extend(stubs().into_iter().map(|(path, text)| (format!("{STUBS}/{path}"), text)));
     files.push(("docs/COVERAGE.md".to_owned(), coverage::text(&functions)));
     files.push(("docs/PROPERTIES.md".to_owned(), properties::text()));

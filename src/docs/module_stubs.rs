@@ -6,12 +6,14 @@
 use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write as _;
 
+use super::lua_comments;
 use super::modules;
 use super::row::Function;
-use super::stubs::parameter_name;
+use super::stubs::declare;
 use crate::modules::ALL;
+use crate::script::pairs;
 
-/// The description of a function in a stub.
+/// A function whose types are not known.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Stub {
     /// Called with a colon.
@@ -22,23 +24,42 @@ struct Stub {
 
 type Stubs = BTreeMap<String, Stub>;
 
+/// A function of a module.
+struct Member {
+    is_method: bool,
+    function: Function,
+}
+
+/// The functions of a module, in alphabetical order; inner ones, which begin with an underscore, are left out.
+pub(super) fn of_module(module: &str) -> Vec<Function> {
+    let source = source_of(module);
+    let table = returned(source).unwrap_or("module");
+    members(module, source, table)
+        .into_iter()
+        .filter(|(name, _)| !name.starts_with('_'))
+        .map(|(_, member)| member.function)
+        .collect()
+}
+
+fn source_of(module: &str) -> &'static str {
+    let path = module.replace('.', "/");
+    modules::public().find(|(known, _)| *known == path).map_or("", |(_, source)| source)
+}
+
 /// Path below the folder of stubs, and text, of every module. Those of the remote APIs are add-ons, not for scripts.
 pub(super) fn files() -> impl Iterator<Item = (String, String)> {
     modules::public()
         .filter(|(path, _)| !path.starts_with("remote/"))
-        .map(|(path, source)| (format!("{path}.lua"), text(path, source)))
+        .map(|(path, source)| (format!("{path}.lua"), text(&path, source)))
 }
 
 /// The names of the functions of a module.
 pub(super) fn names(module: &str) -> HashSet<String> {
-    let source = |name: &str| {
-        let path = name.replace('.', "/");
-        modules::public().find(|(known, _)| *known == path).map_or("", |(_, source)| source)
-    };
+    let source = source_of;
     let other = source(module).lines().last().and_then(|line| line.strip_prefix("return require "));
     let module = other.map_or(module, |name| name.trim_matches('\''));
     let table = returned(source(module)).unwrap_or("module");
-    functions(module, source(module), table).into_keys().collect()
+    members(module, source(module), table).into_keys().collect()
 }
 
 fn text(path: &str, source: &str) -> String {
@@ -53,20 +74,63 @@ fn text(path: &str, source: &str) -> String {
     }
     let table = returned(source).unwrap_or("module");
     let _ = writeln!(out, "local {table} = {{}}");
-    for (name, stub) in functions(&module, source, table).iter().filter(|(name, _)| !name.starts_with('_')) {
-        out.push('\n');
-        comment(&mut out, &stub.text);
-        let parameters: Vec<String> = stub.parameters.iter().map(|name| parameter_name(name)).collect();
-        let separator = if stub.is_method { ':' } else { '.' };
-        let _ = writeln!(out, "function {table}{separator}{name}({}) end", parameters.join(", "));
+    for (name, member) in members(&module, source, table).iter().filter(|(name, _)| !name.starts_with('_')) {
+        let separator = if member.is_method { ':' } else { '.' };
+        declare(&mut out, &member.function, &format!("{table}{separator}{name}"));
     }
+    out.push_str(&constants(&module, table));
     out + &format!("\nreturn {table}\n")
 }
 
-/// All functions of a module. The file knows the parameters best, unless it takes whatever comes.
-fn functions(module: &str, source: &str, table: &str) -> Stubs {
+/// The constants of a module, of which some belong to enumerations.
+fn constants(module: &str, table: &str) -> String {
+    let mut out = String::new();
+    let mut enumerations = HashSet::new();
+    for (name, value) in ALL.iter().filter(|of| of.name == module).flat_map(|of| pairs(of.constants)) {
+        if let Some((enumeration, _)) = name.split_once('.')
+            && enumerations.insert(enumeration)
+        {
+            let _ = write!(out, "\n{table}.{enumeration} = {{}}");
+        }
+        let _ = write!(out, "\n{table}.{name} = {value}");
+    }
+    if out.is_empty() { out } else { out + "\n" }
+}
+
+/// All functions of a module. What its rows and the comments of its file describe has types; the rest has names.
+fn members(module: &str, source: &str, table: &str) -> BTreeMap<String, Member> {
+    let described = described(module, source);
+    let mut members: BTreeMap<String, Member> = stubs(source, table)
+        .into_iter()
+        .map(|(name, Stub { is_method, parameters, text })| {
+            let function = Function::untyped(format!("{module}.{name}"), module, &parameters, &text);
+            (name, Member { is_method, function })
+        })
+        .collect();
+    for (name, mut function) in described {
+        let is_method = members.get(&name).is_some_and(|member| member.is_method);
+        if let Some(member) = members.get(&name)
+            && function.text.is_empty()
+        {
+            function.text = member.function.text.clone();
+        }
+        members.insert(name, Member { is_method, function });
+    }
+    members
+}
+
+/// The functions that rows and comments describe. A function that the file declares with other parameters than its row is not that of the row.
+fn described(module: &str, source: &str) -> BTreeMap<String, Function> {
+    let last = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
+    let mut all: BTreeMap<String, Function> =
+        taken(module, source).into_iter().map(|function| (last(&function.name), function)).collect();
+    all.extend(lua_comments::in_module(module, source).into_iter().map(|function| (last(&function.name), function)));
+    all
+}
+
+/// What the file declares and its head mentions. The file knows the parameters best, unless it takes whatever comes.
+fn stubs(source: &str, table: &str) -> Stubs {
     let mut stubs = told(modules::head(source));
-    stubs.extend(taken(module, source));
     for (name, declared) in declared(source, table) {
         let stub = stubs.entry(name).or_default();
         stub.is_method = declared.is_method;
@@ -115,18 +179,22 @@ fn declared(source: &str, table: &str) -> Stubs {
     stubs
 }
 
-/// Native functions the file hands on under their names.
-fn taken(module: &str, source: &str) -> Stubs {
-    let all = source.contains("\nfor name, f in pairs(native)") || source.trim_end().ends_with("return native");
-    let handed_on = |name: &str| all || source.contains(&format!("{name} = native.{name}"));
-    let rows = ALL.iter().filter(|of| of.name == module).flat_map(|of| of.native_functions());
-    let functions = rows.map(|row| Function::native("", row));
-    let stub = |function: Function| {
-        let name = function.name.rsplit('.').next().unwrap_or_default().to_owned();
-        let parameters = function.parameters.into_iter().map(|parameter| parameter.name).collect();
-        (name, Stub { is_method: false, parameters, text: function.text })
-    };
-    functions.map(stub).filter(|(name, _)| is_name(name) && handed_on(name)).collect()
+/// Native functions of the module that scripts get: those listed for scripts, and others that the file hands on under their names.
+fn taken(module: &str, source: &str) -> Vec<Function> {
+    let handed_on = |name: &str| source.contains(&format!("{name} = native.{name}"));
+    let mut found = Vec::new();
+    for of in ALL.iter().filter(|of| of.name == module) {
+        found.extend(of.public_functions().map(|row| Function::native(module, row)));
+        let inner = of.inner.iter().copied().flatten().map(|row| Function::native(module, row));
+        found.extend(inner.filter(|function| handed_on(function.name.rsplit('.').next().unwrap_or_default())));
+    }
+    found
+        .into_iter()
+        .map(|function| {
+            let name = function.name.rsplit('.').next().unwrap_or_default().to_owned();
+            Function { name: format!("{module}.{name}"), ..function }
+        })
+        .collect()
 }
 
 /// Functions described in the head: lines indented by four, columns separated by at least two spaces.

@@ -2,6 +2,9 @@
 
 use std::fmt::Write as _;
 
+use super::row::Function;
+use super::{markdown, module_stubs};
+use crate::modules::ALL;
 use crate::script::FILES;
 
 /// Files of the library for its own use.
@@ -42,7 +45,6 @@ const INNER: &[&str] = &[
     "remote/zmq_clients",
     "remote/zmq_functions",
     "shared_process",
-    "simZMQ/constants",
     "simZMQ/proxy",
     "swanilda/console",
     "swanilda/display",
@@ -59,9 +61,49 @@ pub(super) fn page() -> String {
                    `lua`.\n"
         .to_owned();
     for (name, source) in public() {
-        let _ = write!(out, "\n## {}\n\n{}", name.replace('/', "."), section(source));
+        let module = name.replace('/', ".");
+        let _ = write!(out, "\n## {module}\n\n");
+        match described(&module) {
+            functions if functions.is_empty() => out.push_str(&section(source)),
+            functions => {
+                let summary = head(source).split("\n\n").next().unwrap_or_default();
+                let _ = writeln!(out, "{summary}\n\n[{} functions]({module}.md)", functions.len());
+            }
+        }
     }
     out
+}
+
+/// A page for each module whose functions are described with types: path and text.
+pub(super) fn own_pages() -> Vec<(String, String)> {
+    let pages = public().filter_map(|(name, source)| {
+        let module = name.replace('/', ".");
+        let functions = described(&module);
+        if functions.is_empty() {
+            return None;
+        }
+        let text = own_page(&module, source, &functions);
+        Some((format!("docs/api/{module}.md"), text))
+    });
+    pages.collect()
+}
+
+fn own_page(module: &str, source: &str, functions: &[Function]) -> String {
+    let (summary, rest) = head(source).split_once("\n\n").unwrap_or((head(source), ""));
+    let mut out = format!("# {module}\n\n[All modules](modules.md)\n\n{summary}\n");
+    if !rest.is_empty() {
+        let _ = write!(out, "\n```text\n{rest}\n```\n");
+    }
+    for function in functions {
+        let _ = write!(out, "\n## {}\n\n{}", function.name, markdown::body(function));
+    }
+    out
+}
+
+/// The functions of a module, if types of some are known.
+fn described(module: &str) -> Vec<Function> {
+    let functions = module_stubs::of_module(module);
+    if functions.iter().any(Function::is_typed) { functions } else { Vec::new() }
 }
 
 /// The names of the modules.
@@ -70,8 +112,12 @@ pub(super) fn names() -> impl Iterator<Item = String> {
 }
 
 /// Path below `lua` and text of every module for scripts.
-pub(super) fn public() -> impl Iterator<Item = (&'static str, &'static str)> {
-    FILES.iter().copied().filter(|(name, _)| !name.starts_with("sim/") && !INNER.contains(name))
+pub(super) fn public() -> impl Iterator<Item = (String, &'static str)> {
+    let files = FILES.iter().filter(|(name, _)| !name.starts_with("sim/") && !INNER.contains(name));
+    let native = ALL.iter().filter(|module| module.name != "sim" && module.public_functions().next().is_some());
+    let paths = native.map(|module| module.name.replace('.', "/"));
+    let native = paths.filter(|path| !FILES.iter().any(|(name, _)| name == path)).map(|path| (path, ""));
+    files.map(|&(name, source)| (name.to_owned(), source)).chain(native)
 }
 
 /// The comment a file begins with.

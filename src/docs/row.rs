@@ -57,6 +57,26 @@ impl Function {
         }
     }
 
+    /// A function of which only the names of its parameters are known.
+    pub(super) fn untyped(name: String, category: &str, parameters: &[String], text: &str) -> Self {
+        let parameter =
+            |name: &String| Parameter { name: name.clone(), ty: "any".to_owned(), default: None, text: String::new() };
+        Self {
+            name,
+            category: category.to_owned(),
+            parameters: parameters.iter().map(parameter).collect(),
+            results: Vec::new(),
+            text: text.to_owned(),
+            alias_of: None,
+            deprecated: None,
+        }
+    }
+
+    /// Whether types are known, be it of parameters or of results.
+    pub(super) fn is_typed(&self) -> bool {
+        !self.results.is_empty() || self.parameters.iter().any(|parameter| parameter.ty != "any")
+    }
+
     /// The same function by another name.
     pub(super) fn renamed(&self, name: &str) -> Self {
         Self { name: name.to_owned(), alias_of: Some(self.name.clone()), ..self.clone() }

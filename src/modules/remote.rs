@@ -113,19 +113,14 @@ fn members(cx: &Cx) -> Result<Vec<String>> {
 fn declared() -> HashMap<&'static str, Vec<String>> {
     let rows = ALL.iter().flat_map(|module| module.public_functions());
     let native = rows.map(|function| (function.name, function.returns.iter().map(|&ty| ty.to_owned()).collect()));
-    let lines = ALL
-        .iter()
-        .flat_map(|module| module.member_files(FILES))
-        .flat_map(|(_, source)| source.lines())
-        .filter_map(|line| line.strip_prefix("-- @api "));
+    let lines = FILES.iter().flat_map(|(_, source)| source.lines()).filter_map(|line| line.strip_prefix("-- @api "));
     native.chain(lines.filter_map(declared_in_comment)).filter(|(_, types): &(_, Vec<_>)| !types.is_empty()).collect()
 }
 
-/// `int a, float[3] b = sim.name(...)`.
+/// `int a, float[3] b = module.name(...)`.
 fn declared_in_comment(line: &'static str) -> Option<(&'static str, Vec<String>)> {
-    let (results, call) = line.split_once(" = sim.")?;
-    let start = line.len() - call.len() - "sim.".len();
-    let name = line[start..].split('(').next()?;
+    let (results, call) = line.split_once('(')?.0.rsplit_once(" = ")?;
+    let name = call.trim();
     let types = results.split(',').filter_map(|result| result.trim().split(' ').next()).map(str::to_owned).collect();
     Some((name, types))
 }

@@ -11,6 +11,7 @@ local core = {}
 function core.connect(host, port, ownHost, ownPort, family) end
 
 --- Unix time in seconds.
+---@return number result
 function core.gettime() end
 
 --- A function that returns its arguments, or raises the second when the first is nothing, after calling `finalizer`.
@@ -24,24 +25,31 @@ function core.select(readers, writers, seconds) end
 function core.skip(count, ...) end
 
 --- Blocks the script.
+---@param seconds number
 function core.sleep(seconds) end
 
 --- A TCP object; its first address decides on the family.
+---@return any result
 function core.tcp() end
 
 --- A TCP object for IPv4.
+---@return any result
 function core.tcp4() end
 
 --- A TCP object for IPv6.
+---@return any result
 function core.tcp6() end
 
 --- A UDP object; its first address decides on the family.
+---@return any result
 function core.udp() end
 
 --- A UDP object for IPv4.
+---@return any result
 function core.udp4() end
 
 --- A UDP object for IPv6.
+---@return any result
 function core.udp6() end
 
 return core

@@ -57,6 +57,7 @@ function t.allow_script_errors(allowed) end
 function t.at(time, fn) end
 
 --- Number of uncaught script errors.
+---@return integer count
 function t.errors() end
 
 function t.file(name) end
@@ -67,7 +68,10 @@ function t.gauss() end
 function t.golden(name, quantities, options) end
 
 --- Captured prints and log lines.
-function t.lines() end
+---@param first? integer lines to leave out
+---@param unfinished? boolean with those that have no end so far
+---@return any lines each with text, level, time and, of the log, origin
+function t.lines(first, unfinished) end
 
 function t.load(file) end
 

@@ -10,8 +10,10 @@ use crate::io::zmq::{Context, Socket};
 use crate::modules::{ApiFn, Cx, Result, functions};
 use crate::script::Number;
 
-pub(crate) const FUNCTIONS: &[ApiFn] =
-    functions![ctx_new, ctx_singleton, ctx_get, ctx_set, ctx_shutdown, ctx_term, socket];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![ctx_new, ctx_singleton, ctx_get, ctx_set, ctx_shutdown, socket];
+
+/// Behind functions of the Lua part.
+pub(crate) const INNER: &[ApiFn] = functions![ctx_term];
 
 /// Longest wait for the end of a context, milliseconds.
 const LONGEST_WAIT: i64 = 10_000;

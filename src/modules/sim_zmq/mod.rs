@@ -26,7 +26,8 @@ pub(super) static MODULE: Module = Module {
         ("Messages", messages::FUNCTIONS),
         ("Errors and encodings", FUNCTIONS),
     ],
-    inner: &[INNER],
+    inner: &[INNER, contexts::INNER],
+    constants: include_str!("constants.tsv"),
     ..Module::new("simZMQ")
 };
 

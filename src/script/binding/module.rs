@@ -20,8 +20,6 @@ pub struct Module {
     pub deprecated: &'static str,
     /// `name<TAB>category<TAB>age<TAB>signature` of every function the module has in CoppeliaSim. Those that are not here raise an error.
     pub reference: &'static str,
-    /// `name<TAB>what to do instead`, for functions of the reference that are not here.
-    pub remedies: &'static str,
     /// `simName<TAB>name`: global names from before there were modules, where they follow no rule.
     pub old_names: &'static str,
     /// The folder of Lua files whose functions `M.name` are members, each loaded when one of its functions is first used.
@@ -39,7 +37,6 @@ impl Module {
             aliases: "",
             deprecated: "",
             reference: "",
-            remedies: "",
             old_names: "",
             lua_members: None,
         }
@@ -48,11 +45,6 @@ impl Module {
     /// The functions for scripts, whatever their category.
     pub fn public_functions(&self) -> impl Iterator<Item = &'static ApiFn> {
         self.functions.iter().flat_map(|(_, functions)| *functions)
-    }
-
-    /// All native functions: those for scripts, and those for the Lua part.
-    pub(crate) fn native_functions(&self) -> impl Iterator<Item = &'static ApiFn> {
-        self.public_functions().chain(self.inner.iter().copied().flatten())
     }
 
     /// The names the module has in CoppeliaSim.

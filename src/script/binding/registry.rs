@@ -36,15 +36,11 @@ impl MissingId {
 pub(crate) struct Missing {
     module: &'static str,
     name: &'static str,
-    /// What to do instead.
-    remedy: Option<&'static str>,
 }
 
 impl Missing {
     pub(crate) fn error(&self) -> ApiError {
-        let Self { module, name, remedy } = self;
-        let remedy = remedy.map(|remedy| format!(" ({remedy})")).unwrap_or_default();
-        ApiError::NotImplemented(format!("{module}.{name}{remedy}"))
+        ApiError::NotImplemented(format!("{}.{}", self.module, self.name))
     }
 }
 
@@ -221,9 +217,8 @@ impl Registry {
     /// Names of the reference; those that are built take their places.
     fn add_missing(&mut self, namespace: &mut Namespace) {
         let module = namespace.module;
-        let remedies: HashMap<&str, &'static str> = pairs(module.remedies).collect();
         for name in module.reference_names() {
-            self.missing.push(Missing { module: module.name, name, remedy: remedies.get(name).copied() });
+            self.missing.push(Missing { module: module.name, name });
             namespace.members.insert(name, Member::Missing(MissingId(self.missing.len() - 1)));
         }
     }
