@@ -81,7 +81,7 @@ impl Output {
                 let _ = writeln!(std::io::stderr().lock(), "{}", line.decorated());
             }),
             Format::Json => write_json(&json!({
-                "type": "log", "level": verbosity::word(line.level), "origin": line.origin, "text": line.plain_text(),
+                "type": "log", "level": verbosity::name(line.level), "origin": line.origin, "text": line.plain_text(),
                 "time": line.time,
             })),
         }

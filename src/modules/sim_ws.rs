@@ -7,7 +7,7 @@ use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions, remote};
 use crate::io::{SendError, WsEndpoint, WsPages, WsRequest};
-use crate::script::channels::web_sockets::{Endpoint, Occasion, Role, handle_number};
+use crate::script::channels::web_sockets::{Endpoint, HandlerKind, Role, handle_number};
 use crate::script::{Bytes, Handler, ScriptFunction};
 
 pub(super) static MODULE: Module = Module {
@@ -138,7 +138,7 @@ fn send(
 /// @param callbackFn a function, or the name of a global one of the script that called start or connect
 #[api("simWS.setOpenHandler")]
 fn set_open_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: ScriptFunction) -> Result<()> {
-    set_handler(cx, &server_or_client_handle, Occasion::Open, callback_fn)
+    set_handler(cx, &server_or_client_handle, HandlerKind::Open, callback_fn)
 }
 
 /// Sets what is called with endpoint and connection when there will be no connection.
@@ -147,7 +147,7 @@ fn set_open_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: S
 /// @param callbackFn a function, or the name of a global one of the script that called start or connect
 #[api("simWS.setFailHandler")]
 fn set_fail_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: ScriptFunction) -> Result<()> {
-    set_handler(cx, &server_or_client_handle, Occasion::Fail, callback_fn)
+    set_handler(cx, &server_or_client_handle, HandlerKind::Fail, callback_fn)
 }
 
 /// Sets what is called with endpoint and connection when a connection has ended.
@@ -156,7 +156,7 @@ fn set_fail_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: S
 /// @param callbackFn a function, or the name of a global one of the script that called start or connect
 #[api("simWS.setCloseHandler")]
 fn set_close_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: ScriptFunction) -> Result<()> {
-    set_handler(cx, &server_or_client_handle, Occasion::Close, callback_fn)
+    set_handler(cx, &server_or_client_handle, HandlerKind::Close, callback_fn)
 }
 
 /// Sets what is called with endpoint, connection and data when a message has come.
@@ -165,7 +165,7 @@ fn set_close_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: 
 /// @param callbackFn a function, or the name of a global one of the script that called start or connect
 #[api("simWS.setMessageHandler")]
 fn set_message_handler(cx: &mut Cx, server_or_client_handle: String, callback_fn: ScriptFunction) -> Result<()> {
-    set_handler(cx, &server_or_client_handle, Occasion::Message, callback_fn)
+    set_handler(cx, &server_or_client_handle, HandlerKind::Message, callback_fn)
 }
 
 /// Sets what is called with server, connection, resource and data when an HTTP request has come; it returns status and data.
@@ -177,12 +177,12 @@ fn set_http_handler(cx: &mut Cx, server_handle: String, callback_fn: ScriptFunct
     if handle_number(&server_handle, "Server").is_none() {
         return Err(invalid_handle());
     }
-    set_handler(cx, &server_handle, Occasion::Http, callback_fn)
+    set_handler(cx, &server_handle, HandlerKind::Http, callback_fn)
 }
 
-fn set_handler(cx: &Cx, handle: &str, occasion: Occasion, function: ScriptFunction) -> Result<()> {
+fn set_handler(cx: &Cx, handle: &str, kind: HandlerKind, function: ScriptFunction) -> Result<()> {
     let handler = Handler::new(cx, function);
-    endpoint(cx, handle)?.set_handler(occasion, handler);
+    endpoint(cx, handle)?.set_handler(kind, handler);
     Ok(())
 }
 

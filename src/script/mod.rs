@@ -44,7 +44,7 @@ pub(crate) use binding::registry::{Member, Registry};
 pub(crate) use binding::states::States;
 pub(crate) use binding::{functions, needs_lua};
 pub(crate) use calls::handler::Handler;
-pub(crate) use calls::threads::{auto_level, changed_level, set_auto_level, use_up_slice};
+pub(crate) use calls::threads::{auto_level, changed_level, end_time_slice, set_auto_level};
 pub(crate) use events::Filters;
 pub(crate) use files::app_storage::Section;
 pub(crate) use files::scene_save::write_named;

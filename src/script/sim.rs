@@ -1,4 +1,4 @@
-//! The simulator's heart: one scene, many scripts, one clock.
+//! One simulator: its options, and the parts it consists of.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;

@@ -169,7 +169,7 @@ impl TestBench {
         self.interruption.take()
     }
 
-    /// Hands the console over, with a last line that tells what did not fit.
+    /// Hands the console over, with a last line that counts what did not fit.
     pub fn take_lines(&self) -> Vec<ConsoleLine> {
         let time = self.lines.borrow().last().map_or(0.0, |line| line.time);
         self.unfinished(time).into_iter().for_each(|line| self.write(line));
@@ -231,7 +231,7 @@ impl Console for Recorder {
             self.0.write(ConsoleLine {
                 time: line.time,
                 origin: Some(line.origin.to_owned()),
-                level: verbosity::word(line.level),
+                level: verbosity::name(line.level),
                 text: line.plain_text().into_owned(),
             });
         }

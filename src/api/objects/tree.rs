@@ -268,7 +268,7 @@ fn set_object_sel(cx: &mut Cx, object_handles: Handles) -> Result<()> {
 }
 
 /// The objects an old selection function means by `what` and `handle`.
-fn meant(cx: &Cx, what: i64, handle: Option<Handle>) -> Result<Vec<Handle>> {
+fn objects_of(cx: &Cx, what: i64, handle: Option<Handle>) -> Result<Vec<Handle>> {
     let scene = cx.scene();
     if what == special::ALL {
         return Ok(scene.objects().map(|object| object.handle()).collect());
@@ -288,7 +288,7 @@ fn meant(cx: &Cx, what: i64, handle: Option<Handle>) -> Result<Vec<Handle>> {
 /// @param objectHandle the object meant
 #[api("sim.addObjectToSelection")]
 fn add_object_to_selection(cx: &mut Cx, what: Number, #[default(None)] object_handle: Option<Handle>) -> Result<()> {
-    let added = meant(cx, what.0, object_handle)?;
+    let added = objects_of(cx, what.0, object_handle)?;
     let selection: Vec<Handle> = cx.scene().selection().iter().copied().chain(added).collect();
     cx.scene_mut().select(&selection);
     Ok(())
@@ -304,7 +304,7 @@ fn remove_object_from_selection(
     what: Number,
     #[default(None)] object_handle: Option<Handle>,
 ) -> Result<()> {
-    let removed = meant(cx, what.0, object_handle)?;
+    let removed = objects_of(cx, what.0, object_handle)?;
     let mut selection = cx.scene().selection().to_vec();
     selection.retain(|handle| !removed.contains(handle));
     cx.scene_mut().select(&selection);

@@ -5,10 +5,10 @@ use crate::scene::special::{APP, SCENE};
 use crate::script::{PropertyValue, Target};
 
 /// A number, whose property it is, and the property's name.
-type Twin = (i64, i64, &'static str);
+type PropertyParam = (i64, i64, &'static str);
 
 /// `sim.intparam_*`.
-pub(in crate::api) const INTEGERS: &[Twin] = &[
+pub(in crate::api) const INTEGERS: &[PropertyParam] = &[
     (11, SCENE, "visibilityLayers"),
     (16, APP, "qtVersion"),
     (19, APP, "platform"),
@@ -28,7 +28,7 @@ pub(in crate::api) const INTEGERS: &[Twin] = &[
 ];
 
 /// `sim.boolparam_*`.
-pub(in crate::api) const SWITCHES: &[Twin] = &[
+pub(in crate::api) const SWITCHES: &[PropertyParam] = &[
     (0, APP, "hierarchyEnabled"),
     (6, SCENE, "dynamicsEnabled"),
     (12, APP, "browserEnabled"),
@@ -40,14 +40,14 @@ pub(in crate::api) const SWITCHES: &[Twin] = &[
 ];
 
 /// `sim.floatparam_*`.
-pub(in crate::api) const FLOATS: &[Twin] =
+pub(in crate::api) const FLOATS: &[PropertyParam] =
     &[(1, SCENE, "timeStep"), (3, SCENE, "dynamicsStepSize"), (5, SCENE, "dynamicsStepSize")];
 
 /// `sim.arrayparam_*` that are colours.
-pub(in crate::api) const LIGHT: &[Twin] = &[(5, SCENE, "ambientLight")];
+pub(in crate::api) const LIGHT: &[PropertyParam] = &[(5, SCENE, "ambientLight")];
 
 /// `sim.stringparam_*`.
-pub(in crate::api) const TEXTS: &[Twin] = &[
+pub(in crate::api) const TEXTS: &[PropertyParam] = &[
     (0, APP, "appPath"),
     (2, APP, "appArg1"),
     (3, APP, "appArg2"),
@@ -82,23 +82,28 @@ pub(in crate::api) const TEXTS: &[Twin] = &[
 ];
 
 /// Texts that set a level by its name.
-pub(in crate::api) const LEVELS: &[Twin] =
+pub(in crate::api) const LEVELS: &[PropertyParam] =
     &[(121, APP, "consoleVerbosityStr"), (122, APP, "statusbarVerbosityStr"), (123, APP, "dialogVerbosityStr")];
 
-fn twin(twins: &[Twin], number: i64) -> Option<(Target, &'static str)> {
-    let &(_, target, name) = twins.iter().find(|(known, ..)| *known == number)?;
+fn property_of(params: &[PropertyParam], number: i64) -> Option<(Target, &'static str)> {
+    let &(_, target, name) = params.iter().find(|(known, ..)| *known == number)?;
     Some((if target == APP { Target::App } else { Target::Scene }, name))
 }
 
 /// The value of the property that `number` is; None when it is none.
-pub(in crate::api) fn read<T: PropertyValue>(cx: &Cx, twins: &[Twin], number: i64) -> Result<Option<T>> {
-    let Some((target, name)) = twin(twins, number) else { return Ok(None) };
+pub(in crate::api) fn read<T: PropertyValue>(cx: &Cx, params: &[PropertyParam], number: i64) -> Result<Option<T>> {
+    let Some((target, name)) = property_of(params, number) else { return Ok(None) };
     Ok(T::from_data(cx.read_property(&target, name, T::TYPE)?))
 }
 
 /// Sets the property with that parameter number; returns whether there is one.
-pub(in crate::api) fn write<T: PropertyValue>(cx: &mut Cx, twins: &[Twin], number: i64, value: T) -> Result<bool> {
-    let Some((target, name)) = twin(twins, number) else { return Ok(false) };
+pub(in crate::api) fn write<T: PropertyValue>(
+    cx: &mut Cx,
+    params: &[PropertyParam],
+    number: i64,
+    value: T,
+) -> Result<bool> {
+    let Some((target, name)) = property_of(params, number) else { return Ok(false) };
     cx.write_property(&target, name, (T::TYPE, value.into_data()))?;
     Ok(true)
 }

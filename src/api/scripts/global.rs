@@ -196,7 +196,7 @@ fn print_line(cx: &Cx, text: crate::script::Bytes) -> Result<()> {
 fn used_module(cx: &Cx, name: String, #[default(false)] implicit: bool) -> Result<()> {
     let _ = name;
     if implicit {
-        cx.use_up_slice();
+        cx.end_time_slice();
     }
     Ok(())
 }

@@ -67,7 +67,7 @@ fn call_function(stack: Stack<'_>, number: *const c_void) -> Result<c_int, Strin
     }
     let result = (bound.function.call)(&mut Args::new(stack)).map_err(|error| error.text(stack, &bound.name));
     if bound.function.mutates {
-        env.tell_changes();
+        env.collect_events();
     }
     result
 }

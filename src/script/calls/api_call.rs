@@ -54,7 +54,7 @@ impl Sim {
 fn call_native(runtime: &Runtime, bound: &Bound, args: &[Data]) -> ApiResult<Vec<Data>> {
     let results = (bound.function.call_data)(&mut Args::new(Values::new(args, &runtime.env)));
     if bound.function.mutates {
-        runtime.env.tell_changes();
+        runtime.env.collect_events();
     }
     results
 }

@@ -38,18 +38,7 @@ impl Sim {
         if !script.is_running() {
             return Err(ApiError::CallFailed);
         }
-        let results = {
-            let level = Level::enter_from_script(&self.scripts, &runtime.env);
-            if level.too_deep {
-                return Err(ApiError::TooDeep(MAX_DEPTH));
-            }
-            let stack = runtime.stack();
-            let base = stack.top();
-            let outcome = push_callee(stack, name, args).map(|count| collect(stack, base, count));
-            stack.set_top(base.min(stack.top()));
-            outcome?
-        };
-        let results = results.map_err(|error| {
+        let results = self.call_in_state(&runtime, name, args)?.map_err(|error| {
             self.fail(script, &error.text);
             ApiError::ErrorInCallee
         });
@@ -57,6 +46,19 @@ impl Sim {
             self.complete_call(script, SysCall::Ext, None);
         }
         results
+    }
+
+    /// The inner result is the callee's own.
+    fn call_in_state(&self, runtime: &Runtime, name: &str, args: &[Data]) -> ApiResult<Result<Vec<Data>, LuaError>> {
+        let level = Level::enter_from_script(&self.scripts, &runtime.env);
+        if level.too_deep {
+            return Err(ApiError::TooDeep(MAX_DEPTH));
+        }
+        let stack = runtime.stack();
+        let base = stack.top();
+        let outcome = push_callee(stack, name, args).map(|count| collect(stack, base, count));
+        stack.set_top(base.min(stack.top()));
+        outcome
     }
 
     /// Runs a string in a script: as an expression if it is one, else as a chunk. The script is not marked when it fails.
@@ -111,8 +113,18 @@ impl Sim {
         self.deliver(script, SysCall::Init, &[]);
     }
 
-    /// An add-on is loaded once just to ask it about itself.
+    /// Whether an add-on starts without being asked to; its menu entry becomes its name.
     fn add_on_starts_itself(self: &Rc<Self>, script: &Rc<Script>) -> bool {
+        let Some(info) = self.add_on_info(script) else { return true };
+        if let Some(Data::Text(menu)) = info.field("menu") {
+            let menu = String::from_utf8_lossy(menu).replace('\n', " >> ");
+            script.detached.borrow_mut().name = format!("{menu}@addOnScript");
+        }
+        info.field("autoStart").is_none_or(Data::truthy)
+    }
+
+    /// The value of an add-on's `sysCall_info`, for which it is loaded once more.
+    fn add_on_info(self: &Rc<Self>, script: &Rc<Script>) -> Option<Data> {
         let runtime = Rc::new(Runtime::new(self, script));
         let stack = runtime.stack();
         let (code, name) = {
@@ -125,16 +137,10 @@ impl Sim {
             .and_then(|()| stack.protected_call(0, 0));
         // What is wrong with it is reported when it is loaded to run.
         if loaded.is_err() || stack.push_global(SysCall::Info.name()) != Type::Function {
-            return true;
+            return None;
         }
         let base = stack.top() - 1;
-        let info = collect(stack, base, 0).ok().and_then(|mut values| values.pop());
-        let auto_start = info.as_ref().and_then(|info| info.field("autoStart")).is_none_or(Data::truthy);
-        if let Some(Data::Text(menu)) = info.as_ref().and_then(|info| info.field("menu")) {
-            let menu = String::from_utf8_lossy(menu).replace('\n', " >> ");
-            script.detached.borrow_mut().name = format!("{menu}@addOnScript");
-        }
-        auto_start
+        collect(stack, base, 0).ok()?.pop()
     }
 
     /// Closes every interpreter. A script and its interpreter know each other: without this neither would ever go.

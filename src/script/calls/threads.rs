@@ -15,7 +15,7 @@ const LEVELS: &CStr = c"swanilda.levels";
 /// Asked by the count hook every `HOOK_INTERVAL` instructions: may the code go on, and is the slice used up?
 pub(crate) fn on_count(stack: Stack<'_>, can_yield: bool) -> Verdict {
     let env = Env::of(stack);
-    if env.is_watched() && env.is_interrupted() {
+    if env.is_interruptible() && env.is_interrupted() {
         env.note_interruption(stack);
         return Verdict::Fail("interrupted.");
     }
@@ -27,7 +27,7 @@ fn slice_is_used_up(stack: Stack<'_>, env: &Env) -> bool {
     if yields.hastened.take() {
         set_count_hook(stack, true);
     }
-    if env.is_watched() && auto_level(stack) != 0 {
+    if env.is_interruptible() && auto_level(stack) != 0 {
         return false;
     }
     yields.used.set(yields.used.get().saturating_add(HOOK_INTERVAL as u64));
@@ -40,7 +40,7 @@ fn slice_is_used_up(stack: Stack<'_>, env: &Env) -> bool {
 
 /// Ends the slice of the running thread in a few instructions, unless it forbids that before: what it has done takes longer than a slice
 /// in the original.
-pub(crate) fn use_up_slice(stack: Stack<'_>) {
+pub(crate) fn end_time_slice(stack: Stack<'_>) {
     if stack.is_main_coroutine() || auto_level(stack) != 0 {
         return;
     }

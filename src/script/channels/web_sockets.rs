@@ -42,7 +42,7 @@ pub(crate) enum Role {
 
 /// What a handler can be for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Occasion {
+pub(crate) enum HandlerKind {
     Open,
     Fail,
     Close,
@@ -58,7 +58,7 @@ pub(crate) struct Endpoint {
     script: Rc<Script>,
     /// None once it is stopped.
     socket: RefCell<Option<WsEndpoint>>,
-    handlers: RefCell<BTreeMap<Occasion, Rc<Handler>>>,
+    handlers: RefCell<BTreeMap<HandlerKind, Rc<Handler>>>,
 }
 
 impl Endpoint {
@@ -67,8 +67,8 @@ impl Endpoint {
         format!("{:x}:simWS.{:?}", self.number, self.role)
     }
 
-    pub(crate) fn set_handler(&self, occasion: Occasion, handler: Handler) {
-        self.handlers.borrow_mut().insert(occasion, Rc::new(handler));
+    pub(crate) fn set_handler(&self, kind: HandlerKind, handler: Handler) {
+        self.handlers.borrow_mut().insert(kind, Rc::new(handler));
     }
 
     /// Where a server listens.
@@ -167,21 +167,21 @@ impl Sim {
 
     fn handle_web_socket(self: &Rc<Self>, endpoint: &Endpoint, event: WsEvent) {
         self.log_web_socket(endpoint, &event);
-        let call = |occasion, connection, more: &[Data]| {
-            let handler = endpoint.handlers.borrow().get(&occasion).cloned()?;
+        let call = |kind, connection, more: &[Data]| {
+            let handler = endpoint.handlers.borrow().get(&kind).cloned()?;
             let handles = [Data::text(&endpoint.handle()), Data::text(&connection_handle(connection))];
             let args = [&handles, more].concat();
             Some(self.call_handler(&endpoint.script, &handler, &args))
         };
         match event {
-            WsEvent::Open(connection) => drop(call(Occasion::Open, connection, &[])),
+            WsEvent::Open(connection) => drop(call(HandlerKind::Open, connection, &[])),
             WsEvent::Fail(connection, _) | WsEvent::Unreachable(connection, _) | WsEvent::Refused(connection, _) => {
-                drop(call(Occasion::Fail, connection, &[]))
+                drop(call(HandlerKind::Fail, connection, &[]))
             }
-            WsEvent::Close(connection) => drop(call(Occasion::Close, connection, &[])),
-            WsEvent::Message(connection, data) => drop(call(Occasion::Message, connection, &[Data::Buffer(data)])),
+            WsEvent::Close(connection) => drop(call(HandlerKind::Close, connection, &[])),
+            WsEvent::Message(connection, data) => drop(call(HandlerKind::Message, connection, &[Data::Buffer(data)])),
             WsEvent::Http { connection, resource, body, asker } => {
-                let results = call(Occasion::Http, connection, &[Data::text(&resource), Data::Buffer(body)]);
+                let results = call(HandlerKind::Http, connection, &[Data::text(&resource), Data::Buffer(body)]);
                 asker.answer(results.map_or_else(|| HttpReply::status(404), http_reply));
             }
         }

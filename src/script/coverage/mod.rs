@@ -66,7 +66,7 @@ impl LineCounts {
 
 impl Sim {
     /// Takes over what a state has counted that is going to end.
-    pub(crate) fn keep_line_counts(&self, runtime: &Runtime) {
+    pub(crate) fn collect_line_counts(&self, runtime: &Runtime) {
         if let Some(coverage) = &runtime.env.coverage
             && let Ok(mut kept) = self.line_counts.try_borrow_mut()
         {
@@ -77,7 +77,7 @@ impl Sim {
     /// Hands over what all states have counted since the last time. Scripts of the scene that have not run are there without counts.
     pub(crate) fn take_line_counts(&self) -> LineCounts {
         let running: Vec<_> = self.scripts.all().iter().filter_map(|script| script.current_runtime()).collect();
-        running.iter().for_each(|runtime| self.keep_line_counts(runtime));
+        running.iter().for_each(|runtime| self.collect_line_counts(runtime));
         let mut counts = self.line_counts.take();
         let idle = self.countable_objects();
         idle.into_iter().for_each(|text| counts.add(text, &[]));

@@ -92,7 +92,7 @@ impl Sim {
             return Entry { key: name.into(), value };
         }
         let (key, meaning) = renamed("app.scene", name);
-        encode::meant(meaning, ValueType::IntArray, &list, &mut value);
+        encode::with_meaning(meaning, ValueType::IntArray, &list, &mut value);
         Entry { key: key.into(), value }
     }
 
@@ -122,7 +122,7 @@ impl Collector<'_> {
         }
     }
 
-    /// Time and state are no part of the scene, so that nobody notes their changes.
+    /// Time and state are no part of the scene, so that the journal does not record their changes.
     fn collect_clock(&mut self) {
         let now = self.sim.clock_values();
         if self.sim.events.clock.replace(now) == now {
@@ -223,7 +223,7 @@ impl Collector<'_> {
     fn collect_new_parent(&mut self, handle: Handle, parent: Option<Handle>) {
         let Some(watched) = self.watch.objects.get_mut(&handle) else { return };
         let old = std::mem::replace(&mut watched.parent, parent);
-        // A new parent is not told as a new pose, whether the object stays in place or not.
+        // A new parent is not sent as a new pose, whether the object stays in place or not.
         if let Some(pose) = watched.keys().index_of("pose") {
             watched.take_difference(self.sim, pose);
         }
@@ -259,7 +259,7 @@ impl Collector<'_> {
         self.push(Event::list("selectionHandles"));
     }
 
-    /// Each write of custom data or a signal is told, none merged.
+    /// Each write of custom data or a signal becomes an event, none merged.
     fn collect_stored(&mut self, holder: Holder, namespace: Namespace, name: &str) {
         let (target, source) = match holder {
             Holder::App => (Target::App, Source::APP),

@@ -69,7 +69,7 @@ pub(super) fn null() -> Vec<u8> {
 }
 
 /// Writes a value that protocol 4 takes to mean something else than protocol 3 does.
-pub(super) fn meant(meaning: Meaning, ty: ValueType, data: &Data, out: &mut Vec<u8>) {
+pub(super) fn with_meaning(meaning: Meaning, ty: ValueType, data: &Data, out: &mut Vec<u8>) {
     match (meaning, data) {
         (Meaning::Not, Data::Bool(b)) => out.push(if *b { FALSE } else { TRUE }),
         (Meaning::Handle, Data::Int(handle)) => {

@@ -86,7 +86,7 @@ const FREQUENT: &[(Field, &[&str])] = &[
     ),
 ];
 
-/// One property the stream tells.
+/// One property of the stream.
 pub(super) struct StreamProperty {
     pub row: &'static Row,
     /// Index of the property in the same event.

@@ -245,7 +245,7 @@ impl Sim {
         }
     }
 
-    /// More changed than the journal holds: listeners are told everything anew.
+    /// More changed than the journal holds: listeners get everything anew.
     fn restart_events(self: &Rc<Self>) {
         let Some(watch) = self.events.watch.take() else { return };
         self.watch_for_listeners(watch.listeners);

@@ -129,7 +129,7 @@ impl Watched {
         entries.map(|entry| Event::changed(self.source, vec![entry])).collect()
     }
 
-    /// One event for each of these properties that is not as it was told; pairs are told in one.
+    /// One event for each of these properties that is not as it was sent; pairs share one.
     fn differences(&mut self, sim: &Rc<Sim>, indices: &[usize]) -> Vec<Event> {
         let mut events = Vec::new();
         for &index in indices {
@@ -160,7 +160,7 @@ impl Watched {
         self.differences(sim, index.as_slice()).into_iter().for_each(|event| sim.events.push(event));
     }
 
-    /// Reads a property anew; tells whether it is different from what was told.
+    /// Reads a property anew; returns whether it is different from what was sent.
     pub(super) fn take_difference(&mut self, sim: &Rc<Sim>, index: usize) -> bool {
         if !self.remembers(index) {
             return false;
@@ -171,7 +171,7 @@ impl Watched {
         differs
     }
 
-    /// Whether the property is not wanted, or was told with this value.
+    /// Whether the property is not wanted, or was sent with this value.
     pub(super) fn was_sent(&self, name: &str, value: &Data) -> bool {
         self.keys.index_of(name).is_none_or(|index| !self.remembers(index) || self.sent[index] == *value)
     }
@@ -190,7 +190,7 @@ impl Watched {
         let mut bytes = Vec::new();
         match self.protocol {
             Protocol::V3 => encode::value(Protocol::V3, property.row.ty, value, &mut bytes),
-            Protocol::V4 => encode::meant(property.renamed.1, property.row.ty, value, &mut bytes),
+            Protocol::V4 => encode::with_meaning(property.renamed.1, property.row.ty, value, &mut bytes),
         }
         Entry { key: property.key(self.protocol).into(), value: bytes }
     }
@@ -242,7 +242,7 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// The world as it is, as if all of it had been told.
+    /// The world as it is, as if all of it had been sent.
     pub(super) fn new(sim: &Rc<Sim>, listeners: Listeners) -> Self {
         let objects: Vec<Watched> = sim.scene.borrow().objects().map(|o| Watched::object(o, &listeners)).collect();
         let scripts: Vec<Watched> = sim.scripts.all_detached().iter().map(|s| Watched::script(s, &listeners)).collect();

@@ -35,7 +35,7 @@ impl Sim {
         Ok(save::model(&self.scene.borrow(), base, &scripts)?)
     }
 
-    /// Writes the scene to a file of the kind its name tells, which becomes the scene's. Scripts are notified before and after.
+    /// Writes the scene to a file in the format of its name, which becomes the scene's. Scripts are notified before and after.
     ///
     /// # Errors
     /// When the scene is locked, or the file cannot be written.
@@ -75,7 +75,7 @@ impl Sim {
     }
 }
 
-/// Writes a file under a name that tells its format: XML where it ends so, in the simple variant with `@simpleXml` behind it.
+/// Writes a file in the format of its name: XML where it ends so, in the simple variant with `@simpleXml` behind it.
 ///
 /// # Errors
 /// When the file cannot be written.

@@ -122,7 +122,7 @@ impl Env {
     }
 
     /// Whether code of this state may be ended from outside at any time.
-    pub(crate) fn is_watched(&self) -> bool {
+    pub(crate) fn is_interruptible(&self) -> bool {
         self.watched
     }
 
@@ -139,7 +139,7 @@ impl Env {
     }
 
     /// Turns the changes of a call into events, if there are listeners.
-    pub(crate) fn tell_changes(&self) {
+    pub(crate) fn collect_events(&self) {
         if self.events_wanted.get()
             && let Some(sim) = self.sim.upgrade()
         {
@@ -180,7 +180,7 @@ impl Runtime {
 impl Drop for Runtime {
     fn drop(&mut self) {
         if let Some(sim) = self.env.sim.upgrade() {
-            sim.keep_line_counts(self);
+            sim.collect_line_counts(self);
         }
     }
 }

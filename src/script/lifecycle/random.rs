@@ -35,7 +35,7 @@ impl Random {
     }
 
     /// A word of letters and digits.
-    pub(crate) fn word(&mut self, length: usize) -> String {
+    pub(crate) fn string(&mut self, length: usize) -> String {
         const LETTERS: &[u8; 62] = b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
         (0..length).map(|_| char::from(LETTERS[(self.next() * 62.0) as usize])).collect()
     }

@@ -103,14 +103,19 @@ impl Sim {
         }
         let data = self.removal_data(&removed);
         self.broadcast(SysCall::BeforeDelete, std::slice::from_ref(&data));
-        // A callback may have removed some of them already.
-        let removed: Vec<Handle> = removed.into_iter().filter(|&h| self.scene.borrow().exists(h)).collect();
-        self.scene.borrow_mut().remove(&removed)?;
-        for handle in &removed {
-            self.scripts.remove_those_of(*handle);
-            self.signal_owners.borrow_mut().forget(Holder::Object(*handle));
-        }
+        self.remove_from_scene(removed)?;
         self.broadcast(SysCall::AfterDelete, &[data]);
+        Ok(())
+    }
+
+    /// Removes objects with their scripts and signals. Callbacks may have removed some of them already.
+    fn remove_from_scene(&self, mut handles: Vec<Handle>) -> ApiResult<()> {
+        handles.retain(|&handle| self.scene.borrow().exists(handle));
+        self.scene.borrow_mut().remove(&handles)?;
+        for handle in handles {
+            self.scripts.remove_those_of(handle);
+            self.signal_owners.borrow_mut().forget(Holder::Object(handle));
+        }
         Ok(())
     }
 

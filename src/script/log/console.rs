@@ -24,7 +24,7 @@ pub struct LogLine<'a> {
 impl LogLine<'_> {
     /// The line as a terminal shows it. `sim.verbosity_undecorated` is for status bars: terminals show the author all the same.
     pub fn decorated(&self) -> String {
-        format!("[{}:{}]   {}", self.origin, verbosity::word(self.level), self.plain_text())
+        format!("[{}:{}]   {}", self.origin, verbosity::name(self.level), self.plain_text())
     }
 
     /// The text; where it is marked as HTML, by `@html` at its end, without mark and tags.

@@ -19,7 +19,7 @@ pub fn plain(level: i64) -> i64 {
 }
 
 /// The word for a level in log lines.
-pub fn word(level: i64) -> &'static str {
+pub fn name(level: i64) -> &'static str {
     match plain(level) {
         ERRORS | SCRIPT_ERRORS => "error",
         WARNINGS | SCRIPT_WARNINGS => "warning",

@@ -28,14 +28,14 @@ pub(crate) fn install_coroutine_hooks(stack: Stack<'_>, on_count: OnCount) {
     install(stack, "create", Guarded::CoroutineCreate, create);
     install(stack, "wrap", Guarded::CoroutineWrap, wrap);
     stack.pop(1);
-    let interval = if stack.owner().is_watched() { HOOK_INTERVAL } else { 0 };
+    let interval = if stack.owner().is_interruptible() { HOOK_INTERVAL } else { 0 };
     // SAFETY: the main coroutine of a living state.
     unsafe { set_hook(stack.raw(), interval) };
 }
 
 /// Switches the count hook of the running coroutine on or off. The main coroutine keeps what it has, and so does a watched state.
 pub(crate) fn set_count_hook(stack: Stack<'_>, on: bool) {
-    set_interval(stack, if on || stack.owner().is_watched() { HOOK_INTERVAL } else { 0 });
+    set_interval(stack, if on || stack.owner().is_interruptible() { HOOK_INTERVAL } else { 0 });
 }
 
 /// Makes the count hook of the running coroutine come in a few instructions, until it is set again.

@@ -98,7 +98,7 @@ pub(super) const PATHS: &[Accessor] = subject_properties! {
 pub(super) const RANDOM: &[Accessor] = subject_properties! {
     "randomQuaternion": Quaternion, |s| Quaternion(quaternion_to_array(&s.sim.app.borrow_mut().random.rotation()));
     "randomFloat": f64, |s| s.sim.app.borrow_mut().random.next();
-    "randomString": String, |s| s.sim.app.borrow_mut().random.word(RANDOM_LETTERS);
+    "randomString": String, |s| s.sim.app.borrow_mut().random.string(RANDOM_LETTERS);
 };
 
 /// Letters and digits of a random string.

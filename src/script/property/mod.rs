@@ -194,16 +194,16 @@ impl Sim {
         let listed = |rows: &'static [Row]| {
             rows.iter().filter(|row| row.flags & flags::DEPRECATED == 0 && row.name.starts_with(prefix))
         };
-        let told = |row: &'static Row| (row.name.to_owned(), row.class);
+        let listing = |row: &'static Row| (row.name.to_owned(), row.class);
         if let Some(row) = listed(before).nth(index) {
-            return Some(told(row));
+            return Some(listing(row));
         }
         let index = index - listed(before).count();
         let stored = self.stored_names(target);
         let Some(row) = index.checked_sub(stored.len()) else {
             return Some((stored.into_iter().nth(index)?, before.last()?.class));
         };
-        listed(after).nth(row).map(told)
+        listed(after).nth(row).map(listing)
     }
 
     /// The static properties of a target in the order of enumeration: those before and those after custom data and signals.

@@ -8,7 +8,7 @@ use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::random::Random;
 use crate::script::sim::Sim;
 
-/// Letters and digits of the text that tells scenes apart.
+/// Letters and digits of the identifier of a scene.
 const SCENE_UID_LETTERS: usize = 16;
 
 impl Sim {
@@ -61,7 +61,7 @@ impl Sim {
 
     /// Distinguishes this scene also from those of other simulators with other seeds.
     fn scene_uid_text(&self) -> String {
-        Random::new(self.options.seed.wrapping_add(self.scene_uid() as u32)).word(SCENE_UID_LETTERS)
+        Random::new(self.options.seed.wrapping_add(self.scene_uid() as u32)).string(SCENE_UID_LETTERS)
     }
 
     /// Turns real-time mode on or off. Without effect while the simulation is not stopped.

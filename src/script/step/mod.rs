@@ -32,15 +32,19 @@ impl Sim {
         self.notify_changed_data();
         self.notify_selection();
         if self.clock.state().is_advancing() {
-            if !self.step_is_due() {
-                self.broadcast(SysCall::RealTimeIdle, &[]);
-            } else if !self.main_script_is_vetoed() {
-                self.simulation_step();
-                self.advance();
-            }
+            self.step_if_due();
         }
         self.remove_delayed();
         self.save_app_storage();
+    }
+
+    fn step_if_due(self: &Rc<Self>) {
+        if !self.step_is_due() {
+            self.broadcast(SysCall::RealTimeIdle, &[]);
+        } else if !self.main_script_is_vetoed() {
+            self.simulation_step();
+            self.advance();
+        }
     }
 
     /// Always, except in real-time mode.

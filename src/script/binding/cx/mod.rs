@@ -110,9 +110,9 @@ impl<'a> Cx<'a> {
     }
 
     /// Ends the time slice of the calling thread, as work does that takes longer in the original.
-    pub(crate) fn use_up_slice(&self) {
+    pub(crate) fn end_time_slice(&self) {
         if let Some(stack) = self.stack {
-            crate::script::use_up_slice(stack);
+            crate::script::end_time_slice(stack);
         }
     }
 

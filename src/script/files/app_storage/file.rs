@@ -18,7 +18,7 @@ const NAME: &str = "app-storage.cbor";
 const LOCK: &str = "app-storage.lock";
 const VERSION: i64 = 1;
 /// A writer is done in milliseconds, unless the disk is very slow.
-const LONGEST_TURN: Duration = Duration::from_secs(5);
+const LONGEST_WAIT_FOR_LOCK: Duration = Duration::from_secs(5);
 
 /// Why the file is not what it should be.
 #[derive(Debug, thiserror::Error)]
@@ -68,7 +68,7 @@ pub(in crate::script::files::app_storage) fn update(
     let unusable = |error| Failure::Unusable { path: folder.join(NAME), error };
     fs::create_dir_all(folder).map_err(unusable)?;
     let lock = File::options().create(true).truncate(false).write(true).open(folder.join(LOCK)).map_err(unusable)?;
-    take_turn(&lock, LONGEST_TURN).map_err(unusable)?;
+    wait_for_lock(&lock, LONGEST_WAIT_FOR_LOCK).map_err(unusable)?;
     let (mut contents, failure) = match read(folder) {
         Ok(contents) => (contents, None),
         Err(corrupt @ Failure::Corrupt { .. }) => (Contents::default(), Some(corrupt)),
@@ -80,7 +80,7 @@ pub(in crate::script::files::app_storage) fn update(
 }
 
 /// Waits for other writers, but not for one that hangs.
-fn take_turn(lock: &File, longest: Duration) -> std::io::Result<()> {
+fn wait_for_lock(lock: &File, longest: Duration) -> std::io::Result<()> {
     let deadline = wall_clock::now() + longest;
     loop {
         match FileExt::try_lock(lock) {
@@ -163,16 +163,16 @@ mod tests {
 
     use fs4::FileExt;
 
-    use super::take_turn;
+    use super::wait_for_lock;
 
     #[test]
     fn a_writer_that_hangs_is_not_waited_for() {
         let file = tempfile::NamedTempFile::new().expect("a temporary file can be made");
         let other = file.reopen().expect("it can be opened again");
         FileExt::lock(&other).expect("nobody else has it");
-        let error = take_turn(file.as_file(), Duration::from_millis(5)).expect_err("the other has it");
+        let error = wait_for_lock(file.as_file(), Duration::from_millis(5)).expect_err("the other has it");
         assert_eq!(error.kind(), std::io::ErrorKind::TimedOut);
         drop(other);
-        take_turn(file.as_file(), Duration::ZERO).expect("the other has gone");
+        wait_for_lock(file.as_file(), Duration::ZERO).expect("the other has gone");
     }
 }

@@ -70,7 +70,7 @@ impl Contents {
     }
 
     /// Takes over one item from `other`: its value, or that it is gone.
-    fn take_over(&mut self, item: &Dirty, other: &Self) {
+    fn copy_item(&mut self, item: &Dirty, other: &Self) {
         match item {
             Dirty::CustomData(name) => {
                 let value = other.custom_data.typed(name).map(|(ty, value)| (ty, value.clone()));
@@ -157,7 +157,7 @@ impl AppStorage {
         let saved = match &self.folder {
             None => Err(Failure::NoFolder),
             Some(folder) => file::update(folder, |contents| {
-                self.dirty.iter().for_each(|item| contents.take_over(item, &self.contents));
+                self.dirty.iter().for_each(|item| contents.copy_item(item, &self.contents));
             }),
         };
         match saved {
