@@ -1,6 +1,6 @@
 --[[
 Removes functions that start programs or load native libraries from a fresh Lua state, and makes `require` refuse bytecode; runs after base.lua
-with --no-unsafe. `load`, `loadfile` and `dofile` refuse bytecode already.
+with --no-unsafe. `load` and `loadfile` refuse bytecode already.
 ]]
 
 local function forbid(library, name)
@@ -16,6 +16,12 @@ table.remove(package.searchers, 5)
 table.remove(package.searchers, 4)
 
 local error, loadfile, searchpath = error, loadfile, package.searchpath
+
+function dofile(name)
+    local chunk, reason = loadfile(name)
+    if not chunk then error(reason, 0) end
+    return chunk()
+end
 
 -- The searcher for Lua files, by its place: `package.preload`, Swanilda's library, then Lua files.
 package.searchers[3] = function(name)

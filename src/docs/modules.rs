@@ -44,6 +44,7 @@ const INNER: &[&str] = &[
     "remote/zmq_arguments",
     "remote/zmq_clients",
     "remote/zmq_functions",
+    "seal",
     "shared_process",
     "simZMQ/proxy",
     "swanilda/console",

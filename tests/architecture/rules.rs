@@ -191,4 +191,4 @@ const SCRIPT: Rooms = &[
 pub const FUNCTIONS_FOR_SCRIPTS: &[&str] = &["src/api", "src/modules"];
 
 /// The edges to libraries written in C.
-pub const UNSAFE: &[&str] = &["src/script", "src/io/zmq"];
+pub const UNSAFE: &[&str] = &["src/script/lua", "src/io/zmq"];

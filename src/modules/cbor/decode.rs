@@ -35,7 +35,7 @@ type Read<T> = Result<T, Stop>;
 
 pub(super) fn decode(args: &mut Args<'_>) -> ApiResult<c_int> {
     let stack = args.stack();
-    let (bytes, at) = packet(stack)?;
+    let (bytes, at) = packet(&stack)?;
     if stack.kind(3) != LuaType::Table {
         return Err(ApiError::NotA { position: 3, expected: "table" });
     }

@@ -56,7 +56,7 @@ fn write_float(out: &mut Vec<u8>, stack: Stack<'_>, float: f64) -> ApiResult<()>
 pub(super) fn decode(args: &mut Args<'_>) -> ApiResult<c_int> {
     args.require(2)?;
     let stack = args.stack();
-    let (bytes, at) = packet(stack)?;
+    let (bytes, at) = packet(&stack)?;
     let (head, end) = Head::read(bytes, at).map_err(|error| ApiError::Other(error.to_string()))?;
     Ok(push_head_read(stack, head, end))
 }
@@ -65,7 +65,7 @@ pub(super) fn decode(args: &mut Args<'_>) -> ApiResult<c_int> {
 pub(super) fn head(args: &mut Args<'_>) -> ApiResult<c_int> {
     args.require(2)?;
     let stack = args.stack();
-    let (bytes, at) = packet(stack)?;
+    let (bytes, at) = packet(&stack)?;
     Ok(match Head::read(bytes, at) {
         Ok((head, end)) => push_head_read(stack, head, end),
         Err(error) => {
@@ -77,7 +77,7 @@ pub(super) fn head(args: &mut Args<'_>) -> ApiResult<c_int> {
 }
 
 /// The first two arguments: bytes, and the place in them, which scripts count from 1.
-pub(super) fn packet(stack: Stack<'_>) -> ApiResult<(&[u8], usize)> {
+pub(super) fn packet<'a>(stack: &'a Stack<'_>) -> ApiResult<(&'a [u8], usize)> {
     let bytes = stack.bytes(1).ok_or(ApiError::NotA { position: 1, expected: "string" })?;
     let pos = stack.integer(2).ok_or(ApiError::NotA { position: 2, expected: "integer" })?;
     let at = usize::try_from(pos.saturating_sub(1)).unwrap_or(usize::MAX);

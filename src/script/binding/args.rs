@@ -64,7 +64,7 @@ impl<'a, S: Source<'a>> Args<'a, S> {
     }
 
     /// The bytes of the argument, when it is a string.
-    pub(crate) fn bytes(&self) -> Option<&'a [u8]> {
+    pub(crate) fn bytes(&self) -> Option<&[u8]> {
         if self.position > self.count { None } else { self.source.bytes(self.position) }
     }
 

@@ -10,7 +10,7 @@ pub(in crate::script) mod returns;
 pub(in crate::script) mod source;
 pub(in crate::script) mod states;
 
-use std::ffi::{c_int, c_void};
+use std::ffi::c_int;
 
 use super::error::{ApiError, ApiResult};
 use super::lifecycle::env::Env;
@@ -56,14 +56,14 @@ pub(crate) fn needs_lua<'a>(_: &mut Args<'a, Values<'a>>) -> ApiResult<Vec<Data>
 
 /// Pushes a native function.
 pub(crate) fn push_function(stack: Stack<'_>, id: FunctionId) {
-    push_callback(stack, call_function, std::ptr::without_provenance(id.number()));
+    push_callback(stack, call_function, id.number());
 }
 
-fn call_function(stack: Stack<'_>, number: *const c_void) -> Result<c_int, String> {
+fn call_function(stack: Stack<'_>, number: usize) -> Result<c_int, String> {
     let env = Env::of(stack);
-    let bound = env.registry.function(number.addr()).ok_or("there is no such function.")?;
+    let bound = env.registry.function(number).ok_or("there is no such function.")?;
     if let Some(replacement) = bound.replacement {
-        env.warn_deprecated(number.addr(), || deprecation_notice(&bound.name, replacement));
+        env.warn_deprecated(number, || deprecation_notice(&bound.name, replacement));
     }
     let result = (bound.function.call)(&mut Args::new(stack)).map_err(|error| error.text(stack, &bound.name));
     if bound.function.mutates {

@@ -39,7 +39,7 @@ values! {
     Data, "any", |value, sink| sink.data(&value);
     Table, "table", |value, sink| sink.data(&value.0);
     Nil, "nil", |_value, sink| sink.nil();
-    Vec<f64>, "float[]", |value, sink| sink.list(&value, |sink, &v| sink.number(v))?;
+    Vec<f64>, "float[]", |value, sink| sink.numbers(&value)?;
     Vec<i64>, "int[]", |value, sink| sink.list(&value, |sink, &v| sink.int(v))?;
     Vec<Handle>, "int[]", |value, sink| sink.list(&value, |sink, v| sink.int(v.raw()))?;
     Vec<String>, "string[]", |value, sink| sink.list(&value, |sink, v| sink.text(v.as_bytes()))?;
@@ -59,7 +59,7 @@ macro_rules! number_arrays {
         impl IntoScript for [f64; $n] {
             const TYPE: &'static str = $name;
                     fn into_script<S: Sink>(self, sink: &mut S) -> ApiResult<()> {
-                sink.list(&self, |sink, &v| sink.number(v))
+                sink.numbers(&self)
             }
         }
     )* };

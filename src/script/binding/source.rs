@@ -24,7 +24,7 @@ pub trait Source<'a>: Copy {
     fn integer(self, position: c_int) -> Option<i64>;
     fn truthy(self, position: c_int) -> bool;
     /// The bytes of a string.
-    fn bytes(self, position: c_int) -> Option<&'a [u8]>;
+    fn bytes(&self, position: c_int) -> Option<&[u8]>;
     /// The bytes of a string, or a number in Lua's spelling.
     fn text(self, position: c_int) -> Option<Vec<u8>>;
     /// Length of a list.
@@ -62,7 +62,7 @@ impl<'a> Source<'a> for Stack<'a> {
         Stack::truthy(self, position)
     }
 
-    fn bytes(self, position: c_int) -> Option<&'a [u8]> {
+    fn bytes(&self, position: c_int) -> Option<&[u8]> {
         Stack::bytes(self, position)
     }
 
@@ -154,7 +154,7 @@ impl<'a> Source<'a> for Values<'a> {
         self.get(position).is_some_and(Data::truthy)
     }
 
-    fn bytes(self, position: c_int) -> Option<&'a [u8]> {
+    fn bytes(&self, position: c_int) -> Option<&[u8]> {
         match self.get(position)? {
             Data::Text(bytes) => Some(bytes),
             _ => None,
@@ -268,6 +268,13 @@ pub trait Sink {
     /// # Errors
     /// When the list is too long.
     fn list<T>(&mut self, items: &[T], push: impl Fn(&mut Self, &T)) -> ApiResult<()>;
+    /// The same for numbers.
+    ///
+    /// # Errors
+    /// As `list`.
+    fn numbers(&mut self, numbers: &[f64]) -> ApiResult<()> {
+        self.list(numbers, |sink, &number| sink.number(number))
+    }
     /// # Errors
     /// Where there are no objects.
     fn object(&mut self, object: Object) -> ApiResult<()>;
@@ -313,6 +320,14 @@ impl Sink for Stack<'_> {
             push(self, item);
             self.raw_set_index(-2, i as i64 + 1);
         }
+        Ok(())
+    }
+
+    fn numbers(&mut self, numbers: &[f64]) -> ApiResult<()> {
+        if numbers.len() > LONGEST_LIST {
+            return Err(ApiError::Other("not enough memory".into()));
+        }
+        self.push_numbers(numbers);
         Ok(())
     }
 

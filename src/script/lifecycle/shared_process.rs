@@ -1,6 +1,6 @@
 //! Restrictions of simulators that share their process with others: those with [`Limits`](crate::script::Limits).
 
-use std::ffi::{c_int, c_void};
+use std::ffi::c_int;
 
 use super::env::Env;
 use super::startup::load_module;
@@ -11,12 +11,12 @@ use crate::script::sim::Sim;
 /// Keeps a state from ending the process, and from writing between the lines of the others.
 pub(in crate::script) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
     load_module(stack, sim, "shared_process")?;
-    push_callback(stack, write, std::ptr::null());
+    push_callback(stack, write, 0);
     stack.protected_call(1, 0)
 }
 
 /// Gets the name of a stream, and what a script has written there.
-fn write(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+fn write(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
     let stream = if stack.bytes(1) == Some(b"stderr") { Stream::Error } else { Stream::Output };
     let time = sim.clock.time();

@@ -1,6 +1,6 @@
 //! Initialisation of a fresh Lua state: library, `sim`, package path (spec: scripts 9).
 
-use std::ffi::{CStr, c_int, c_void};
+use std::ffi::{CStr, c_int};
 use std::rc::Rc;
 
 use mlua::{Function, Lua, Table};
@@ -25,7 +25,7 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
     threads::install(stack);
     lua::install_coroutine_hooks(stack, threads::on_count);
     lua::restrict_debug(stack, runtime.lua.lua())?;
-    user_modules::install(stack, runtime.lua.lua(), &sim.user_modules)?;
+    user_modules::install(sim, stack)?;
     install_package(sim, stack);
     install_globals(sim, stack);
     install_sim(stack);
@@ -39,7 +39,7 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
     }
     if runtime.env.coverage.is_some() {
         load_module(stack, sim, "coverage_loaders")?;
-        push_callback(stack, count, std::ptr::null());
+        push_callback(stack, count, 0);
         stack.protected_call(1, 0)?;
     }
     if sim.options.limits.is_some() {
@@ -49,7 +49,7 @@ pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
 }
 
 /// Instruments a function that was just loaded for coverage.
-fn count(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+fn count(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     stack.set_top(1);
     if let Some(coverage) = &Env::of(stack).coverage {
         coverage.count_function(stack);
@@ -73,7 +73,7 @@ fn scrambled(seed: u32) -> i64 {
 
 /// Modules that CoppeliaSim has not, or no longer, and files that are no modules: a script's own file of that name goes first.
 const LAST: &[&str] =
-    &["base", "cbor", "class", "deprecate", "json", "main", "no_exit", "no_unsafe", "old_calls", "say"];
+    &["base", "cbor", "class", "deprecate", "json", "main", "no_exit", "no_unsafe", "old_calls", "say", "seal"];
 
 /// Puts the scene's folders first into `package.path` and `package.cpath`, and the embedded library into `package.searchers`.
 fn install_package(sim: &Sim, stack: Stack<'_>) {
@@ -111,28 +111,28 @@ fn install_searchers(stack: Stack<'_>) {
         stack.raw_get_index(-1, i);
         stack.raw_set_index(-2, i + 1);
     }
-    push_callback(stack, search_embedded, std::ptr::null());
+    push_callback(stack, search_embedded, 0);
     stack.raw_set_index(-2, 2);
-    push_callback(stack, search_last, std::ptr::null());
+    push_callback(stack, search_last, 0);
     stack.raw_set_index(-2, last + 2);
     stack.pop(1);
 }
 
 /// Finds the modules that come with the simulator and go before a script's own files.
-fn search_embedded(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+fn search_embedded(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let name = String::from_utf8_lossy(&stack.text(1).unwrap_or_default()).into_owned();
     if LAST.contains(&&*name) {
         return Ok(0);
     }
     if name == "sim" || name == "sim-1" {
-        push_callback(stack, return_sim, std::ptr::null());
+        push_callback(stack, return_sim, 0);
         return Ok(1);
     }
     find_module(stack, &name)
 }
 
 /// Finds the others.
-fn search_last(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+fn search_last(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let name = String::from_utf8_lossy(&stack.text(1).unwrap_or_default()).into_owned();
     if LAST.contains(&&*name) { find_module(stack, &name) } else { Ok(0) }
 }
@@ -147,7 +147,7 @@ fn find_module(stack: Stack<'_>, name: &str) -> Result<c_int, String> {
         _ if registry.files.contains_key(file.as_str()) && !file.starts_with("sim/") => {
             load_module(stack, &sim, &file).map_err(|error| error.text)?;
         }
-        Some(_) => push_callback(stack, return_library, std::ptr::null()),
+        Some(_) => push_callback(stack, return_library, 0),
         None => {
             stack.push_bytes(format!("no module '{name}' in Swanilda's library").as_bytes());
             return Ok(1);
@@ -197,11 +197,11 @@ fn set_constant(stack: Stack<'_>, name: &str, value: i64) {
 }
 
 /// The loader of a module that is native altogether: what the searcher found comes as its second argument.
-fn return_library(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+fn return_library(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     Ok(stack.top().min(1))
 }
 
-fn return_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+fn return_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     stack.push_registry(SIM);
     Ok(1)
 }
@@ -219,7 +219,7 @@ fn install_globals(sim: &Sim, stack: Stack<'_>) {
         push_function(stack, id);
         stack.set_global(name);
     }
-    push_callback(stack, set_buffer_metatable, std::ptr::null());
+    push_callback(stack, set_buffer_metatable, 0);
     stack.set_global("_setBufferMetatable");
     stack.push_globals();
     push_metatable_with_index(stack, index_globals);
@@ -227,7 +227,7 @@ fn install_globals(sim: &Sim, stack: Stack<'_>) {
     stack.pop(1);
 }
 
-fn set_buffer_metatable(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+fn set_buffer_metatable(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     if stack.kind(1) != Type::Table {
         return Err("_setBufferMetatable: a table is needed".into());
     }
@@ -240,7 +240,7 @@ fn set_buffer_metatable(stack: Stack<'_>, _: *const c_void) -> Result<c_int, Str
 
 fn push_metatable_with_index(stack: Stack<'_>, index: impl lua::Callback) {
     stack.new_table(0, 1);
-    push_callback(stack, index, std::ptr::null());
+    push_callback(stack, index, 0);
     stack.raw_set_field(-2, "__index");
 }
 
@@ -248,7 +248,7 @@ fn push_metatable_with_index(stack: Stack<'_>, index: impl lua::Callback) {
 fn install_sim(stack: Stack<'_>) {
     stack.new_table(0, 0);
     push_metatable_with_index(stack, index_sim);
-    push_callback(stack, pairs_sim, std::ptr::null());
+    push_callback(stack, pairs_sim, 0);
     stack.raw_set_field(-2, "__pairs");
     stack.set_metatable(-2);
     stack.set_registry(SIM);
@@ -256,7 +256,7 @@ fn install_sim(stack: Stack<'_>) {
     stack.set_registry(LUA_MODULES);
 }
 
-fn index_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+fn index_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let Some(name) = stack.bytes(2) else { return Ok(0) };
     let Ok(name) = std::str::from_utf8(name) else { return Ok(0) };
     push_member(stack, name)?;
@@ -268,7 +268,7 @@ fn index_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
 }
 
 /// `pairs(sim)`: who iterates gets all names, used before or not.
-fn pairs_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+fn pairs_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     stack.push_global("next");
     stack.push_registry(SIM);
     for name in Env::of(stack).registry.members_of_sim().names() {
@@ -283,7 +283,7 @@ fn pairs_sim(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
 }
 
 /// Old global names: `simGetObjectHandle` is `sim.getObjectHandle`, `sim_handle_all` is `sim.handle_all`.
-fn index_globals(stack: Stack<'_>, _: *const c_void) -> Result<c_int, String> {
+fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let Some(name) = stack.bytes(2).and_then(|name| std::str::from_utf8(name).ok()) else { return Ok(0) };
     let Some(rest) = name.strip_prefix("sim") else { return Ok(0) };
     let members = Env::of(stack).registry.members_of_sim();
@@ -321,11 +321,11 @@ fn push_member(stack: Stack<'_>, name: &str) -> Result<(), String> {
 }
 
 fn push_missing(stack: Stack<'_>, id: MissingId) {
-    push_callback(stack, raise_missing, std::ptr::without_provenance(id.number()));
+    push_callback(stack, raise_missing, id.number());
 }
 
-fn raise_missing(stack: Stack<'_>, number: *const c_void) -> Result<c_int, String> {
-    let missing = Env::of(stack).registry.missing(number.addr()).ok_or("there is no such function.")?;
+fn raise_missing(stack: Stack<'_>, number: usize) -> Result<c_int, String> {
+    let missing = Env::of(stack).registry.missing(number).ok_or("there is no such function.")?;
     Err(missing.error().text(stack, ""))
 }
 

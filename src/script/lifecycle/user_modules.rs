@@ -4,7 +4,9 @@ use std::rc::Rc;
 
 use mlua::{Lua, Table};
 
-use crate::script::lua::{self, Stack};
+use super::startup::load_module;
+use crate::script::lua::{LuaError, Stack, push_callback, seal_argument};
+use crate::script::sim::Sim;
 
 /// Makes a module for the Lua state of one script.
 type Open = dyn Fn(&Lua) -> mlua::Result<Table>;
@@ -17,11 +19,17 @@ pub(crate) struct UserModule {
 }
 
 /// Lets `require` find the modules, before any file and any module of the library.
-pub(in crate::script) fn install(stack: Stack<'_>, lua: &Lua, modules: &[UserModule]) -> mlua::Result<()> {
-    if modules.is_empty() {
+pub(in crate::script) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
+    if sim.user_modules.is_empty() {
         return Ok(());
     }
-    lua::seal(stack);
+    load_module(stack, sim, "seal")?;
+    push_callback(stack, seal_argument, 0);
+    stack.protected_call(1, 0)?;
+    Ok(preload(stack.lua(), &sim.user_modules)?)
+}
+
+fn preload(lua: &Lua, modules: &[UserModule]) -> mlua::Result<()> {
     let preload: Table = lua.globals().get::<Table>("package")?.get("preload")?;
     for UserModule { name, open } in modules {
         let open = Rc::clone(open);

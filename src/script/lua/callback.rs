@@ -1,9 +1,9 @@
 //! Rust functions callable from Lua.
 
 use std::any::Any;
-use std::ffi::{c_int, c_void};
+use std::ffi::c_int;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::ptr::NonNull;
+use std::ptr::{NonNull, null_mut};
 
 use mlua::ffi;
 
@@ -11,18 +11,16 @@ use super::Stack;
 
 /// A Rust function Lua can call: gets the stack with its arguments and the number given to [`push_callback`], returns how many
 /// results it pushed, or the text of the error to raise. It is a function, not a closure with values.
-pub(crate) trait Callback: Fn(Stack<'_>, *const c_void) -> Result<c_int, String> + Copy + 'static {}
+pub(crate) trait Callback: Fn(Stack<'_>, usize) -> Result<c_int, String> + Copy + 'static {}
 
-impl<F: Fn(Stack<'_>, *const c_void) -> Result<c_int, String> + Copy + 'static> Callback for F {}
+impl<F: Fn(Stack<'_>, usize) -> Result<c_int, String> + Copy + 'static> Callback for F {}
 
-/// Pushes `callback` as a Lua function. `data` is handed to each call.
-pub(crate) fn push_callback<F: Callback>(stack: Stack<'_>, _callback: F, data: *const c_void) {
+/// Pushes `callback` as a Lua function. `number` is handed to each call, which looks up what it stands for.
+pub(crate) fn push_callback<F: Callback>(stack: Stack<'_>, _callback: F, number: usize) {
     const { assert!(size_of::<F>() == 0, "Lua keeps the type of a callback, and no values") };
-    // SAFETY: one light upvalue.
-    unsafe {
-        ffi::lua_pushlightuserdata(stack.raw(), data.cast_mut());
-        ffi::lua_pushcclosure(stack.raw(), trampoline::<F>, 1);
-    }
+    stack.push_int(number as i64);
+    // SAFETY: pops the upvalue.
+    unsafe { ffi::lua_pushcclosure(stack.raw(), trampoline::<F>, 1) };
 }
 
 /// Runs the callback, then raises if it failed. Raising leaves this frame by `longjmp`: by then it owns nothing.
@@ -39,11 +37,11 @@ unsafe extern "C-unwind" fn trampoline<F: Callback>(raw: *mut ffi::lua_State) ->
 fn run<F: Callback>(raw: *mut ffi::lua_State) -> c_int {
     // SAFETY: `raw` is alive during the call. `push_callback` had a value of the type, which can be copied and has no bytes.
     let (stack, callback) = unsafe { (Stack::from_raw(raw), NonNull::<F>::dangling().read()) };
-    // SAFETY: reads the upvalue.
-    let data = unsafe { ffi::lua_touserdata(raw, ffi::lua_upvalueindex(1)) };
+    // SAFETY: reads the upvalue; 0 for what is no number.
+    let number = unsafe { ffi::lua_tointegerx(raw, ffi::lua_upvalueindex(1), null_mut()) } as usize;
     let budget = stack.budget();
     let before = budget.enter(true);
-    let results = match catch_unwind(AssertUnwindSafe(|| callback(stack, data))) {
+    let results = match catch_unwind(AssertUnwindSafe(|| callback(stack, number))) {
         Ok(Ok(results)) => results,
         Ok(Err(text)) => fail(stack, &text),
         Err(panic) => fail(stack, &panic_message(&*panic)),

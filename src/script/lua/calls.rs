@@ -5,6 +5,7 @@ use std::ffi::{c_int, c_void};
 use mlua::chunk::ChunkMode;
 use mlua::{Error, Lua, LuaOptions, StdLib, ffi};
 
+use super::api;
 use super::seal::seal_top;
 use super::stack::Stack;
 
@@ -114,8 +115,7 @@ impl Stack<'_> {
 
     /// `chunk:line: ` of the Lua function that called; nothing when that is none.
     fn place_of_call(self) -> String {
-        // SAFETY: pushes one string.
-        unsafe { ffi::luaL_where(self.raw(), 1) };
+        api::luaL_where(self.room(), 1);
         let place = self.text(-1).unwrap_or_default();
         self.pop(1);
         String::from_utf8_lossy(&place).into_owned()
@@ -167,8 +167,7 @@ impl Stack<'_> {
 
     /// Pushes the coroutine this stack belongs to.
     pub(crate) fn push_running_coroutine(self) {
-        // SAFETY: pushes one value.
-        unsafe { ffi::lua_pushthread(self.raw()) };
+        api::lua_pushthread(self.room());
     }
 }
 

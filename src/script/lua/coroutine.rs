@@ -5,9 +5,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use mlua::ffi;
 
-use super::Stack;
 use super::callback::panic_message;
-use super::guard::{Guarded, install, original};
+use super::guard::{guarded, install_raw, original};
+use super::{Stack, api};
 
 /// Virtual machine instructions between two checks of the budget.
 pub(crate) const HOOK_INTERVAL: c_int = 1000;
@@ -25,8 +25,8 @@ static ON_COUNT: std::sync::OnceLock<OnCount> = std::sync::OnceLock::new();
 pub(crate) fn install_coroutine_hooks(stack: Stack<'_>, on_count: OnCount) {
     ON_COUNT.get_or_init(|| on_count);
     stack.push_global("coroutine");
-    install(stack, "create", Guarded::CoroutineCreate, create);
-    install(stack, "wrap", Guarded::CoroutineWrap, wrap);
+    install_raw(stack, "create", guarded::COROUTINE_CREATE, create);
+    install_raw(stack, "wrap", guarded::COROUTINE_WRAP, wrap);
     stack.pop(1);
     let interval = if stack.owner().is_interruptible() { HOOK_INTERVAL } else { 0 };
     // SAFETY: the main coroutine of a living state.
@@ -44,13 +44,11 @@ pub(crate) fn hasten_count_hook(stack: Stack<'_>) {
 }
 
 fn set_interval(stack: Stack<'_>, interval: c_int) {
-    // SAFETY: `lua_pushthread` tells whether this is the main coroutine.
-    unsafe {
-        let is_main = ffi::lua_pushthread(stack.raw()) != 0;
-        stack.pop(1);
-        if !is_main {
-            set_hook(stack.raw(), interval);
-        }
+    let is_main = api::lua_pushthread(stack.room()) != 0;
+    stack.pop(1);
+    if !is_main {
+        // SAFETY: a coroutine of a living state.
+        unsafe { set_hook(stack.raw(), interval) };
     }
 }
 
@@ -66,7 +64,7 @@ unsafe fn set_hook(raw: *mut ffi::lua_State, interval: c_int) {
 unsafe extern "C-unwind" fn create(raw: *mut ffi::lua_State) -> c_int {
     // SAFETY: continues in Lua's function, which may raise; nothing is owned here.
     unsafe {
-        let results = original(raw, Guarded::CoroutineCreate);
+        let results = original(raw, guarded::COROUTINE_CREATE);
         hook_new(raw, -1);
         results
     }
@@ -75,7 +73,7 @@ unsafe extern "C-unwind" fn create(raw: *mut ffi::lua_State) -> c_int {
 unsafe extern "C-unwind" fn wrap(raw: *mut ffi::lua_State) -> c_int {
     // SAFETY: as above; the function `coroutine.wrap` returns keeps its coroutine as first upvalue.
     unsafe {
-        let results = original(raw, Guarded::CoroutineWrap);
+        let results = original(raw, guarded::COROUTINE_WRAP);
         if !ffi::lua_getupvalue(raw, -1, 1).is_null() {
             hook_new(raw, -1);
             ffi::lua_settop(raw, -2);
@@ -161,8 +159,8 @@ mod tests {
             assert_eq!(follow(state.stack(), || Verdict::Yield), Step::Yield);
             assert_eq!(follow(state.stack(), || Verdict::GoOn), Step::GoOn);
             assert_eq!(follow(state.stack(), || panic!("out of order")), Step::Raise);
-            let text = String::from_utf8_lossy(state.stack().bytes(-1).unwrap_or_default());
-            assert!(text.ends_with("out of order"), "{text}");
+            let text = String::from_utf8(state.stack().text(-1).unwrap_or_default());
+            assert!(text.as_ref().is_ok_and(|text| text.ends_with("out of order")), "{text:?}");
         });
     }
 }

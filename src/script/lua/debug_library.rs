@@ -8,18 +8,18 @@ use std::ffi::{CStr, c_int};
 
 use mlua::{Lua, Table, ffi};
 
-use super::Stack;
-use super::guard::{Guarded, install, original};
+use super::guard::{Next, guarded, install};
+use super::{Stack, Type, api};
 
 /// Replaces the functions of `debug` that reach into native functions.
 pub(crate) fn restrict_debug(stack: Stack<'_>, lua: &Lua) -> mlua::Result<()> {
     stack.push_global("debug");
-    install(stack, "getlocal", Guarded::GetLocal, get_local);
-    install(stack, "setlocal", Guarded::SetLocal, set_local);
-    install(stack, "getmetatable", Guarded::GetMetatable, get_metatable);
-    install(stack, "setmetatable", Guarded::SetMetatable, set_metatable);
-    install(stack, "getupvalue", Guarded::GetUpvalue, get_upvalue);
-    install(stack, "setupvalue", Guarded::SetUpvalue, set_upvalue);
+    install::<{ guarded::GET_LOCAL }, _>(stack, "getlocal", get_local);
+    install::<{ guarded::SET_LOCAL }, _>(stack, "setlocal", set_local);
+    install::<{ guarded::GET_METATABLE }, _>(stack, "getmetatable", get_metatable);
+    install::<{ guarded::SET_METATABLE }, _>(stack, "setmetatable", set_metatable);
+    install::<{ guarded::GET_UPVALUE }, _>(stack, "getupvalue", access_upvalue);
+    install::<{ guarded::SET_UPVALUE }, _>(stack, "setupvalue", access_upvalue);
     stack.pop(1);
     let registry = public_registry(lua)?;
     let get_registry = lua.create_function(move |_, ()| Ok(registry.clone()))?;
@@ -36,57 +36,38 @@ fn public_registry(lua: &Lua) -> mlua::Result<Table> {
     Ok(registry)
 }
 
-// SAFETY of all guards: Lua calls them with a state that is alive and 20 free slots. They own nothing, so that Lua's functions may raise.
-
-unsafe extern "C-unwind" fn get_upvalue(raw: *mut ffi::lua_State) -> c_int {
-    unsafe { if ffi::lua_iscfunction(raw, 1) != 0 { 0 } else { original(raw, Guarded::GetUpvalue) } }
+fn access_upvalue(stack: Stack<'_>) -> Next {
+    if api::lua_iscfunction(stack, stack.slot(1)) != 0 { Next::Return(0) } else { Next::Original }
 }
 
-unsafe extern "C-unwind" fn set_upvalue(raw: *mut ffi::lua_State) -> c_int {
-    unsafe { if ffi::lua_iscfunction(raw, 1) != 0 { 0 } else { original(raw, Guarded::SetUpvalue) } }
-}
-
-unsafe extern "C-unwind" fn get_metatable(raw: *mut ffi::lua_State) -> c_int {
-    unsafe {
-        let is_userdata = ffi::lua_type(raw, 1) == ffi::LUA_TUSERDATA;
-        if is_userdata && ffi::luaL_getmetafield(raw, 1, c"__metatable".as_ptr()) != ffi::LUA_TNIL {
-            return 1;
+fn get_metatable(stack: Stack<'_>) -> Next {
+    if stack.kind(1) == Type::UserData && stack.push_metatable(1) {
+        if stack.raw_get_field(-1, "__metatable") != Type::Nil {
+            return Next::Return(1);
         }
-        original(raw, Guarded::GetMetatable)
+        stack.pop(2);
     }
+    Next::Original
 }
 
-unsafe extern "C-unwind" fn set_metatable(raw: *mut ffi::lua_State) -> c_int {
-    unsafe {
-        if ffi::lua_type(raw, 1) == ffi::LUA_TUSERDATA {
-            return ffi::luaL_argerror(raw, 1, c"userdata keep their metatables".as_ptr());
-        }
-        original(raw, Guarded::SetMetatable)
-    }
+fn set_metatable(stack: Stack<'_>) -> Next {
+    if stack.kind(1) == Type::UserData { Next::Refuse(c"userdata keep their metatables") } else { Next::Original }
 }
 
-unsafe extern "C-unwind" fn get_local(raw: *mut ffi::lua_State) -> c_int {
-    unsafe {
-        match Local::asked_for(raw) {
-            Some(local) if local.is_native => {
-                ffi::lua_pushnil(raw);
-                1
-            }
-            _ => original(raw, Guarded::GetLocal),
-        }
-    }
+fn get_local(stack: Stack<'_>) -> Next {
+    nil_if(stack, Local::asked_for(stack).is_some_and(|local| local.is_native))
 }
 
-unsafe extern "C-unwind" fn set_local(raw: *mut ffi::lua_State) -> c_int {
-    unsafe {
-        match Local::asked_for(raw) {
-            Some(local) if local.is_native || local.is_temporary => {
-                ffi::lua_pushnil(raw);
-                1
-            }
-            _ => original(raw, Guarded::SetLocal),
-        }
+fn set_local(stack: Stack<'_>) -> Next {
+    nil_if(stack, Local::asked_for(stack).is_some_and(|local| local.is_native || local.is_temporary))
+}
+
+fn nil_if(stack: Stack<'_>, refused: bool) -> Next {
+    if !refused {
+        return Next::Original;
     }
+    stack.push_nil();
+    Next::Return(1)
 }
 
 /// A local variable by level and number.
@@ -99,15 +80,14 @@ struct Local {
 
 impl Local {
     /// The one whose level and number are in the arguments; None where Lua's function finds none either.
-    ///
-    /// # Safety
-    /// As for the guards.
-    unsafe fn asked_for(raw: *mut ffi::lua_State) -> Option<Self> {
+    fn asked_for(stack: Stack<'_>) -> Option<Self> {
+        let first = if stack.kind(1) == Type::Thread { 2 } else { 1 };
+        let level = argument(stack, first)?;
+        let number = argument(stack, first + 1)?;
+        // SAFETY: `lua_Debug` is plain data that `lua_getstack` fills, for this coroutine or the one in the first argument, which keeps it alive.
+        // There is room for the value of the local, which is popped again; names are static or belong to the function.
         unsafe {
-            let thread = ffi::lua_tothread(raw, 1);
-            let (of, first) = if thread.is_null() { (raw, 1) } else { (thread, 2) };
-            let level = integer(raw, first)?;
-            let number = integer(raw, first + 1)?;
+            let of = if first == 2 { ffi::lua_tothread(stack.raw(), 1) } else { stack.raw() };
             let mut record: ffi::lua_Debug = std::mem::zeroed();
             if ffi::lua_getstack(of, level, &raw mut record) == 0 || ffi::lua_checkstack(of, 1) == 0 {
                 return None;
@@ -125,9 +105,9 @@ impl Local {
     }
 }
 
-/// The number at `index` as Lua's function reads it.
-unsafe fn integer(raw: *mut ffi::lua_State, index: c_int) -> Option<c_int> {
+/// An argument as Lua's function reads it.
+fn argument(stack: Stack<'_>, index: c_int) -> Option<c_int> {
     let mut is_integer = 0;
-    let integer = unsafe { ffi::lua_tointegerx(raw, index, &raw mut is_integer) };
+    let integer = api::lua_tointegerx(stack, stack.slot(index), Some(&mut is_integer));
     (is_integer != 0).then_some(integer as c_int)
 }

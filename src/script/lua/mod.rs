@@ -12,6 +12,7 @@
 //!   as long as what is pushed fits Lua's largest block: strings are cut to it, longer lists are refused before they are pushed
 //!   ([`LONGEST_LIST`], `Data::MAX_ITEMS`).
 
+mod api;
 mod budget;
 mod callback;
 mod calls;
@@ -35,7 +36,7 @@ pub(crate) use coroutine::{HOOK_INTERVAL, Verdict, hasten_count_hook, install_co
 pub(crate) use debug_library::restrict_debug;
 pub(crate) use file::FileLock;
 pub(crate) use object::Object;
-pub(crate) use seal::seal;
+pub(crate) use seal::seal_argument;
 pub(crate) use stack::{Stack, Type};
 pub(crate) use state::State;
 pub(crate) use tables::{FunctionRef, LONGEST_LIST};

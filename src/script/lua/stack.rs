@@ -5,13 +5,14 @@ use std::marker::PhantomData;
 
 use mlua::{Lua, ffi};
 
-use super::Budget;
+use super::{Budget, api};
 use crate::script::lifecycle::env::Env;
 
 /// Longer strings are cut: Lua would raise where it cannot have the memory.
 const LONGEST_STRING: usize = 1 << 29;
 
 /// The stack of one coroutine of a living state. Indices are Lua's: 1 is the bottom, -1 the top.
+#[repr(transparent)]
 #[derive(Clone, Copy)]
 pub struct Stack<'a> {
     raw: *mut ffi::lua_State,
@@ -63,8 +64,7 @@ impl<'a> Stack<'a> {
     }
 
     pub(crate) fn top(self) -> c_int {
-        // SAFETY: reads the stack pointer.
-        unsafe { ffi::lua_gettop(self.raw) }
+        api::lua_gettop(self)
     }
 
     /// Cuts the stack to `top` values.
@@ -75,55 +75,39 @@ impl<'a> Stack<'a> {
     }
 
     pub(crate) fn pop(self, count: c_int) {
-        self.set_top(self.top() - count);
+        assert!((0..=self.top()).contains(&count), "only what is there can be popped");
+        // SAFETY: shrinking only.
+        unsafe { ffi::lua_settop(self.raw, -count - 1) }
     }
 
     /// Makes room for `count` more values; false when the stack would grow past Lua's limit.
     pub(crate) fn reserve(self, count: usize) -> bool {
-        // SAFETY: `lua_checkstack` reports instead of raising.
-        c_int::try_from(count).is_ok_and(|n| unsafe { ffi::lua_checkstack(self.raw, n) != 0 })
+        c_int::try_from(count).is_ok_and(|n| api::lua_checkstack(self, n) != 0)
     }
 
     pub(crate) fn kind(self, index: c_int) -> Type {
-        // SAFETY: `lua_type` accepts every index within the reserved stack.
-        match unsafe { ffi::lua_type(self.raw, index) } {
-            ffi::LUA_TNIL => Type::Nil,
-            ffi::LUA_TBOOLEAN => Type::Boolean,
-            ffi::LUA_TNUMBER => Type::Number,
-            ffi::LUA_TSTRING => Type::String,
-            ffi::LUA_TTABLE => Type::Table,
-            ffi::LUA_TFUNCTION => Type::Function,
-            ffi::LUA_TUSERDATA => Type::UserData,
-            ffi::LUA_TLIGHTUSERDATA => Type::LightUserData,
-            ffi::LUA_TTHREAD => Type::Thread,
-            _ => Type::None,
-        }
+        Type::from_raw(api::lua_type(self, self.slot(index)))
     }
 
     /// The number at `index`; numeric strings count.
     pub(crate) fn number(self, index: c_int) -> Option<f64> {
         let mut is_number = 0;
-        // SAFETY: reads only.
-        let number = unsafe { ffi::lua_tonumberx(self.raw, index, &raw mut is_number) };
+        let number = api::lua_tonumberx(self, self.slot(index), Some(&mut is_number));
         (is_number != 0).then_some(number)
     }
 
     /// The number at `index` if it is an integer; 2.0 and "2" are not.
     pub(crate) fn integer(self, index: c_int) -> Option<i64> {
-        // SAFETY: reads only.
-        unsafe {
-            (ffi::lua_isinteger(self.raw, index) != 0)
-                .then(|| ffi::lua_tointegerx(self.raw, index, std::ptr::null_mut()))
-        }
+        let slot = self.slot(index);
+        (api::lua_isinteger(self, slot) != 0).then(|| api::lua_tointegerx(self, slot, None))
     }
 
     pub(crate) fn truthy(self, index: c_int) -> bool {
-        // SAFETY: reads only.
-        unsafe { ffi::lua_toboolean(self.raw, index) != 0 }
+        api::lua_toboolean(self, self.slot(index)) != 0
     }
 
-    /// The bytes of the string at `index`. Valid while the string stays on the stack.
-    pub(crate) fn bytes(self, index: c_int) -> Option<&'a [u8]> {
+    /// The bytes of the string at `index`, which has to stay where it is while they are looked at.
+    pub(crate) fn bytes(&self, index: c_int) -> Option<&[u8]> {
         if self.kind(index) != Type::String {
             return None;
         }
@@ -156,49 +140,55 @@ impl<'a> Stack<'a> {
 
     /// An address that identifies the table, function, thread or userdata at `index`.
     pub(crate) fn pointer(self, index: c_int) -> *const c_void {
-        // SAFETY: reads only.
-        unsafe { ffi::lua_topointer(self.raw, index) }
+        api::lua_topointer(self, self.slot(index))
     }
 
     pub(crate) fn push_nil(self) {
-        // SAFETY (this and the following pushes): callbacks have 20 free slots; more are reserved by `reserve`.
-        unsafe { ffi::lua_pushnil(self.raw) }
+        api::lua_pushnil(self.room());
     }
 
     pub(crate) fn push_bool(self, value: bool) {
-        unsafe { ffi::lua_pushboolean(self.raw, c_int::from(value)) }
+        api::lua_pushboolean(self.room(), c_int::from(value));
     }
 
     pub(crate) fn push_int(self, value: i64) {
-        unsafe { ffi::lua_pushinteger(self.raw, value) }
+        api::lua_pushinteger(self.room(), value);
     }
 
     pub(crate) fn push_number(self, value: f64) {
-        unsafe { ffi::lua_pushnumber(self.raw, value) }
+        api::lua_pushnumber(self.room(), value);
     }
 
     /// Pushes a string; one that is too long for Lua's allocator is cut.
     pub(crate) fn push_bytes(self, bytes: &[u8]) {
         let bytes = &bytes[..bytes.len().min(LONGEST_STRING)];
+        let _room = self.room();
+        // SAFETY: there is room, and the bytes are copied.
         unsafe { ffi::lua_pushlstring(self.raw, bytes.as_ptr().cast(), bytes.len()) };
     }
 
     pub(crate) fn push_value(self, index: c_int) {
         assert!(self.kind(index) != Type::None, "only what is there can be copied");
-        unsafe { ffi::lua_pushvalue(self.raw, index) }
+        let slot = self.slot(index);
+        api::lua_pushvalue(self.room(), slot);
     }
 
     /// Moves the top value to `index`.
     pub(crate) fn insert(self, index: c_int) {
-        // SAFETY: rotates existing values.
-        unsafe { ffi::lua_rotate(self.raw, index, 1) }
+        self.rotate(index, 1);
     }
 
     /// Removes the value at `index`.
     pub(crate) fn remove(self, index: c_int) {
-        // SAFETY: rotates existing values.
-        unsafe { ffi::lua_rotate(self.raw, index, -1) }
+        self.rotate(index, -1);
         self.pop(1);
+    }
+
+    fn rotate(self, index: c_int, by: c_int) {
+        let (index, top) = (self.absolute(index), self.top());
+        assert!((1..=top).contains(&index), "only what is there can be moved");
+        // SAFETY: rotates one or more existing values by one.
+        unsafe { ffi::lua_rotate(self.raw, index, by) }
     }
 
     /// The positive index of the same slot.
@@ -207,7 +197,23 @@ impl<'a> Stack<'a> {
     }
 
     pub(crate) fn same(self, a: c_int, b: c_int) -> bool {
-        // SAFETY: raw comparison.
-        unsafe { ffi::lua_rawequal(self.raw, a, b) != 0 }
+        api::lua_rawequal(self, self.slot(a), self.slot(b)) != 0
+    }
+}
+
+impl Type {
+    pub(super) fn from_raw(kind: c_int) -> Self {
+        match kind {
+            ffi::LUA_TNIL => Self::Nil,
+            ffi::LUA_TBOOLEAN => Self::Boolean,
+            ffi::LUA_TNUMBER => Self::Number,
+            ffi::LUA_TSTRING => Self::String,
+            ffi::LUA_TTABLE => Self::Table,
+            ffi::LUA_TFUNCTION => Self::Function,
+            ffi::LUA_TUSERDATA => Self::UserData,
+            ffi::LUA_TLIGHTUSERDATA => Self::LightUserData,
+            ffi::LUA_TTHREAD => Self::Thread,
+            _ => Self::None,
+        }
     }
 }

@@ -4,6 +4,7 @@ use std::ffi::{CStr, c_int};
 
 use mlua::ffi;
 
+use super::api;
 use super::stack::{Stack, Type};
 
 /// A Lua function kept alive in the registry of its state.
@@ -28,13 +29,13 @@ impl Stack<'_> {
 
     /// Raw length of the table at `index`.
     pub(crate) fn raw_len(self, index: c_int) -> usize {
-        // SAFETY: reads only; 0 for what has no length.
-        unsafe { ffi::lua_rawlen(self.raw(), index) as usize }
+        api::lua_rawlen(self, self.slot(index)) as usize
     }
 
     pub(crate) fn new_table(self, array: usize, fields: usize) {
         let hint = |n: usize| n.min(MAX_HINT) as c_int;
-        // SAFETY: pushes one value, see `push_nil`.
+        let _room = self.room();
+        // SAFETY: there is room for one value, and the hints are small.
         unsafe { ffi::lua_createtable(self.raw(), hint(array), hint(fields)) }
     }
 
@@ -45,9 +46,9 @@ impl Stack<'_> {
     /// Pushes `table[i]`.
     pub(crate) fn raw_get_index(self, table: c_int, i: i64) -> Type {
         self.expect_table(table);
-        // SAFETY: a table; raw access runs no code.
-        unsafe { ffi::lua_rawgeti(self.raw(), table, i) };
-        self.kind(-1)
+        let _room = self.room();
+        // SAFETY: a table, and room for one value; raw access runs no code.
+        Type::from_raw(unsafe { ffi::lua_rawgeti(self.raw(), table, i) })
     }
 
     /// `table[i]` as a number, without leaving it on the stack.
@@ -64,6 +65,19 @@ impl Stack<'_> {
         let integer = self.integer(-1);
         self.pop(1);
         integer
+    }
+
+    /// Pushes a list of numbers.
+    pub(crate) fn push_numbers(self, numbers: &[f64]) {
+        self.new_table(numbers.len(), 0);
+        let _room = self.room();
+        for (i, &number) in (1..).zip(numbers) {
+            // SAFETY: the new table is on top, and there is room for one value, which goes into the table.
+            unsafe {
+                ffi::lua_pushnumber(self.raw(), number);
+                ffi::lua_rawseti(self.raw(), -2, i);
+            }
+        }
     }
 
     /// Pops a value into `table[i]`.
@@ -153,6 +167,12 @@ impl Stack<'_> {
     pub(crate) fn set_registry(self, key: &'static CStr) {
         // SAFETY: raw access by the address of a static.
         unsafe { ffi::lua_rawsetp(self.raw(), ffi::LUA_REGISTRYINDEX, key.as_ptr().cast()) }
+    }
+
+    /// Pops a value and keeps it under a name, where mlua finds it.
+    pub(crate) fn set_named_registry(self, name: &'static CStr) {
+        // SAFETY: raw access in effect, since the registry has no metatable.
+        unsafe { ffi::lua_setfield(self.raw(), ffi::LUA_REGISTRYINDEX, name.as_ptr()) }
     }
 
     /// Pushes the metatable of the value at `index`, if it has one.
