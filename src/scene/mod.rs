@@ -25,7 +25,7 @@ pub use journal::{Change, Counters, Cursor, Field, Journal, Mark, Topic, Topics,
 pub use pose::placement::{Frame, Placement};
 pub use simulation::settings::{DynamicsSettings, Settings};
 pub use store::{FIRST_MESH_UID, Scene};
-pub use tree::collection::{Collection, CollectionItem};
+pub use tree::collection::{Collection, CollectionItem, Collections};
 pub use tree::copy::CopyOptions;
 pub use tree::handle::{Handle, Uid, flag, special};
 pub use tree::movement::Movement;

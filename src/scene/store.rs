@@ -1,13 +1,19 @@
-//! The object store: adding, finding and changing objects.
+//! The scene: its parts, and the one gate to its objects.
+//!
+//! Each part owns its data: the objects ([`Objects`]), who refers to whom, the selection, collections, textures. What concerns several
+//! parts, such as adding and removing objects, is a method of [`Scene`], as is everything that is noted in the journal.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use super::pose::world::Moves;
-use super::shape::Part;
-use super::shape::Shape;
+use super::appearance::texture_mapping::Textures;
+use super::joint::dependency::DependentJoints;
+use super::shape::mesh_owners::MeshOwners;
+use super::shape::{Part, Shape};
+use super::tree::collection::Collections;
 use super::tree::identity;
 use super::tree::object::{Kind, Object};
-use super::{Change, CustomData, Field, Handle, InertValues, Journal, SceneError, SceneResult, Settings, Uid};
+use super::tree::objects::Objects;
+use super::tree::references::Referrers;
+use super::tree::selection::Selection;
+use super::{Change, CustomData, Field, Handle, InertValues, Journal, SceneResult, Settings, Uid};
 
 /// Identifiers of meshes begin above all handles and their flags: both name targets of properties.
 pub const FIRST_MESH_UID: Uid = 100_000_000;
@@ -15,32 +21,23 @@ pub const FIRST_MESH_UID: Uid = 100_000_000;
 /// A scene: its objects and its settings.
 #[derive(Debug, Default)]
 pub struct Scene {
-    slots: Vec<Option<Box<Object>>>,
-    live: usize,
-    next_handle: u32,
-    by_uid: BTreeMap<Uid, Handle>,
-    next_uid: Uid,
-    /// Which shape each mesh belongs to.
-    meshes: BTreeMap<Uid, Handle>,
-    sensors: usize,
+    pub(super) objects: Objects,
+    last_uid: Uid,
+    mesh_owners: MeshOwners,
     pub(super) roots: Vec<Handle>,
-    pub(super) selection: Vec<Handle>,
-    pub(super) collections: BTreeMap<i64, super::Collection>,
-    /// Objects that may keep handles of others, so that not all have to be asked when one is removed.
-    pub(super) referrers: BTreeSet<Handle>,
-    /// Collections ever made.
-    pub(super) collections_made: i64,
-    pub(super) followers: super::joint::dependency::Followers,
+    pub(super) selection: Selection,
+    pub(super) collections: Collections,
+    pub(super) referrers: Referrers,
+    pub(super) dependent_joints: DependentJoints,
     /// A simulation runs: new objects remember their state.
     pub(super) in_run: bool,
     settings: Settings,
     pub(super) journal: Journal,
-    pub(super) moves: Moves,
     /// Custom data of the scene itself (`sim.handle_scene`).
     pub custom_data: CustomData,
     /// Signals of the scene itself; they are not saved.
     pub signals: CustomData,
-    pub(super) textures: BTreeMap<i64, super::appearance::texture::Texture>,
+    pub(super) textures: Textures,
     /// Values of the scene itself that have no effect here, as scripts set them.
     pub inert: InertValues,
 }
@@ -61,22 +58,12 @@ impl Scene {
 
     /// Adds `object` as the last root, under a new handle and identifier and without family.
     pub(super) fn insert(&mut self, mut object: Object) -> SceneResult<Handle> {
-        let handle = self.free_handle()?;
+        let handle = self.objects.free_handle()?;
         (object.handle, object.parent) = (handle, None);
         object.children.clear();
         self.identify(&mut object);
-        let index = handle.index();
-        if index >= self.slots.len() {
-            self.slots.resize_with(index + 1, || None);
-        }
-        self.sensors += usize::from(is_sensor(&object.kind));
-        if object.refers() {
-            self.referrers.insert(handle);
-        }
-        self.by_uid.insert(object.uid, handle);
-        self.moves.note(&mut object);
-        self.slots[index] = Some(Box::new(object));
-        self.live += 1;
+        self.referrers.note(&object);
+        self.objects.insert(object);
         self.roots.push(handle);
         self.note(Change::Added(handle));
         Ok(handle)
@@ -89,22 +76,17 @@ impl Scene {
         if object.dna.is_empty() {
             object.dna = identity::dna(object.uid);
         }
-        self.name_meshes(object);
+        if let Kind::Shape(shape) = &mut object.kind {
+            self.identify_meshes(object.handle, shape);
+        }
     }
 
     /// Assigns identifiers to the meshes of a shape that is added to the scene.
-    fn name_meshes(&mut self, object: &mut Object) {
-        let handle = object.handle;
-        if let Kind::Shape(shape) = &mut object.kind {
-            self.name_parts(handle, shape);
-        }
-    }
-
-    fn name_parts(&mut self, handle: Handle, shape: &mut Shape) {
+    fn identify_meshes(&mut self, handle: Handle, shape: &mut Shape) {
         for part in &mut shape.parts {
             part.uid = FIRST_MESH_UID + self.new_uid();
-            self.meshes.insert(part.uid, handle);
         }
+        self.mesh_owners.note(handle, shape);
     }
 
     /// Replaces the parts of a shape: the object stays, its meshes are new.
@@ -112,13 +94,10 @@ impl Scene {
     /// # Errors
     /// When the object is no shape.
     pub fn morph_shape(&mut self, handle: Handle, mut shape: Shape) -> SceneResult<()> {
-        let own = self.object(handle)?.shape()?;
-        let old: Vec<Uid> = own.parts.iter().map(|part| part.uid).collect();
+        let own = self.objects.get(handle)?.shape()?;
         let textures: Vec<i64> = own.texture_ids().collect();
-        self.name_parts(handle, &mut shape);
-        for uid in old {
-            self.meshes.remove(&uid);
-        }
+        self.mesh_owners.forget(own);
+        self.identify_meshes(handle, &mut shape);
         self.reshape(handle, |own| {
             *own = shape;
             Ok(())
@@ -129,7 +108,7 @@ impl Scene {
 
     /// The shape a mesh belongs to, and which of its meshes it is.
     pub fn mesh(&self, uid: Uid) -> Option<(Handle, usize)> {
-        let handle = *self.meshes.get(&uid)?;
+        let handle = self.mesh_owners.of(uid)?;
         let index = self.object(handle).ok()?.shape().ok()?.parts.iter().position(|part| part.uid == uid)?;
         Some((handle, index))
     }
@@ -143,34 +122,14 @@ impl Scene {
         Some(result)
     }
 
-    /// Handles rise and start over at the end of the range, so that a freed one is not met again soon.
-    fn free_handle(&mut self) -> SceneResult<Handle> {
-        if self.live >= Handle::END as usize {
-            return Err(SceneError::TooManyObjects);
-        }
-        loop {
-            let handle = Handle(self.next_handle);
-            self.next_handle = (self.next_handle + 1) % Handle::END;
-            if self.slots.get(handle.index()).is_none_or(Option::is_none) {
-                return Ok(handle);
-            }
-        }
-    }
-
-    /// The next new object gets this handle, if it is free.
-    #[cfg(test)]
-    pub(super) fn start_handles_at(&mut self, handle: Handle) {
-        self.next_handle = handle.0;
-    }
-
     /// A fresh unique identifier; meshes and scripts draw from the same counter.
     pub fn new_uid(&mut self) -> Uid {
-        self.next_uid += 1;
-        self.next_uid
+        self.last_uid += 1;
+        self.last_uid
     }
 
     pub fn object(&self, handle: Handle) -> SceneResult<&Object> {
-        self.slots.get(handle.index()).and_then(Option::as_deref).ok_or(SceneError::NoSuchObject)
+        self.objects.get(handle)
     }
 
     pub fn exists(&self, handle: Handle) -> bool {
@@ -199,22 +158,20 @@ impl Scene {
 
     fn note_modified(&mut self, handle: Handle, field: Field) {
         let moves_only = matches!(field, Field::Pose | Field::JointPosition);
-        if !moves_only && self.object(handle).is_ok_and(Object::refers) {
-            self.referrers.insert(handle);
+        if !moves_only && let Ok(object) = self.objects.get(handle) {
+            self.referrers.note(object);
         }
         self.note(Change::Modified(handle, field));
     }
 
     /// Unrecorded access, for the operations of this module that note their change themselves.
     pub(super) fn object_mut(&mut self, handle: Handle) -> SceneResult<&mut Object> {
-        let object = slot_mut(&mut self.slots, handle)?;
-        self.moves.note(object);
-        Ok(object)
+        self.objects.get_mut(handle)
     }
 
     /// The same for what cannot move the object or what hangs on it.
     pub(super) fn object_in_place(&mut self, handle: Handle) -> SceneResult<&mut Object> {
-        slot_mut(&mut self.slots, handle)
+        self.objects.get_in_place(handle)
     }
 
     /// The object, of which `field` is about to change.
@@ -229,41 +186,35 @@ impl Scene {
 
     /// Forgets an object that is in no list any more.
     pub(super) fn erase(&mut self, handle: Handle) {
-        if let Some(object) = self.slots.get_mut(handle.index()).and_then(Option::take) {
-            self.live -= 1;
-            self.sensors -= usize::from(is_sensor(&object.kind));
-            self.by_uid.remove(&object.uid());
-            if let Kind::Shape(shape) = &object.kind {
-                for part in &shape.parts {
-                    self.meshes.remove(&part.uid);
-                }
-                self.forget_unused_textures(&shape.texture_ids().collect::<Vec<_>>());
-            }
-            self.note(Change::Removed(handle, object.uid()));
+        let Some(object) = self.objects.remove(handle) else { return };
+        if let Kind::Shape(shape) = &object.kind {
+            self.mesh_owners.forget(shape);
+            self.forget_unused_textures(&shape.texture_ids().collect::<Vec<_>>());
         }
+        self.note(Change::Removed(handle, object.uid()));
     }
 
     /// All objects in the order of their creation.
     pub fn objects(&self) -> impl Iterator<Item = &Object> {
-        self.by_uid.values().filter_map(|&handle| self.object(handle).ok())
+        self.objects.iter()
     }
 
     /// Whether there are proximity or vision sensors.
     pub fn has_sensors(&self) -> bool {
-        self.sensors > 0
+        self.objects.has_sensors()
     }
 
     /// Number of objects.
     pub fn len(&self) -> usize {
-        self.live
+        self.objects.len()
     }
 
     pub fn is_empty(&self) -> bool {
-        self.live == 0
+        self.len() == 0
     }
 
     pub fn by_uid(&self, uid: Uid) -> Option<Handle> {
-        self.by_uid.get(&uid).copied()
+        self.objects.by_uid(uid)
     }
 
     pub fn settings(&self) -> &Settings {
@@ -283,39 +234,5 @@ impl Scene {
 
     pub(crate) fn journal_mut(&mut self) -> &mut Journal {
         &mut self.journal
-    }
-}
-
-fn slot_mut(slots: &mut [Option<Box<Object>>], handle: Handle) -> SceneResult<&mut Object> {
-    slots.get_mut(handle.index()).and_then(Option::as_deref_mut).ok_or(SceneError::NoSuchObject)
-}
-
-fn is_sensor(kind: &Kind) -> bool {
-    matches!(kind, Kind::ProximitySensor(_) | Kind::VisionSensor(_))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::tree::dummy::Dummy;
-
-    fn dummy(scene: &mut Scene) -> SceneResult<Handle> {
-        scene.add("dummy", Kind::Dummy(Dummy::new(0.01)))
-    }
-
-    #[test]
-    fn handles_start_over_at_the_end_and_skip_those_in_use() {
-        let mut scene = Scene::new();
-        assert_eq!(dummy(&mut scene), Ok(Handle(0)));
-        scene.next_handle = Handle::END - 1;
-        assert_eq!(dummy(&mut scene), Ok(Handle(Handle::END - 1)));
-        assert_eq!(dummy(&mut scene), Ok(Handle(1)));
-    }
-
-    #[test]
-    fn a_full_scene_says_so() {
-        let mut scene = Scene::new();
-        scene.live = Handle::END as usize;
-        assert_eq!(dummy(&mut scene), Err(SceneError::TooManyObjects));
     }
 }

@@ -21,7 +21,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// @return collectionHandle the collection
 #[api("sim.createCollection")]
 fn create_collection(cx: &mut Cx, #[default(0)] options: Number) -> Result<i64> {
-    Ok(cx.scene_mut().add_collection(options.0 & 1 != 0))
+    Ok(cx.scene_mut().collections_mut().add(options.0 & 1 != 0))
 }
 
 /// Removes a collection; its objects stay.
@@ -29,7 +29,7 @@ fn create_collection(cx: &mut Cx, #[default(0)] options: Number) -> Result<i64> 
 /// @param collectionHandle the collection
 #[api("sim.destroyCollection")]
 fn destroy_collection(cx: &mut Cx, collection_handle: Number) -> Result<()> {
-    Ok(cx.scene_mut().remove_collection(collection_handle.0)?)
+    Ok(cx.scene_mut().collections_mut().remove(collection_handle.0)?)
 }
 
 /// Removes all items from a collection.
@@ -37,7 +37,7 @@ fn destroy_collection(cx: &mut Cx, collection_handle: Number) -> Result<()> {
 /// @param collectionHandle the collection
 #[api("sim.emptyCollection")]
 fn empty_collection(cx: &mut Cx, collection_handle: Number) -> Result<()> {
-    cx.scene_mut().collection_mut(collection_handle.0)?.items.clear();
+    cx.scene_mut().collections_mut().get_mut(collection_handle.0)?.items.clear();
     Ok(())
 }
 
@@ -65,7 +65,7 @@ fn add_item_to_collection(
     };
     let (subtract, exclude_base) = (options.0 & 1 != 0, options.0 & 2 != 0);
     let item = CollectionItem { what: what.0, base, subtract, exclude_base };
-    cx.scene_mut().collection_mut(collection_handle.0)?.items.push(item);
+    cx.scene_mut().collections_mut().get_mut(collection_handle.0)?.items.push(item);
     Ok(())
 }
 

@@ -164,7 +164,7 @@ fn is_handle(cx: &Cx, object_handle: Number) -> Result<bool> {
 
 fn exists(cx: &Cx, raw: i64) -> bool {
     let object = Handle::from_raw(raw).is_some_and(|handle| cx.scene().exists(handle));
-    object || cx.scene().collection(raw).is_ok() || cx.script_by_handle(raw).is_some()
+    object || cx.scene().collections().get(raw).is_ok() || cx.script_by_handle(raw).is_some()
 }
 
 /// Whether a handle is valid, as a number.

@@ -124,7 +124,7 @@ fn frame(position: [f64; 3], orientation: [f64; 3]) -> Result<Pose> {
 #[api("sim.getTextureId")]
 fn get_texture_id(cx: &Cx, texture_name: String) -> Result<(i64, Option<IntPair>)> {
     let scene = cx.scene();
-    let found = scene.textures().find(|(_, texture)| texture.name == texture_name);
+    let found = scene.textures().iter().find(|(_, texture)| texture.name == texture_name);
     Ok(found.map_or((-1, None), |(id, texture)| (id, Some(IntPair(texture.size().map(i64::from))))))
 }
 
@@ -195,7 +195,7 @@ fn read_texture(
 ) -> Result<Bytes> {
     let _ = options;
     let scene = cx.scene();
-    let texture = scene.texture(texture_id)?;
+    let texture = scene.textures().get(texture_id)?;
     let part = texture.rectangle([pos_x.0, pos_y.0], [size_x.0, size_y.0])?;
     Ok(Bytes(texture.read(part)))
 }
@@ -263,7 +263,7 @@ fn single_precision(numbers: &[f64]) -> Result<Rc<[f32]>> {
 /// The texture of a mesh as `sim.getShapeViz` returns it; nothing without a texture or image.
 pub(in crate::api) fn viz(scene: &Scene, part: &Part) -> Option<Data> {
     let mapping = part.texture.as_deref()?;
-    let texture = scene.texture(mapping.source.raw()).ok()?;
+    let texture = scene.textures().get(mapping.source.raw()).ok()?;
     let [u, v] = mapping.repeat;
     let options = i64::from(u) | i64::from(v) << 1 | i64::from(mapping.interpolate) << 2;
     let coordinates: Vec<f64> = mapping.coordinates.iter().copied().map(f64::from).collect();

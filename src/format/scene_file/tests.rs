@@ -126,7 +126,7 @@ pub(crate) fn assert_same(a: &Scene, b: &Scene, what: &str) {
     assert_eq!(plain(a), plain(b), "{what}");
     assert_eq!(a.custom_data, b.custom_data, "{what}");
     assert_eq!(a.inert, b.inert, "{what}");
-    assert!(a.textures().eq(b.textures()), "{what}: other textures");
+    assert!(a.textures() == b.textures(), "{what}: other textures");
 }
 
 #[test]

@@ -94,7 +94,8 @@ fn every_kind_of_the_simple_variant_is_understood() {
     assert_eq!((vision.view.resolution, vision.entity), ([64, 32], base.handle().raw()));
     let eye = find("eye").proximity_sensor().unwrap();
     assert!(
-        scene.collection(eye.entity).unwrap().items.len() == 1 && (eye.volume.angle - 60f64.to_radians()).abs() < 1e-9
+        scene.collections().get(eye.entity).unwrap().items.len() == 1
+            && (eye.volume.angle - 60f64.to_radians()).abs() < 1e-9
     );
     assert_eq!(find("wrist").force_sensor().unwrap().force_threshold, 7.0);
     assert!(find("path").custom_data.get("PATH").is_some());

@@ -1,5 +1,6 @@
 //! Texture mapping on meshes, and the images of a scene.
 
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::texture::Texture;
@@ -101,32 +102,54 @@ impl Shape {
     }
 }
 
-impl Scene {
+/// The images of a scene, by their numbers.
+#[derive(Debug, Default, PartialEq)]
+pub struct Textures(BTreeMap<i64, Texture>);
+
+impl Textures {
     /// Adds an image; one that is there already is used again. Its number.
     ///
     /// # Errors
     /// When there are too many.
-    pub fn add_texture(&mut self, texture: Texture) -> SceneResult<i64> {
-        if let Some((id, _)) = self.textures.iter().find(|(_, other)| **other == texture) {
+    fn add(&mut self, texture: Texture) -> SceneResult<i64> {
+        if let Some((id, _)) = self.0.iter().find(|(_, other)| **other == texture) {
             return Ok(*id);
         }
-        let id = self.textures.last_key_value().map_or(FIRST, |(last, _)| last + 1);
+        let id = self.0.last_key_value().map_or(FIRST, |(last, _)| last + 1);
         if id >= END {
             return Err(SceneError::Refused("the scene has too many textures.".into()));
         }
-        self.textures.insert(id, texture);
+        self.0.insert(id, texture);
         Ok(id)
     }
 
     /// # Errors
     /// When there is no such texture.
-    pub fn texture(&self, id: i64) -> SceneResult<&Texture> {
-        self.textures.get(&id).ok_or_else(no_texture)
+    pub fn get(&self, id: i64) -> SceneResult<&Texture> {
+        self.0.get(&id).ok_or_else(no_texture)
     }
 
-    /// All images, by their numbers.
-    pub fn textures(&self) -> impl Iterator<Item = (i64, &Texture)> {
-        self.textures.iter().map(|(id, texture)| (*id, texture))
+    /// All images with their numbers.
+    pub fn iter(&self) -> impl Iterator<Item = (i64, &Texture)> {
+        self.0.iter().map(|(id, texture)| (*id, texture))
+    }
+
+    fn get_mut(&mut self, id: i64) -> SceneResult<&mut Texture> {
+        self.0.get_mut(&id).ok_or_else(no_texture)
+    }
+}
+
+impl Scene {
+    pub fn textures(&self) -> &Textures {
+        &self.textures
+    }
+
+    /// Adds an image; one that is there already is used again. Its number.
+    ///
+    /// # Errors
+    /// When there are too many.
+    pub fn add_texture(&mut self, texture: Texture) -> SceneResult<i64> {
+        self.textures.add(texture)
     }
 
     /// Changes an image on all meshes that use it.
@@ -138,7 +161,7 @@ impl Scene {
         id: i64,
         change: impl FnOnce(&mut Texture) -> SceneResult<R>,
     ) -> SceneResult<R> {
-        let result = change(self.textures.get_mut(&id).ok_or_else(no_texture)?)?;
+        let result = change(self.textures.get_mut(id)?)?;
         let users: Vec<Handle> = self.objects().filter(|object| uses(object, id)).map(Object::handle).collect();
         for user in users {
             self.modify(user, Field::Texture, |_| ())?;
@@ -152,7 +175,7 @@ impl Scene {
     /// When the object is no shape, or the texture or sensor does not exist.
     pub fn set_shape_texture(&mut self, handle: Handle, mapping: Option<TextureMapping>) -> SceneResult<()> {
         match mapping.as_ref().map(|mapping| mapping.source) {
-            Some(TextureSource::Texture(id)) => drop(self.texture(id)?),
+            Some(TextureSource::Texture(id)) => drop(self.textures.get(id)?),
             Some(TextureSource::Sensor(sensor)) => drop(self.object(sensor)?.vision_sensor()?),
             None => {}
         }
@@ -170,15 +193,15 @@ impl Scene {
     /// Forgets those of the textures that no mesh has.
     pub(in crate::scene) fn forget_unused_textures(&mut self, ids: &[i64]) {
         for id in ids {
-            if self.textures.contains_key(id) && !self.objects().any(|object| uses(object, *id)) {
-                self.textures.remove(id);
+            if self.textures.get(*id).is_ok() && !self.objects().any(|object| uses(object, *id)) {
+                self.textures.0.remove(id);
             }
         }
     }
 
     /// Forgets all textures, of an empty scene.
     pub fn clear_textures(&mut self) {
-        self.textures.clear();
+        self.textures = Textures::default();
     }
 }
 
@@ -218,9 +241,9 @@ mod tests {
         scene.set_shape_texture(a, Some(mapping.clone())).unwrap();
         scene.set_shape_texture(b, Some(mapping)).unwrap();
         scene.set_shape_texture(a, None).unwrap();
-        assert!(scene.texture(id).is_ok());
+        assert!(scene.textures().get(id).is_ok());
         scene.remove(&[b]).unwrap();
-        assert!(scene.texture(id).is_err());
+        assert!(scene.textures().get(id).is_err());
         let gone = Some(TextureMapping::new(TextureSource::Texture(id)));
         assert!(scene.set_shape_texture(a, gone).is_err());
     }

@@ -13,12 +13,12 @@ const LAWS: Topics =
 
 /// Who follows whom, kept until a joint changes.
 #[derive(Debug, Default)]
-pub(in crate::scene) struct Followers {
+pub(in crate::scene) struct DependentJoints {
     known: Option<Mark>,
     by_master: BTreeMap<Handle, Vec<(Handle, Dependency)>>,
 }
 
-impl Followers {
+impl DependentJoints {
     /// Joints in dependent mode whose master is `master`.
     fn of(&self, master: Handle) -> &[(Handle, Dependency)] {
         self.by_master.get(&master).map_or(&[], Vec::as_slice)
@@ -66,14 +66,14 @@ impl Scene {
 
     /// Puts a joint at `position` as it is (rad, m), and the joints that follow it where they belong.
     pub fn move_joint(&mut self, handle: Handle, position: f64) -> SceneResult<()> {
-        self.refresh_followers();
+        self.refresh_dependent_joints();
         let mut pending = vec![(handle, position)];
         while let Some((handle, position)) = pending.pop() {
             self.try_modify(handle, Field::JointPosition, |object| {
                 object.joint_mut()?.position = position;
                 Ok(())
             })?;
-            let followers = self.followers.of(handle).iter();
+            let followers = self.dependent_joints.of(handle).iter();
             pending.extend(followers.map(|(follower, law)| (*follower, law.position(position))));
         }
         Ok(())
@@ -81,8 +81,8 @@ impl Scene {
 
     /// Moves the joints that follow `handle` and that the physics does not move itself.
     pub(in crate::scene) fn move_followers(&mut self, handle: Handle, position: f64) -> SceneResult<()> {
-        self.refresh_followers();
-        for (follower, law) in self.followers.of(handle).to_vec() {
+        self.refresh_dependent_joints();
+        for (follower, law) in self.dependent_joints.of(handle).to_vec() {
             if self.object(follower)?.dynamic_flag == 0 {
                 self.move_joint(follower, law.position(position))?;
             }
@@ -91,8 +91,8 @@ impl Scene {
     }
 
     /// Rebuilds the dependency graph when a joint may have changed it.
-    fn refresh_followers(&mut self) {
-        if !self.journal.changed_since(self.followers.known.get_or_insert(Mark::new(LAWS))) {
+    fn refresh_dependent_joints(&mut self) {
+        if !self.journal.changed_since(self.dependent_joints.known.get_or_insert(Mark::new(LAWS))) {
             return;
         }
         let mut by_master: BTreeMap<Handle, Vec<(Handle, Dependency)>> = BTreeMap::new();
@@ -102,7 +102,7 @@ impl Scene {
                 by_master.entry(law.master).or_default().push((object.handle(), law));
             }
         }
-        self.followers.by_master = by_master;
+        self.dependent_joints.by_master = by_master;
     }
 
     /// Moves a dependent joint to where its master wants it.

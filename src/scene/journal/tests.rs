@@ -155,7 +155,7 @@ fn a_handle_that_is_used_again_is_told_apart_by_the_order_of_changes() {
     let mut cursor = follower(scene.journal(), Topics::TREE);
     let uid = scene.object(first).unwrap().uid();
     scene.remove(&[first]).unwrap();
-    scene.start_handles_at(first);
+    scene.objects.start_handles_at(first);
     let second = scene.add("e", Kind::Dummy(Dummy::new(0.01))).unwrap();
     assert_eq!(second, first);
     let expected = vec![Change::Removed(first, uid), Change::Added(first)];

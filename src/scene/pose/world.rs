@@ -81,11 +81,11 @@ impl Scene {
 
     /// The last change that moved an object in the world.
     fn latest_move(&self, handle: Handle, object: &Object) -> SceneResult<u64> {
-        let now = self.moves.last;
+        let now = self.objects.moves().last;
         if object.place.checked.get() == now {
             return Ok(object.place.latest.get());
         }
-        let mut walk = self.moves.walk.borrow_mut();
+        let mut walk = self.objects.moves().walk.borrow_mut();
         walk.clear();
         let (mut latest, mut next) = (0, Some(handle));
         while let Some(handle) = next {

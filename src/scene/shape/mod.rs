@@ -3,6 +3,7 @@
 pub mod build;
 pub(in crate::scene) mod group;
 pub(in crate::scene) mod hull_points;
+pub(in crate::scene) mod mesh_owners;
 pub mod reshape;
 
 use std::rc::Rc;

@@ -1,6 +1,6 @@
 //! Collections: sets of objects defined by items to add and subtract, evaluated on each access.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::scene::{Handle, Scene, SceneError, SceneResult, special};
 
@@ -25,12 +25,20 @@ pub struct CollectionItem {
     pub exclude_base: bool,
 }
 
-impl Scene {
+/// The collections of a scene.
+#[derive(Debug, Default)]
+pub struct Collections {
+    by_handle: BTreeMap<i64, Collection>,
+    /// Collections ever made: no handle is used twice.
+    made: i64,
+}
+
+impl Collections {
     /// Makes an empty collection.
-    pub fn add_collection(&mut self, overrides: bool) -> i64 {
-        let handle = FIRST_HANDLE + self.collections_made;
-        self.collections_made += 1;
-        self.collections.insert(handle, Collection { overrides, items: Vec::new() });
+    pub fn add(&mut self, overrides: bool) -> i64 {
+        let handle = FIRST_HANDLE + self.made;
+        self.made += 1;
+        self.by_handle.insert(handle, Collection { overrides, items: Vec::new() });
         handle
     }
 
@@ -38,16 +46,36 @@ impl Scene {
     ///
     /// # Errors
     /// When there is none with that handle.
-    pub fn remove_collection(&mut self, handle: i64) -> SceneResult<()> {
-        self.collections.remove(&handle).map(drop).ok_or(SceneError::NoSuchCollection)
+    pub fn remove(&mut self, handle: i64) -> SceneResult<()> {
+        self.by_handle.remove(&handle).map(drop).ok_or(SceneError::NoSuchCollection)
     }
 
-    pub fn collection(&self, handle: i64) -> SceneResult<&Collection> {
-        self.collections.get(&handle).ok_or(SceneError::NoSuchCollection)
+    /// # Errors
+    /// When there is none with that handle.
+    pub fn get(&self, handle: i64) -> SceneResult<&Collection> {
+        self.by_handle.get(&handle).ok_or(SceneError::NoSuchCollection)
     }
 
-    pub fn collection_mut(&mut self, handle: i64) -> SceneResult<&mut Collection> {
-        self.collections.get_mut(&handle).ok_or(SceneError::NoSuchCollection)
+    /// # Errors
+    /// When there is none with that handle.
+    pub fn get_mut(&mut self, handle: i64) -> SceneResult<&mut Collection> {
+        self.by_handle.get_mut(&handle).ok_or(SceneError::NoSuchCollection)
+    }
+
+    pub(super) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
+        for collection in self.by_handle.values_mut() {
+            collection.items.retain(|item| item.base.is_none_or(|base| !doomed.contains(&base)));
+        }
+    }
+}
+
+impl Scene {
+    pub fn collections(&self) -> &Collections {
+        &self.collections
+    }
+
+    pub fn collections_mut(&mut self) -> &mut Collections {
+        &mut self.collections
     }
 
     /// The objects a collection holds now, in the order of their creation.
@@ -56,7 +84,7 @@ impl Scene {
     /// When there is none with that handle.
     pub fn collection_objects(&self, handle: i64) -> SceneResult<Vec<Handle>> {
         let mut members = BTreeSet::new();
-        for item in &self.collection(handle)?.items {
+        for item in &self.collections.get(handle)?.items {
             for object in self.item_objects(item) {
                 if item.subtract {
                     members.remove(&object);

@@ -6,21 +6,6 @@ use crate::scene::pose::placement::normalized;
 use crate::scene::{Change, Field, Handle, Scene, SceneError, SceneResult};
 
 impl Scene {
-    /// Selected objects, the last selected one last.
-    pub fn selection(&self) -> &[Handle] {
-        &self.selection
-    }
-
-    /// Selects exactly these objects; unknown ones and repetitions are left out.
-    pub fn select(&mut self, handles: &[Handle]) {
-        let mut seen = BTreeSet::new();
-        let selection = handles.iter().copied().filter(|&handle| self.exists(handle) && seen.insert(handle)).collect();
-        if self.selection != selection {
-            self.selection = selection;
-            self.note(Change::Selection);
-        }
-    }
-
     /// Root objects in scene order.
     pub fn roots(&self) -> &[Handle] {
         &self.roots

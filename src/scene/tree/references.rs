@@ -16,9 +16,22 @@ pub enum References {
     Original,
 }
 
+/// Objects that may keep handles of others, so that not all have to be asked when one is removed.
+#[derive(Debug, Default)]
+pub(in crate::scene) struct Referrers(BTreeSet<Handle>);
+
+impl Referrers {
+    /// Notes an object that is new or was changed.
+    pub(in crate::scene) fn note(&mut self, object: &Object) {
+        if object.refers() {
+            self.0.insert(object.handle());
+        }
+    }
+}
+
 impl Object {
     /// Whether other objects' handles are kept here, apart from parent and children.
-    pub(in crate::scene) fn refers(&self) -> bool {
+    fn refers(&self) -> bool {
         let by_kind = match &self.kind {
             Kind::Joint(joint) => joint.dependency.is_some(),
             Kind::Dummy(dummy) => dummy.link.is_some(),
@@ -66,7 +79,8 @@ impl Scene {
     /// Sets what `handle` refers to under `tag`; an empty list removes the tag. Handles of nothing become -1.
     pub fn set_references(&mut self, handle: Handle, kind: References, tag: &str, handles: &[i64]) -> SceneResult<()> {
         let known = |raw: i64| {
-            self.collection(raw).is_ok() || Handle::from_raw(raw).is_some_and(|h| h.raw() == raw && self.exists(h))
+            self.collections().get(raw).is_ok()
+                || Handle::from_raw(raw).is_some_and(|h| h.raw() == raw && self.exists(h))
         };
         let list: Vec<i64> = handles.iter().map(|&raw| if known(raw) { raw } else { -1 }).collect();
         self.modify(handle, Field::Other, |object| {
@@ -84,21 +98,14 @@ impl Scene {
 
     /// Drops what other objects know of the doomed: links, dependencies, selection, collections, referenced handles.
     pub(in crate::scene) fn forget_references(&mut self, doomed: &BTreeSet<Handle>) {
-        let selected = self.selection.len();
-        self.selection.retain(|h| !doomed.contains(h));
-        if self.selection.len() < selected {
+        if self.selection.forget(doomed) {
             self.note(Change::Selection);
         }
-        for collection in self.collections.values_mut() {
-            collection.items.retain(|item| item.base.is_none_or(|base| !doomed.contains(&base)));
-        }
-        for handle in self.referrers.clone() {
-            match self.object_in_place(handle) {
-                Ok(object) => object.forget(doomed),
-                Err(_) => {
-                    self.referrers.remove(&handle);
-                }
-            }
-        }
+        self.collections.forget(doomed);
+        let objects = &mut self.objects;
+        self.referrers.0.retain(|&handle| {
+            let referrer = objects.get_in_place(handle);
+            referrer.map(|object| object.forget(doomed)).is_ok()
+        });
     }
 }

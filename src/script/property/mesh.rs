@@ -60,7 +60,7 @@ impl Subject<'_> {
     /// The result of `of` for the image; `none` without an image, or if it is that of a sensor.
     fn image<R>(&self, none: R, of: impl FnOnce(&Texture) -> R) -> ApiResult<R> {
         let id = self.texture(-1, |texture| texture.source.raw())?;
-        Ok(self.sim.scene.borrow().texture(id).map_or(none, of))
+        Ok(self.sim.scene.borrow().textures().get(id).map_or(none, of))
     }
 }
 

@@ -120,7 +120,7 @@ fn references(context: &Context<'_>, object: &Object, common: &mut Common) {
 
 /// A saved object, or a collection.
 fn reference(context: &Context<'_>, raw: i64) -> i32 {
-    match context.scene.collection(raw) {
+    match context.scene.collections().get(raw) {
         Ok(_) => raw as i32,
         Err(_) => context.file_handle(Handle::from_raw(raw)),
     }

@@ -26,7 +26,7 @@ pub(super) fn bits(switches: &[(bool, u8)]) -> u8 {
 
 /// An object, a collection, or everything.
 fn entity(context: &Context<'_>, raw: i64) -> i32 {
-    match context.scene.collection(raw) {
+    match context.scene.collections().get(raw) {
         Ok(_) => raw as i32,
         Err(_) => context.file_handle(Handle::from_raw(raw)),
     }

@@ -132,7 +132,7 @@ fn entity(object: &Object) -> Option<i64> {
 }
 
 fn collection(context: &Context<'_>, handle: i64) -> Option<Collection> {
-    let collection = context.scene.collection(handle).ok()?;
+    let collection = context.scene.collections().get(handle).ok()?;
     Some(Collection {
         name: Some(format!("collection{handle}").as_str().into()),
         handle: Some(handle as i32),

@@ -12,7 +12,7 @@ const DECAL: i64 = 1;
 
 /// The images of a scene, or those of a model that are `used`.
 pub(super) fn all(scene: &Scene, used: impl Fn(i64) -> bool) -> Vec<Chunk> {
-    scene.textures().filter(|(id, _)| used(*id)).map(|(id, texture)| image(id, texture)).collect()
+    scene.textures().iter().filter(|(id, _)| used(*id)).map(|(id, texture)| image(id, texture)).collect()
 }
 
 fn image(id: i64, texture: &Texture) -> Chunk {

@@ -190,5 +190,5 @@ fn moving_a_parent_looks_at_no_child() {
     assert!(children.iter().map(|&child| checked(&scene, child)).eq(before));
     assert_eq!(scene.world_pose(children[1]).unwrap(), Pose::translation(1.0, 0.0, 0.0));
     // The base was looked at on the way: the next child needs no look at it.
-    assert_eq!(checked(&scene, base), scene.moves.last);
+    assert_eq!(checked(&scene, base), scene.objects.moves().last);
 }

@@ -1,0 +1,140 @@
+//! The objects of a scene by handle and by identifier.
+//!
+//! An object can only be changed by way of [`get_mut`](Objects::get_mut), after which all that hangs on it is taken to have moved, or
+//! [`get_in_place`](Objects::get_in_place), for what moves nothing: so no remembered world pose is ever out of date.
+
+use std::collections::BTreeMap;
+
+use super::object::{Kind, Object};
+use crate::scene::pose::world::Moves;
+use crate::scene::{Handle, SceneError, SceneResult, Uid};
+
+#[derive(Debug, Default)]
+pub(in crate::scene) struct Objects {
+    slots: Vec<Option<Box<Object>>>,
+    live: usize,
+    next_handle: u32,
+    by_uid: BTreeMap<Uid, Handle>,
+    moves: Moves,
+    /// Proximity and vision sensors.
+    sensors: usize,
+}
+
+impl Objects {
+    /// Handles rise and start over at the end of the range, so that a freed one is not met again soon.
+    ///
+    /// # Errors
+    /// When all are in use.
+    pub(in crate::scene) fn free_handle(&mut self) -> SceneResult<Handle> {
+        if self.live >= Handle::END as usize {
+            return Err(SceneError::TooManyObjects);
+        }
+        loop {
+            let handle = Handle(self.next_handle);
+            self.next_handle = (self.next_handle + 1) % Handle::END;
+            if self.get(handle).is_err() {
+                return Ok(handle);
+            }
+        }
+    }
+
+    /// Puts an object where its handle says, which was free.
+    pub(in crate::scene) fn insert(&mut self, mut object: Object) {
+        let (handle, index) = (object.handle, object.handle.index());
+        if index >= self.slots.len() {
+            self.slots.resize_with(index + 1, || None);
+        }
+        self.moves.note(&mut object);
+        self.live += 1;
+        self.sensors += usize::from(is_sensor(&object.kind));
+        self.by_uid.insert(object.uid, handle);
+        self.slots[index] = Some(Box::new(object));
+    }
+
+    pub(in crate::scene) fn remove(&mut self, handle: Handle) -> Option<Box<Object>> {
+        let object = self.slots.get_mut(handle.index()).and_then(Option::take)?;
+        self.live -= 1;
+        self.sensors -= usize::from(is_sensor(&object.kind));
+        self.by_uid.remove(&object.uid);
+        Some(object)
+    }
+
+    pub(in crate::scene) fn get(&self, handle: Handle) -> SceneResult<&Object> {
+        self.slots.get(handle.index()).and_then(Option::as_deref).ok_or(SceneError::NoSuchObject)
+    }
+
+    /// An object to be changed in any way.
+    pub(in crate::scene) fn get_mut(&mut self, handle: Handle) -> SceneResult<&mut Object> {
+        let object = slot_mut(&mut self.slots, handle)?;
+        self.moves.note(object);
+        Ok(object)
+    }
+
+    /// An object to be changed in a way that moves neither it nor what hangs on it.
+    pub(in crate::scene) fn get_in_place(&mut self, handle: Handle) -> SceneResult<&mut Object> {
+        slot_mut(&mut self.slots, handle)
+    }
+
+    /// All objects in the order of their creation.
+    pub(in crate::scene) fn iter(&self) -> impl Iterator<Item = &Object> {
+        self.by_uid.values().filter_map(|&handle| self.get(handle).ok())
+    }
+
+    pub(in crate::scene) fn by_uid(&self, uid: Uid) -> Option<Handle> {
+        self.by_uid.get(&uid).copied()
+    }
+
+    pub(in crate::scene) fn len(&self) -> usize {
+        self.live
+    }
+
+    pub(in crate::scene) fn has_sensors(&self) -> bool {
+        self.sensors > 0
+    }
+
+    /// The changes of place so far.
+    pub(in crate::scene) fn moves(&self) -> &Moves {
+        &self.moves
+    }
+
+    /// The next new object gets this handle, if it is free.
+    #[cfg(test)]
+    pub(in crate::scene) fn start_handles_at(&mut self, handle: Handle) {
+        self.next_handle = handle.0;
+    }
+}
+
+fn slot_mut(slots: &mut [Option<Box<Object>>], handle: Handle) -> SceneResult<&mut Object> {
+    slots.get_mut(handle.index()).and_then(Option::as_deref_mut).ok_or(SceneError::NoSuchObject)
+}
+
+fn is_sensor(kind: &Kind) -> bool {
+    matches!(kind, Kind::ProximitySensor(_) | Kind::VisionSensor(_))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::tree::dummy::Dummy;
+
+    fn add(store: &mut Objects) -> SceneResult<Handle> {
+        let handle = store.free_handle()?;
+        store.insert(Object::new(handle, 0, "dummy", Kind::Dummy(Dummy::new(0.01))));
+        Ok(handle)
+    }
+
+    #[test]
+    fn handles_start_over_at_the_end_and_skip_those_in_use() {
+        let mut store = Objects::default();
+        assert_eq!(add(&mut store), Ok(Handle(0)));
+        store.next_handle = Handle::END - 1;
+        assert_eq!(add(&mut store), Ok(Handle(Handle::END - 1)));
+        assert_eq!(add(&mut store), Ok(Handle(1)));
+    }
+
+    #[test]
+    fn a_full_store_says_so() {
+        let mut store = Objects { live: Handle::END as usize, ..Objects::default() };
+        assert_eq!(add(&mut store), Err(SceneError::TooManyObjects));
+    }
+}
