@@ -30,7 +30,7 @@ function sysCall_thread()
     for i = 1, REQUESTS do
         simZMQ.send(socket, 'Hello ' .. i, 0)
         local _, answer = simZMQ.recv(socket, 0)
-        print(string.format('t = %.2f s   request %d: %s', sim.getSimulationTime(), i, tostring(answer)))
+        print(string.format('t = %.2f s   request %d: %s', sim.getSimulationTime(), i, answer))
     end
     simZMQ.close(socket)
     simZMQ.ctx_term(context)

@@ -21,10 +21,10 @@ function sysCall_thread()
     local socket = simZMQ.socket(context, simZMQ.REP)
     simZMQ.bind(socket, sim.getNamedStringParam('endpoint') or 'tcp://127.0.0.1:5555')
     local _, endpoint = simZMQ.getsockopt(socket, simZMQ.LAST_ENDPOINT, 256)
-    print('answering at ' .. tostring(endpoint):gsub('%z', ''))
+    print('answering at ' .. endpoint:gsub('%z', ''))
     while true do
         local _, request = simZMQ.recv(socket, 0)
-        print('asked: ' .. tostring(request))
+        print('asked: ' .. request)
         simZMQ.send(socket, 'World', 0)
     end
 end

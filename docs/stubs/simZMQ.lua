@@ -5,7 +5,8 @@
 --- ZeroMQ: sockets that carry whole messages between programs. The functions and constants of libzmq 4.3.4 without the prefix zmq_.
 ---
 --- Failures return -1 and set errnum(). __raiseErrors(true) turns them into errors for the calling script; __noError.name and
---- __raiseError.name are the two forms of each function. Options are bytes: sim.packInt32Table{0} for most.
+--- __raiseError.name are the two forms of each function. Data may be strings or buffers, results are strings. Options
+--- are bytes: sim.packInt32Table{0} for most.
 ---
 --- send, recv, msg_send, msg_recv and poll may block. In a thread the simulation continues meanwhile; elsewhere it is blocked
 --- too, but at most for __patience seconds (default 60): then send and recv return -1 with EAGAIN, poll 0,
@@ -101,7 +102,7 @@ function simZMQ.errnum() end
 ---@param optionName integer one of simZMQ's constants
 ---@param optionLen integer most bytes
 ---@return integer result 0 or -1
----@return string|table value its bytes
+---@return string value its bytes
 function simZMQ.getsockopt(socket, optionName, optionLen) end
 
 --- The value of a socket option that is an integer.
@@ -141,7 +142,7 @@ function simZMQ.msg_copy(dest, src) end
 
 --- The content.
 ---@param msg string the message
----@return any data its bytes
+---@return string data its bytes
 function simZMQ.msg_data(msg) end
 
 --- Destroys the message.
@@ -313,7 +314,7 @@ function simZMQ.version() end
 
 --- The bytes of a text that simZMQ.z85_encode made.
 ---@param text string|table the text
----@return string|table data nothing for another text
+---@return string data nothing for another text
 function simZMQ.z85_decode(text) end
 
 --- Bytes as printable text.

@@ -2,7 +2,8 @@
 ZeroMQ: sockets that carry whole messages between programs. The functions and constants of libzmq 4.3.4 without the prefix zmq_.
 
 Failures return -1 and set errnum(). __raiseErrors(true) turns them into errors for the calling script; __noError.name and
-__raiseError.name are the two forms of each function. Options are bytes: sim.packInt32Table{0} for most.
+__raiseError.name are the two forms of each function. Data may be strings or buffers, results are strings. Options
+are bytes: sim.packInt32Table{0} for most.
 
 send, recv, msg_send, msg_recv and poll may block. In a thread the simulation continues meanwhile; elsewhere it is blocked
 too, but at most for __patience seconds (default 60): then send and recv return -1 with EAGAIN, poll 0,
@@ -158,7 +159,7 @@ end
 
 local function optionOf(socket, option)
     local result, value = native.getsockopt(socket, option, 4)
-    return result == 0 and ('=i4'):unpack(tostring(value)) or FOREVER
+    return result == 0 and ('=i4'):unpack(value) or FOREVER
 end
 
 -- A function that can wait for `event`, in two forms: for ever, and as long as an option says.
@@ -228,7 +229,7 @@ declare('getsockopt', 'socket:string option_name:int option_len:int')
 declare('getsockopt_int', 'socket:string option_name:int', function(socket, option)
     local ok, result, value = pcall(native.getsockopt, socket, option, 4)
     if not ok then blame(result) end
-    return result, result == 0 and #value == 4 and ('=i4'):unpack(tostring(value)) or 0
+    return result, result == 0 and #value == 4 and ('=i4'):unpack(value) or 0
 end)
 
 declare('socket_monitor', 'socket:string endpoint:string events:int')

@@ -33,6 +33,7 @@ async def callbacks(sim):
         return a + b
 
     same("a callback", await sim.testCB(1, callback, 2, 1), 3)
+    same("a callback with several results", await sim.testCB(1, lambda a, b: [b, "x", a], 2, 0), (2, "x", 1))
     same("its calls", seen, [(1, 2)] * 2)
 
 

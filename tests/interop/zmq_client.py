@@ -33,6 +33,7 @@ def callback(a, b):
 
 same("a callback", sim.testCB(1, callback, 2, 2), 3)
 same("calls from within it", calls, [(1, 2, "Floor")] * 3)
+same("a callback with several results", sim.testCB(1, lambda a, b: [b, "x", a], 2, 0), (2, "x", 1))
 
 try:
     sim.getObject("/nobody")

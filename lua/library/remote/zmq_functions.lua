@@ -71,9 +71,8 @@ local function installScriptFunctions()
     function sim.readCustomDataBlock(...) return readCustomDataBlock(...) or '' end
 
     function sim.testCB(a, callback, b, times)
-        local result
-        for _ = 0, times or 99 do result = callback(a, b) end
-        return result
+        for _ = 1, times or 99 do callback(a, b) end
+        return callback(a, b)
     end
 end
 

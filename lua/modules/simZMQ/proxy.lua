@@ -54,9 +54,8 @@ local function obey(state)
     local size, command = native.recv(state.control, 0)
     if size < 0 then return true end
     local _, more = native.getsockopt(state.control, RCVMORE, 4)
-    if ('=i4'):unpack(tostring(more)) ~= 0 then return false end
+    if ('=i4'):unpack(more) ~= 0 then return false end
     native.send(state.capture, command, 0)
-    command = tostring(command)
     if command == 'PAUSE' then
         state.paused = true
     elseif command == 'RESUME' then

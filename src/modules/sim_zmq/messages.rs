@@ -6,7 +6,6 @@ use super::int;
 use super::objects::objects;
 use crate::io::zmq::{Message, ZmqResult};
 use crate::modules::{ApiFn, Cx, Result, functions};
-use crate::scene::Data;
 use crate::script::{Number, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -79,8 +78,8 @@ fn msg_destroy(cx: &Cx, msg: String) -> Result<()> {
 /// @param msg the message
 /// @return data its bytes
 #[api("simZMQ.msg_data")]
-fn msg_data(cx: &Cx, msg: String) -> Result<Data> {
-    objects(cx).with_message(&msg, |message| Data::Buffer(message.bytes().to_vec()))
+fn msg_data(cx: &Cx, msg: String) -> Result<Text> {
+    objects(cx).with_message(&msg, |message| Text(message.bytes().to_vec()))
 }
 
 /// The length of the content.

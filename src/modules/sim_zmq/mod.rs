@@ -90,8 +90,8 @@ fn z85_encode(_cx: &Cx, data: Bytes) -> Result<Option<Text>> {
 /// @param text the text
 /// @return data nothing for another text
 #[api("simZMQ.z85_decode")]
-fn z85_decode(_cx: &Cx, text: Bytes) -> Result<Option<Bytes>> {
-    Ok(zmq::z85_decode(&text.0).map(Bytes))
+fn z85_decode(_cx: &Cx, text: Bytes) -> Result<Option<Text>> {
+    Ok(zmq::z85_decode(&text.0).map(Text))
 }
 
 /// The names of errors.

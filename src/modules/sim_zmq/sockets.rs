@@ -9,7 +9,7 @@ use super::objects::objects;
 use crate::io::zmq::{self, Errno, Message, Socket};
 use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::Data;
-use crate::script::{Bytes, Number, Table};
+use crate::script::{Bytes, Number, Table, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![close, bind, unbind, connect, disconnect, setsockopt, getsockopt, socket_monitor, send, recv, poll,];
@@ -93,12 +93,12 @@ fn setsockopt(cx: &Cx, socket: String, option_name: Number, option_value: Bytes)
 /// @return result 0 or -1
 /// @return value its bytes
 #[api("simZMQ.getsockopt")]
-fn getsockopt(cx: &Cx, socket: String, option_name: Number, option_len: Number) -> Result<(i64, Bytes)> {
+fn getsockopt(cx: &Cx, socket: String, option_name: Number, option_len: Number) -> Result<(i64, Text)> {
     let objects = objects(cx);
     let room = usize::try_from(option_len.0).unwrap_or(0);
     Ok(match objects.socket(cx, &socket)?.get(int(option_name), room) {
-        Ok(value) => (0, Bytes(value)),
-        Err(errno) => (objects.failed(errno), Bytes(Vec::new())),
+        Ok(value) => (0, Text(value)),
+        Err(errno) => (objects.failed(errno), Text(Vec::new())),
     })
 }
 
@@ -142,7 +142,7 @@ fn recv(cx: &Cx, socket: String, flags: Number, max_buf_size: Option<Number>) ->
     Ok(match message.receive(&socket, int(flags)) {
         Ok(length) => {
             let most = max_buf_size.map_or(usize::MAX, |most| usize::try_from(most.0).unwrap_or(0));
-            (length.into(), Data::Buffer(message.bytes()[..message.size().min(most)].to_vec()))
+            (length.into(), Data::Text(message.bytes()[..message.size().min(most)].to_vec()))
         }
         Err(errno) => (objects.failed(errno), Data::Nil),
     })
