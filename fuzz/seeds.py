@@ -1,4 +1,4 @@
-"""Seeds for the fuzz target scene_file: the scenes of tests/scene_files, as they are and uncompressed.
+"""Seeds for the fuzz target scene_file: the scenes of tests/data, as they are and uncompressed.
 
 What is changed in compressed data changes all that follows; only uncompressed files let single changes reach the chunks.
 """
@@ -45,7 +45,7 @@ def uncompressed(file):
 def main():
     corpus = ROOT / "corpus" / "scene_file"
     corpus.mkdir(parents=True, exist_ok=True)
-    for path in sorted((ROOT.parent / "tests" / "scene_files").glob("*.tt[tm]")):
+    for path in sorted((ROOT.parent / "tests" / "data").glob("*.tt[tm]")):
         file = path.read_bytes()
         (corpus / path.name).write_bytes(file)
         (corpus / f"plain_{path.name}").write_bytes(uncompressed(file))

@@ -91,7 +91,7 @@ fn wrong_usage_is_told() {
 #[test]
 fn scenes_of_coppeliasim_are_run() {
     let dir = tempfile::tempdir().expect("a folder");
-    let files = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scene_files");
+    let files = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
     let mut unpack = Command::new(env!("CARGO_BIN_EXE_swanilda"));
     unpack.arg("unpack").arg(files.join("robot.ttt")).arg("unpacked").current_dir(dir.path());
     assert_eq!(run_for_code(&mut unpack, Duration::from_secs(60)).expect("it ends").0, 0);

@@ -7,6 +7,8 @@ use std::process::{Command, Output};
 use serde_json::Value;
 use tempfile::TempDir;
 
+mod support;
+
 fn swanilda(args: &[&Path]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_swanilda")).args(args).output().expect("the command starts")
 }
@@ -17,7 +19,7 @@ fn command(name: &str, paths: &[&Path]) -> Output {
 }
 
 fn robot(extension: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scene_files").join(format!("robot.{extension}"))
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(format!("robot.{extension}"))
 }
 
 fn folder() -> TempDir {
@@ -164,7 +166,7 @@ fn git_shows_differences_of_scenes() {
     let repository = folder.path().join("repository");
     fs::create_dir(&repository).expect("our own folder is writable");
     if git(&repository, &["init", "-q"]).is_none() {
-        return eprintln!("skipped: no git");
+        return support::skipped_outside_of_ci("there is no git");
     }
     let run = |args: &[&str]| stdout(&git(&repository, args).expect("git is there"));
     let program = env!("CARGO_BIN_EXE_swanilda");

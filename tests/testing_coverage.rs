@@ -64,7 +64,7 @@ it('moves', function()
 end)
 ";
 
-const ROBOT: &[u8] = include_bytes!("scene_files/robot.ttt");
+const ROBOT: &[u8] = include_bytes!("data/robot.ttt");
 
 const REPORT: &str = "TN:
 SF:coverage/scenes/robot.ttt/robot/script.lua

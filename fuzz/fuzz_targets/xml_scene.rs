@@ -1,6 +1,6 @@
 //! Any bytes as an XML scene or model, and as the inside of one: it is loaded, or it is refused.
 //!
-//! `cargo fuzz run xml_scene fuzz/corpus/xml_scene tests/scene_files`
+//! `cargo fuzz run xml_scene fuzz/corpus/xml_scene tests/data`
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

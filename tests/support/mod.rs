@@ -4,3 +4,18 @@
 
 pub mod compare;
 pub mod process;
+
+use std::io::Write;
+
+/// Shows on the terminal why the running test checks less than it could, or nothing. Standard error is written to directly, since the
+/// output of tests that pass is hidden.
+pub fn skipped(reason: &str) {
+    let thread = std::thread::current();
+    let _ = writeln!(std::io::stderr(), "{}: skipped: {reason}", thread.name().unwrap_or("a test"));
+}
+
+/// The same for what build machines must have: with `CI` set it fails.
+pub fn skipped_outside_of_ci(reason: &str) {
+    assert!(std::env::var_os("CI").is_none(), "with CI set nothing is skipped: {reason}");
+    skipped(reason);
+}

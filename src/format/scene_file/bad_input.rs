@@ -6,7 +6,7 @@ use crate::format::ttt::{File, FileError, FileKind, Header, container};
 use crate::scene::Scene;
 
 fn model() -> Vec<u8> {
-    std::fs::read(&own_files()[1]).unwrap()
+    std::fs::read(&own_files()[2]).unwrap()
 }
 
 /// A file whose body is not compressed, so that damage reaches the chunks.

@@ -118,11 +118,11 @@ fn contents(body: &mut Reader<'_>) -> FileResult<Contents> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::scene_file::tests::real_files;
+    use crate::format::scene_file::tests::{own_files, real_files};
 
     #[test]
     fn real_files_come_back_as_they_were() {
-        for path in real_files() {
+        for path in own_files().into_iter().chain(real_files()) {
             let read = |bytes: &[u8]| File::read(bytes).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
             let file = read(&std::fs::read(&path).unwrap());
             assert_eq!(file.skipped, [], "{}", path.display());

@@ -56,7 +56,7 @@ fn simple_scenes_keep_objects_places_and_masses() {
 }
 
 fn kinds() -> Vec<u8> {
-    std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scene_files/kinds.simscene.xml")).unwrap()
+    std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/kinds.simscene.xml")).unwrap()
 }
 
 #[test]

@@ -1,6 +1,6 @@
--- Makes the scene files of this folder: `swanilda run tests/scene_files/make.lua --as sandbox -D folder=tests/scene_files --no-start`
+-- Makes robot.ttt and robot.ttm of this folder; make.sh runs it.
 sim = require 'sim'
-local folder = sim.getNamedStringParam('folder')
+local folder = sim.getNamedStringParam('target')
 
 local function under(parent, object, alias, position)
     sim.setObjectAlias(object, alias)
