@@ -294,6 +294,10 @@ fn api_prints_the_reference() {
     let near = run(&["sim.getSimulationTim"]);
     assert_eq!(near.status.code(), Some(2));
     assert!(stderr(&near).contains("did you mean sim.getSimulationTime"), "{}", stderr(&near));
+    let send = stdout(&run(&["simZMQ.send"]));
+    assert!(send.contains("int result = simZMQ.send(string socket, buffer data, int flags)"), "{send}");
+    let module = stdout(&run(&["simWS"]));
+    assert!(module.contains("simWS.connect") && !module.contains("sim.getObject"), "{module}");
 }
 
 #[test]
