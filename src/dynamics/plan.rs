@@ -13,11 +13,8 @@ use super::frozen::Frozen;
 use crate::scene::joint::{Joint, JointMode, JointSolver, JointType};
 use crate::scene::shape::{Primitive, Shape};
 use crate::scene::tree::dummy::LinkType;
-use crate::scene::{Handle, Kind, Object, Pose, Scene, Uid};
+use crate::scene::{Handle, Kind, ModelFlags, Object, Pose, Scene, Uid};
 
-/// `sim.modelproperty_not_dynamic` and `_not_respondable`.
-const NOT_DYNAMIC: i64 = 0x20;
-const NOT_RESPONDABLE: i64 = 0x40;
 /// `sim.physics_mujoco`.
 const MUJOCO: i64 = 4;
 /// Root shapes further from the origin than this are out of service with their trees, metres.
@@ -155,7 +152,8 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
         return None;
     }
     let flags = scene.calculated_model_property(handle);
-    let (dynamic_tree, respondable_tree) = (flags & NOT_DYNAMIC == 0, flags & NOT_RESPONDABLE == 0);
+    let (dynamic_tree, respondable_tree) =
+        (!flags.contains(ModelFlags::NOT_DYNAMIC), !flags.contains(ModelFlags::NOT_RESPONDABLE));
     let is_somewhere = || scene.world_pose(handle).is_ok_and(|pose| pose.is_finite());
     if !(dynamic_tree || respondable_tree) || !is_somewhere() {
         return None;
@@ -255,7 +253,7 @@ fn welded_to<'a>(scene: &'a Scene, dummy: &Object) -> Option<&'a Object> {
 fn link(scene: &Scene, handle: Handle, roles: &BTreeMap<Handle, bool>) -> Option<LinkPlan> {
     let object = scene.object(handle).ok()?;
     let first = object.parent().filter(|parent| roles.contains_key(parent))?;
-    if scene.calculated_model_property(handle) & NOT_DYNAMIC != 0 {
+    if scene.calculated_model_property(handle).contains(ModelFlags::NOT_DYNAMIC) {
         return None;
     }
     let kind = match &object.kind {

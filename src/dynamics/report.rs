@@ -16,14 +16,7 @@ use crate::scene::pose::placement::is_place;
 use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
 use crate::scene::shape::Velocity;
 use crate::scene::simulation::dynamics_report::JointReport;
-use crate::scene::{Field, Handle, Kind, Pose, Scene};
-
-/// Bits of [`Object::dynamic_flag`](crate::scene::Object::dynamic_flag).
-const RESPONDABLE: i64 = 1;
-const DYNAMIC: i64 = 2;
-const JOINT: i64 = 4;
-const SENSOR: i64 = 32;
-const DUMMY: i64 = 64;
+use crate::scene::{DynamicFlags, Field, Handle, Kind, Pose, Scene};
 
 /// A force sensor whose threshold was exceeded often enough.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,7 +100,7 @@ impl Dynamics {
     }
 
     fn write_flags(&self, scene: &mut Scene) {
-        let changes: Vec<(Handle, i64)> = scene
+        let changes: Vec<(Handle, DynamicFlags)> = scene
             .objects()
             .map(|object| (object.handle(), self.flag_of(object.handle(), &object.kind), object.dynamic_flag))
             .filter(|(_, flag, old)| flag != old)
@@ -119,19 +112,22 @@ impl Dynamics {
         }
     }
 
-    fn flag_of(&self, handle: Handle, kind: &Kind) -> i64 {
+    fn flag_of(&self, handle: Handle, kind: &Kind) -> DynamicFlags {
         match kind {
-            Kind::Shape(_) => self.bodies.get(handle).map_or(0, |body| {
-                i64::from(body.build.respondable) * RESPONDABLE + i64::from(body.build.dynamic) * DYNAMIC
+            Kind::Shape(_) => self.bodies.get(handle).map_or(DynamicFlags::empty(), |body| {
+                let mut flags = DynamicFlags::empty();
+                flags.set(DynamicFlags::RESPONDABLE, body.build.respondable);
+                flags.set(DynamicFlags::DYNAMIC, body.build.dynamic);
+                flags
             }),
-            Kind::Joint(_) if self.links.contains_key(&handle) => JOINT,
-            Kind::ForceSensor(_) if self.links.contains_key(&handle) => SENSOR,
+            Kind::Joint(_) if self.links.contains_key(&handle) => DynamicFlags::JOINT,
+            Kind::ForceSensor(_) if self.links.contains_key(&handle) => DynamicFlags::FORCE_SENSOR,
             Kind::Dummy(dummy)
                 if [Some(handle), dummy.link].iter().flatten().any(|end| self.links.contains_key(end)) =>
             {
-                DUMMY
+                DynamicFlags::DUMMY
             }
-            _ => 0,
+            _ => DynamicFlags::empty(),
         }
     }
 }

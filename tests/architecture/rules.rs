@@ -22,6 +22,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("base64", "src/format"),
     ("base64", "src/testing/report"),
     ("base64", "src/wire/mime"),
+    ("bitflags", "src/scene"),
     ("ciborium_io", "src/wire"),
     ("ciborium_ll", "src/wire"),
     ("clap", "src/cli"),

@@ -4,7 +4,9 @@ use api_macro::api;
 
 use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::values::extension_string;
-use crate::scene::{Field, Handle, Kind, Object, References, Scene, SceneError, flag, special};
+use crate::scene::{
+    Field, Handle, Kind, ModelFlags, Object, ObjectFlags, References, Scene, SceneError, SpecialFlags, flag, special,
+};
 use crate::script::{Handles, Number, ObjectRef};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -29,7 +31,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// @return property sim.objectproperty_* bits
 #[api("sim.getObjectProperty")]
 fn get_object_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
-    Ok(cx.scene().object(object_handle)?.object_property)
+    Ok(cx.scene().object(object_handle)?.object_property.bits())
 }
 
 /// Sets the flags of an object.
@@ -38,7 +40,9 @@ fn get_object_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
 /// @param property sim.objectproperty_* bits
 #[api("sim.setObjectProperty")]
 fn set_object_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<()> {
-    Ok(cx.scene_mut().modify(object_handle, Field::ObjectProperty, |object| object.object_property = property.0)?)
+    Ok(cx.scene_mut().modify(object_handle, Field::ObjectProperty, |object| {
+        object.object_property = ObjectFlags::from_bits_retain(property.0)
+    })?)
 }
 
 /// Special properties of an object: collidable, measurable, detectable; its own flags, without those of models.
@@ -47,7 +51,7 @@ fn set_object_property(cx: &mut Cx, object_handle: Handle, property: Number) -> 
 /// @return property sim.objectspecialproperty_* bits
 #[api("sim.getObjectSpecialProperty")]
 fn get_object_special_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
-    Ok(cx.scene().object(object_handle)?.special_property)
+    Ok(cx.scene().object(object_handle)?.special_property.bits())
 }
 
 /// Sets what an object can be to sensors and checks.
@@ -56,7 +60,7 @@ fn get_object_special_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
 /// @param property sim.objectspecialproperty_* bits
 #[api("sim.setObjectSpecialProperty")]
 fn set_object_special_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<()> {
-    Ok(cx.scene_mut().set_special_property(object_handle, property.0)?)
+    Ok(cx.scene_mut().set_special_property(object_handle, SpecialFlags::from_bits_retain(property.0))?)
 }
 
 /// Flags of a model.
@@ -65,7 +69,7 @@ fn set_object_special_property(cx: &mut Cx, object_handle: Handle, property: Num
 /// @return property sim.modelproperty_* bits; sim.modelproperty_not_model if it is no model base
 #[api("sim.getModelProperty")]
 fn get_model_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
-    Ok(cx.scene().object(object_handle)?.model_property)
+    Ok(cx.scene().object(object_handle)?.model_property.bits())
 }
 
 /// Makes an object a model base with these flags, or with sim.modelproperty_not_model no model base.
@@ -74,7 +78,7 @@ fn get_model_property(cx: &Cx, object_handle: Handle) -> Result<i64> {
 /// @param property sim.modelproperty_* bits
 #[api("sim.setModelProperty")]
 fn set_model_property(cx: &mut Cx, object_handle: Handle, property: Number) -> Result<()> {
-    let change = |object: &mut Object| object.set_model_property(property.0);
+    let change = |object: &mut Object| object.set_model_property(ModelFlags::from_bits_retain(property.0));
     Ok(cx.scene_mut().modify(object_handle, Field::ModelProperty, change)?)
 }
 

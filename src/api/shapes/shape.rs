@@ -9,7 +9,7 @@ use super::texture;
 use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::shape::build::PrimitiveOptions;
 use crate::scene::shape::{Appearance, Part, Shape};
-use crate::scene::{Data, Handle, Key, Kind, Scene, SceneError};
+use crate::scene::{Data, Field, Handle, Key, Kind, Scene, SceneError, SpecialFlags};
 use crate::script::{Bytes, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -147,7 +147,9 @@ fn create_heightfield_shape(
     let mut shape = Shape::terrain(columns, rows, x_size, &heights, appearance, options.0 & 4 != 0)?;
     shape.dynamics.respondable = options.0 & 8 == 0;
     let handle = cx.scene_mut().add("heightfield", Kind::Shape(Box::new(shape)))?;
-    cx.scene_mut().modify(handle, crate::scene::Field::SpecialProperty, |object| object.special_property &= !0x3)?;
+    cx.scene_mut().modify(handle, Field::SpecialProperty, |object| {
+        object.special_property.remove(SpecialFlags::COLLIDABLE | SpecialFlags::MEASURABLE);
+    })?;
     cx.notify_created(&[handle]);
     Ok(handle)
 }

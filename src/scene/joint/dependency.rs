@@ -83,7 +83,7 @@ impl Scene {
     pub(in crate::scene) fn move_followers(&mut self, handle: Handle, position: f64) -> SceneResult<()> {
         self.refresh_dependent_joints();
         for (follower, law) in self.dependent_joints.of(handle).to_vec() {
-            if self.object(follower)?.dynamic_flag == 0 {
+            if self.object(follower)?.dynamic_flag.is_empty() {
                 self.move_joint(follower, law.position(position))?;
             }
         }

@@ -5,13 +5,7 @@
 use geometry::BoundingBox;
 use nalgebra::{Point3, Vector3};
 
-use crate::scene::tree::object::DETECTABLE;
-use crate::scene::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
-
-/// `sim.modelproperty_not_visible`.
-const NOT_VISIBLE: i64 = 0x100;
-/// `sim.objectproperty_dontshowasinsidemodel`.
-const NOT_SHOWN_INSIDE_MODEL: i64 = 0x100;
+use crate::scene::{Field, Handle, Kind, ModelFlags, Object, ObjectFlags, Pose, Scene, SceneResult, SpecialFlags};
 
 /// `sim.dummystringparam_assemblytag`.
 const ASSEMBLY_TAG: i64 = 10004;
@@ -93,17 +87,15 @@ impl Scene {
     }
 
     /// Sets what an object can be to sensors and checks; any of the five detectable bits stands for all.
-    pub fn set_special_property(&mut self, handle: Handle, property: i64) -> SceneResult<()> {
-        let detectable = if property & DETECTABLE != 0 { DETECTABLE } else { 0 };
-        self.modify(handle, Field::SpecialProperty, |object| {
-            object.special_property = property & !DETECTABLE | detectable;
-        })
+    pub fn set_special_property(&mut self, handle: Handle, mut flags: SpecialFlags) -> SceneResult<()> {
+        flags.set(SpecialFlags::DETECTABLE, flags.intersects(SpecialFlags::DETECTABLE));
+        self.modify(handle, Field::SpecialProperty, |object| object.special_property = flags)
     }
 
     /// Whether an object is shown: its layer is active and no model above hides it.
     pub fn is_visible(&self, handle: Handle) -> SceneResult<bool> {
         let layer = self.object(handle)?.layer;
-        let hidden = self.calculated_model_property(handle) & NOT_VISIBLE != 0;
+        let hidden = self.calculated_model_property(handle).contains(ModelFlags::NOT_VISIBLE);
         Ok(layer & self.settings().visibility_layers != 0 && !hidden)
     }
 
@@ -113,7 +105,7 @@ impl Scene {
         let mut total: Option<Extent> = None;
         for handle in self.subtree(base) {
             let object = self.object(handle)?;
-            let left_out = handle != base && object.object_property & NOT_SHOWN_INSIDE_MODEL != 0;
+            let left_out = handle != base && object.object_property.contains(ObjectFlags::HIDE_FROM_MODEL_BOX);
             if left_out {
                 continue;
             }

@@ -4,7 +4,9 @@ use geometry::pose::velocity;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use crate::scene::joint::JointType;
-use crate::scene::{Change, Field, Handle, Kind, Measured, Pose, Scene, SceneError, SceneResult, Topic, special};
+use crate::scene::{
+    Change, DynamicFlags, Field, Handle, Kind, Measured, Pose, Scene, SceneError, SceneResult, Topic, special,
+};
 
 /// The frame a pose is expressed in, as scripts name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,7 +108,9 @@ impl Scene {
         let local = self.local_pose_of(handle, placement, frame, joint_base)?;
         self.set_local_pose(handle, local)?;
         let object = self.object(handle)?;
-        if object.dynamic_flag > 1 && !matches!(object.kind, Kind::Joint(_) | Kind::ForceSensor(_)) {
+        if object.dynamic_flag.intersects(!DynamicFlags::RESPONDABLE)
+            && !matches!(object.kind, Kind::Joint(_) | Kind::ForceSensor(_))
+        {
             self.reset_dynamics_below(handle)?;
         }
         Ok(())

@@ -4,12 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::scene::joint::Joint;
 use crate::scene::shape::Velocity;
-use crate::scene::{Field, Handle, Kind, Object, Pose, Scene, SceneResult, Uid};
-
-/// `sim.modelproperty_not_reset`: what is below keeps the state of the run.
-const NOT_RESET: i64 = 0x80;
-/// `sim.objectproperty_hiddenforsimulation`.
-const HIDDEN_FOR_SIMULATION: i64 = 0x1_0000;
+use crate::scene::{DynamicFlags, Field, Handle, Kind, ModelFlags, Object, ObjectFlags, Pose, Scene, SceneResult, Uid};
 
 /// The state of one object at simulation start.
 #[derive(Debug, Clone)]
@@ -17,7 +12,7 @@ pub struct InitialState {
     parent: Option<Uid>,
     local: Pose,
     world: Pose,
-    model_property: i64,
+    model_property: ModelFlags,
     layer: i64,
     kind: InitialKind,
 }
@@ -42,7 +37,7 @@ impl Scene {
             let parent = self.uid_of_parent(handle);
             if let Ok(object) = self.object_in_place(handle) {
                 if object.is_model() {
-                    object.model_property &= !NOT_RESET;
+                    object.model_property.remove(ModelFlags::NOT_RESET);
                 }
                 end_suspension(object);
                 let stored = !kept.contains(&handle);
@@ -67,7 +62,9 @@ impl Scene {
     /// Takes objects off all layers that do not want to be seen while a simulation runs.
     fn hide_for_simulation(&mut self, handle: Handle) {
         let hidden = self.object(handle).is_ok_and(|object| {
-            object.object_property & HIDDEN_FOR_SIMULATION != 0 && object.layer != 0 && object.initial.is_some()
+            object.object_property.contains(ObjectFlags::HIDDEN_FOR_SIMULATION)
+                && object.layer != 0
+                && object.initial.is_some()
         });
         if hidden {
             // The handle was just read.
@@ -77,7 +74,7 @@ impl Scene {
 
     /// Those objects whose model does not want to be reset.
     fn not_reset(&self, objects: &[Handle]) -> BTreeSet<Handle> {
-        objects.iter().copied().filter(|&h| self.calculated_model_property(h) & NOT_RESET != 0).collect()
+        objects.iter().copied().filter(|&h| self.calculated_model_property(h).contains(ModelFlags::NOT_RESET)).collect()
     }
 
     fn uid_of_parent(&self, handle: Handle) -> Option<Uid> {
@@ -95,7 +92,7 @@ impl Scene {
         for handle in objects {
             let Ok(object) = self.object_in_place(handle) else { continue };
             object.measured = crate::scene::Measured::default();
-            (object.dynamic_flag, object.dynamics_reset) = (0, false);
+            (object.dynamic_flag, object.dynamics_reset) = (DynamicFlags::empty(), false);
             end_suspension(object);
             match object.initial.take().filter(|_| !kept.contains(&handle)) {
                 Some(initial) => restored.push((handle, initial)),
@@ -139,7 +136,7 @@ impl Scene {
             self.modify(handle, Field::ModelProperty, |object| object.model_property = initial.model_property)?;
         }
         let object = self.object(handle)?;
-        if object.object_property & HIDDEN_FOR_SIMULATION != 0 && object.layer != initial.layer {
+        if object.object_property.contains(ObjectFlags::HIDDEN_FOR_SIMULATION) && object.layer != initial.layer {
             self.modify(handle, Field::Layer, |object| object.layer = initial.layer)?;
         }
         self.modify(handle, Field::Other, |object| initial.restore_kind(&mut object.kind))

@@ -6,7 +6,7 @@ use super::script_object::ScriptObject;
 use crate::scene::appearance::texture_mapping::TextureSource;
 use crate::scene::pose::placement::normalized;
 use crate::scene::shape::Velocity;
-use crate::scene::{CustomData, Handle, Kind, Measured, NOT_MODEL, Object, Scene, SceneResult};
+use crate::scene::{CustomData, DynamicFlags, Handle, Kind, Measured, ModelFlags, Object, Scene, SceneResult};
 
 /// The option bits of `sim.copyPasteObjects`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -110,7 +110,7 @@ impl Scene {
 fn start_anew(object: &mut Object, options: CopyOptions) {
     object.measured = Measured::default();
     object.initial = None;
-    object.dynamic_flag = 0;
+    object.dynamic_flag = DynamicFlags::empty();
     object.dynamics_reset = false;
     match &mut object.kind {
         Kind::Joint(joint) => (joint.motion, joint.error, joint.force, joint.raw_force) = (None, None, None, None),
@@ -133,7 +133,7 @@ fn start_anew(object: &mut Object, options: CopyOptions) {
         object.original_references.clear();
     }
     if options.has(CopyOptions::NO_MODEL_TAGS) {
-        object.model_property = NOT_MODEL;
+        object.model_property = ModelFlags::NOT_MODEL;
     }
 }
 

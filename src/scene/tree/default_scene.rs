@@ -7,7 +7,7 @@ use super::dummy::Dummy;
 use crate::scene::sensor::Light;
 use crate::scene::shape::build::PrimitiveOptions;
 use crate::scene::shape::{Material, Shape};
-use crate::scene::{Field, Handle, Kind, Pose, Scene, SceneResult};
+use crate::scene::{Field, Handle, Kind, ModelFlags, Pose, Scene, SceneResult};
 
 /// Full extents of the floor, m. Its top is the plane z = 0.
 const FLOOR: [f64; 3] = [5.0, 5.0, 0.2];
@@ -44,7 +44,7 @@ impl Scene {
         let floor = self.add("Floor", Kind::Shape(Box::new(shape)))?;
         self.set_world_pose(floor, Pose::translation(0.0, 0.0, -0.5 * FLOOR[2]))?;
         self.modify(floor, Field::ModelProperty, |object| {
-            object.model_property = 0;
+            object.model_property = ModelFlags::empty();
             object.layer = FLOOR_LAYER;
         })?;
         Ok(floor)

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap, VecDeque};
 
 use crate::scene::pose::placement::normalized;
-use crate::scene::{Change, Field, Handle, Scene, SceneError, SceneResult};
+use crate::scene::{Change, Field, Handle, ModelFlags, Scene, SceneError, SceneResult};
 
 impl Scene {
     /// Root objects in scene order.
@@ -185,12 +185,12 @@ impl Scene {
     }
 
     /// Flags of all model bases from `handle` up to its root, OR-ed.
-    pub fn calculated_model_property(&self, handle: Handle) -> i64 {
+    pub fn calculated_model_property(&self, handle: Handle) -> ModelFlags {
         std::iter::once(handle)
             .chain(self.ancestors(handle))
             .filter_map(|h| self.object(h).ok())
             .filter(|object| object.is_model())
-            .fold(0, |flags, object| flags | object.model_property)
+            .fold(ModelFlags::empty(), |flags, object| flags | object.model_property)
     }
 
     /// Removes objects. Their children survive: they go to the nearest surviving ancestor and keep their place in the world, object

@@ -5,6 +5,7 @@ pub(in crate::scene) mod collection;
 pub(in crate::scene) mod copy;
 pub(in crate::scene) mod default_scene;
 pub mod dummy;
+pub mod flags;
 pub mod handle;
 pub(in crate::scene) mod hierarchy;
 pub(in crate::scene) mod identity;

@@ -2,6 +2,7 @@
 
 use super::assembly::Assembly;
 use super::dummy::Dummy;
+use super::flags::{DynamicFlags, ModelFlags, ObjectFlags, SpecialFlags};
 use super::script_object::ScriptObject;
 use crate::scene::appearance::colour::Colour;
 use crate::scene::graph::Graph;
@@ -14,12 +15,6 @@ use crate::scene::simulation::restore::InitialState;
 use crate::scene::voxels::octree::OcTree;
 use crate::scene::voxels::point_cloud::PointCloud;
 use crate::scene::{CustomData, Handle, InertValues, Movement, Pose, SceneError, SceneResult, Uid};
-
-/// The value of [`Object::model_property`] of an object that is no model base.
-pub const NOT_MODEL: i64 = 0xf000;
-
-/// `sim.objectspecialproperty_detectable`: five bits for kinds of sensors, used as one.
-pub(in crate::scene) const DETECTABLE: i64 = 0x1f0;
 
 /// A scene object.
 #[derive(Debug, Clone)]
@@ -34,12 +29,10 @@ pub struct Object {
     /// In the parent's full frame (its moving side, for joints and force sensors).
     pub(in crate::scene) pose: Pose,
     pub(in crate::scene) place: PlaceInWorld,
-    /// `sim.objectproperty_*` bits.
-    pub object_property: i64,
-    /// `sim.objectspecialproperty_*` bits.
-    pub special_property: i64,
-    /// `sim.modelproperty_*` bits; [`NOT_MODEL`] for objects that are no model base.
-    pub model_property: i64,
+    pub object_property: ObjectFlags,
+    pub special_property: SpecialFlags,
+    /// [`ModelFlags::NOT_MODEL`] for objects that are no model base.
+    pub model_property: ModelFlags,
     pub layer: i64,
     /// Of the body; shapes have theirs in their meshes.
     pub colour: Colour,
@@ -71,8 +64,8 @@ pub struct Object {
     /// Tagged lists of handles: `(tag, handles)`; -1 stands for an object that is gone.
     pub references: crate::scene::ReferenceLists,
     pub original_references: crate::scene::ReferenceLists,
-    /// What the physics uses of this object: shapes 1 respondable | 2 dynamic, joints 4, force sensors 32, dummies 64.
-    pub dynamic_flag: i64,
+    /// What the physics simulates of this object.
+    pub dynamic_flag: DynamicFlags,
     /// Requests that the physics rebuilds this object.
     pub dynamics_reset: bool,
     /// World poses at the last two sensing parts of a step, for the measured velocity.
@@ -150,10 +143,15 @@ impl Kind {
     }
 
     /// Collidable, measurable, detectable and renderable for what has a surface, nothing otherwise.
-    fn default_special_property(&self) -> i64 {
+    fn default_special_property(&self) -> SpecialFlags {
         match self {
-            Self::Shape(_) | Self::OcTree(_) | Self::PointCloud(_) => 0x1 | 0x2 | DETECTABLE | 0x200,
-            _ => 0,
+            Self::Shape(_) | Self::OcTree(_) | Self::PointCloud(_) => {
+                SpecialFlags::COLLIDABLE
+                    | SpecialFlags::MEASURABLE
+                    | SpecialFlags::DETECTABLE
+                    | SpecialFlags::RENDERABLE
+            }
+            _ => SpecialFlags::empty(),
         }
     }
 }
@@ -169,9 +167,9 @@ impl Object {
             children: Vec::new(),
             pose: Pose::identity(),
             place: PlaceInWorld::default(),
-            object_property: 0x20,
+            object_property: ObjectFlags::SELECTABLE,
             special_property: kind.default_special_property(),
-            model_property: NOT_MODEL,
+            model_property: ModelFlags::NOT_MODEL,
             layer: kind.default_layer(),
             colour: kind.default_colour(),
             movement: Movement::default(),
@@ -190,7 +188,7 @@ impl Object {
             user_params: Vec::new(),
             references: Vec::new(),
             original_references: Vec::new(),
-            dynamic_flag: 0,
+            dynamic_flag: DynamicFlags::empty(),
             dynamics_reset: false,
             measured: Measured::default(),
             initial: None,
@@ -234,12 +232,12 @@ impl Object {
     }
 
     pub fn is_model(&self) -> bool {
-        self.model_property & NOT_MODEL != NOT_MODEL
+        !self.model_property.contains(ModelFlags::NOT_MODEL)
     }
 
-    /// Makes it a model base with these flags, or with all of [`NOT_MODEL`] no model base.
-    pub fn set_model_property(&mut self, flags: i64) {
-        self.model_property = if flags & NOT_MODEL == NOT_MODEL { NOT_MODEL } else { flags };
+    /// Makes it a model base with these flags, or with all of [`ModelFlags::NOT_MODEL`] no model base.
+    pub fn set_model_property(&mut self, flags: ModelFlags) {
+        self.model_property = if flags.contains(ModelFlags::NOT_MODEL) { ModelFlags::NOT_MODEL } else { flags };
     }
 
     /// From the object's frame to the frame its children live in.

@@ -4,11 +4,9 @@ use std::rc::Rc;
 
 use super::instance::Script;
 use crate::scene::tree::script_object::ScriptType;
-use crate::scene::{Field, Handle, Mark, Object, Scene, Topics};
+use crate::scene::{Field, Handle, Mark, ModelFlags, Object, Scene, Topics};
 use crate::script::sim::Sim;
 
-/// A model flag: no script below runs.
-const SCRIPTS_INACTIVE: i64 = 0x200;
 /// Changes that can alter the order of scripts.
 const ORDER: Topics = Topics::TREE.with_fields(&[Field::ModelProperty, Field::Script, Field::Priority]);
 
@@ -136,7 +134,7 @@ fn by_depth(scene: &Scene, wanted: impl Fn(&Object) -> bool) -> Vec<Handle> {
     let mut pending: Vec<(usize, Handle)> = sorted(scene, scene.roots()).into_iter().rev().map(|h| (0, h)).collect();
     while let Some((depth, handle)) = pending.pop() {
         let Ok(object) = scene.object(handle) else { continue };
-        if object.is_model() && object.model_property & SCRIPTS_INACTIVE != 0 {
+        if object.is_model() && object.model_property.contains(ModelFlags::SCRIPTS_INACTIVE) {
             continue;
         }
         if wanted(object) {

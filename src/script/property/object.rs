@@ -5,18 +5,11 @@ use geometry::pose::{pose_from_array, pose_to_array};
 use super::access::{Accessor, object_properties, pair, placed_properties, refused};
 use super::table::object_class;
 use super::{Long, PoseArray, Text, Vector3};
-use crate::scene::{Handle, Movement, NOT_MODEL, Object, Scene, SceneResult, clean_alias};
+use crate::scene::{
+    ForbiddenMovements, Handle, ModelFlags, Object, ObjectFlags, PreferredAxes, Scene, SceneResult, SpecialFlags,
+    clean_alias,
+};
 use crate::script::Bytes;
-
-/// Bits of the special properties.
-mod special {
-    pub const COLLIDABLE: i64 = 0x1;
-    pub const MEASURABLE: i64 = 0x2;
-    pub const DETECTABLE: i64 = 0x1f0;
-}
-
-/// Model flag: everything below is invisible.
-const NOT_VISIBLE: i64 = 0x100;
 
 pub(super) const OWN: &[Accessor] = object_properties! {
     "layer": i64, |o| o.layer, Layer |o, layer| o.layer = layer & 0xffff;
@@ -32,7 +25,7 @@ pub(super) const OWN: &[Accessor] = object_properties! {
     "dna": Bytes, |o| Bytes(o.dna.clone());
     "bbPose": PoseArray, |o| PoseArray(pose_to_array(&o.bounding_box().pose));
     "bbHSize": Vector3, |o| Vector3(o.bounding_box().size.map(|extent| extent / 2.0));
-    "dynamicFlag": i64, |o| o.dynamic_flag;
+    "dynamicFlag": i64, |o| o.dynamic_flag.bits();
     "objectType": String, |o| object_class(&o.kind).word.to_owned();
 };
 
@@ -46,7 +39,7 @@ pub(super) const PLACED: &[Accessor] = placed_properties! {
         let parent = scene.object(h)?.parent();
         Long(parent.map_or(Ok(-1), |parent| scene.object(parent).map(Object::uid))?)
     };
-    "modelInvisible": bool, |scene, h| scene.calculated_model_property(h) & NOT_VISIBLE != 0;
+    "modelInvisible": bool, |scene, h| scene.calculated_model_property(h).contains(ModelFlags::NOT_VISIBLE);
     "visible": bool, |scene, h| scene.is_visible(h)?;
     "selected": bool, |scene, h| scene.selection().contains(&h), |scene, h, on| select(&mut scene, h, on);
 };
@@ -54,39 +47,41 @@ pub(super) const PLACED: &[Accessor] = placed_properties! {
 /// Rows of properties that are a bit of a field of the object.
 macro_rules! bits {
     ($($name:literal: $flags:ident $field:ident $bits:expr;)*) => { object_properties! { $(
-        $name: bool, |o| o.$flags & $bits != 0, $field |o, on| set_bits(&mut o.$flags, $bits, on);
+        $name: bool, |o| o.$flags.intersects($bits), $field |o, on| o.$flags.set($bits, on);
     )* } };
 }
 
 pub(super) const FLAGS: &[Accessor] = bits! {
-    "collidable": special_property SpecialProperty special::COLLIDABLE;
-    "measurable": special_property SpecialProperty special::MEASURABLE;
-    "detectable": special_property SpecialProperty special::DETECTABLE;
-    "ignoreViewFitting": object_property ObjectProperty 0x1;
-    "collapsed": object_property ObjectProperty 0x10;
-    "selectable": object_property ObjectProperty 0x20;
-    "selectModel": object_property ObjectProperty 0x80;
-    "hideFromModelBB": object_property ObjectProperty 0x100;
-    "selectInvisible": object_property ObjectProperty 0x800;
-    "depthInvisible": object_property ObjectProperty 0x1000;
-    "cannotDelete": object_property ObjectProperty 0x2000;
-    "cannotDeleteInSim": object_property ObjectProperty 0x4000;
-    "model.notCollidable": model_property ModelProperty 0x1;
-    "model.notMeasurable": model_property ModelProperty 0x2;
-    "model.notDetectable": model_property ModelProperty 0x8;
-    "model.notDynamic": model_property ModelProperty 0x20;
-    "model.notRespondable": model_property ModelProperty 0x40;
-    "model.notVisible": model_property ModelProperty 0x100;
-    "model.scriptsNotActive": model_property ModelProperty 0x200;
-    "model.notInParentBB": model_property ModelProperty 0x400;
+    "collidable": special_property SpecialProperty SpecialFlags::COLLIDABLE;
+    "measurable": special_property SpecialProperty SpecialFlags::MEASURABLE;
+    "detectable": special_property SpecialProperty SpecialFlags::DETECTABLE;
+    "ignoreViewFitting": object_property ObjectProperty ObjectFlags::IGNORE_VIEW_FITTING;
+    "collapsed": object_property ObjectProperty ObjectFlags::COLLAPSED;
+    "selectable": object_property ObjectProperty ObjectFlags::SELECTABLE;
+    "selectModel": object_property ObjectProperty ObjectFlags::SELECT_MODEL;
+    "hideFromModelBB": object_property ObjectProperty ObjectFlags::HIDE_FROM_MODEL_BOX;
+    "selectInvisible": object_property ObjectProperty ObjectFlags::SELECT_INVISIBLE;
+    "depthInvisible": object_property ObjectProperty ObjectFlags::DEPTH_INVISIBLE;
+    "cannotDelete": object_property ObjectProperty ObjectFlags::CANNOT_DELETE;
+    "cannotDeleteInSim": object_property ObjectProperty ObjectFlags::CANNOT_DELETE_IN_SIMULATION;
+    "model.notCollidable": model_property ModelProperty ModelFlags::NOT_COLLIDABLE;
+    "model.notMeasurable": model_property ModelProperty ModelFlags::NOT_MEASURABLE;
+    "model.notDetectable": model_property ModelProperty ModelFlags::NOT_DETECTABLE;
+    "model.notDynamic": model_property ModelProperty ModelFlags::NOT_DYNAMIC;
+    "model.notRespondable": model_property ModelProperty ModelFlags::NOT_RESPONDABLE;
+    "model.notVisible": model_property ModelProperty ModelFlags::NOT_VISIBLE;
+    "model.scriptsNotActive": model_property ModelProperty ModelFlags::SCRIPTS_INACTIVE;
+    "model.notInParentBB": model_property ModelProperty ModelFlags::NOT_IN_PARENT_BOX;
 };
 
 pub(super) const FLAG_SETS: &[Accessor] = object_properties! {
-    "objectPropertyFlags": i64, |o| o.object_property, ObjectProperty |o, flags| o.object_property = flags;
-    "model.propertyFlags": i64, |o| o.model_property, ModelProperty |o, flags| o.set_model_property(flags);
+    "objectPropertyFlags": i64, |o| o.object_property.bits(),
+        ObjectProperty |o, bits| o.object_property = ObjectFlags::from_bits_retain(bits);
+    "model.propertyFlags": i64, |o| o.model_property.bits(),
+        ModelProperty |o, bits| o.set_model_property(ModelFlags::from_bits_retain(bits));
     "modelBase": bool, |o| o.is_model(), ModelProperty |o, on| {
         if on != o.is_model() {
-            o.model_property = if on { 0 } else { NOT_MODEL };
+            o.model_property = if on { ModelFlags::empty() } else { ModelFlags::NOT_MODEL };
         }
     };
 };
@@ -99,37 +94,38 @@ macro_rules! movement {
 }
 
 pub(super) const MOVEMENT: &[Accessor] = movement! {
-    "mov.optionsFlags": i64, options, |bits| bits, |bits| bits;
+    "mov.optionsFlags": i64, forbidden, |bits| ForbiddenMovements::from_bits_retain(bits), |flags| flags.bits();
     "mov.stepSize": Vec<f64>, step, |steps| pair(&steps)?, |steps| steps.to_vec();
     "mov.relativity": Vec<i64>, relativity, |frames| int_pair(&frames)?, |frames| frames.to_vec();
-    "mov.preferredAxesFlags": i64, preferred_axes, |bits| bits & 0x3f, |bits| bits;
+    "mov.preferredAxesFlags": i64, preferred_axes,
+        |bits| PreferredAxes::from_bits_retain(bits) & PreferredAxes::ALL_AXES, |axes| axes.bits();
 };
 
 /// Rows of properties that are a bit of the movement; `!` for bits that forbid what the property allows.
 macro_rules! movement_bits {
-    ($($name:literal: $flags:ident $(! $forbid:path)? $(= $allow:literal)?;)*) => { object_properties! { $(
+    ($($name:literal: $flags:ident $(! $forbid:path)? $(= $allow:path)?;)*) => { object_properties! { $(
         $name: bool, |o| movement_bits!(@get o.movement.$flags, $(! $forbid)? $(= $allow)?),
             Inert |o, on| movement_bits!(@set o.movement.$flags, on, $(! $forbid)? $(= $allow)?);
     )* } };
-    (@get $flags:expr, ! $forbid:path) => { $flags & $forbid == 0 };
-    (@get $flags:expr, = $allow:literal) => { $flags & $allow != 0 };
-    (@set $flags:expr, $on:ident, ! $forbid:path) => { set_bits(&mut $flags, $forbid, !$on) };
-    (@set $flags:expr, $on:ident, = $allow:literal) => { set_bits(&mut $flags, $allow, $on) };
+    (@get $flags:expr, ! $forbid:path) => { !$flags.contains($forbid) };
+    (@get $flags:expr, = $allow:path) => { $flags.contains($allow) };
+    (@set $flags:expr, $on:ident, ! $forbid:path) => { $flags.set($forbid, !$on) };
+    (@set $flags:expr, $on:ident, = $allow:path) => { $flags.set($allow, $on) };
 }
 
 pub(super) const MOVEMENT_FLAGS: &[Accessor] = movement_bits! {
-    "mov.translNoSim": options !Movement::TRANSLATION_STOPPED;
-    "mov.translInSim": options !Movement::TRANSLATION_RUNNING;
-    "mov.rotNoSim": options !Movement::ROTATION_STOPPED;
-    "mov.rotInSim": options !Movement::ROTATION_RUNNING;
-    "mov.altTransl": options !Movement::OTHER_TRANSLATIONS;
-    "mov.altRot": options !Movement::OTHER_ROTATIONS;
-    "mov.prefTranslX": preferred_axes = 0x1;
-    "mov.prefTranslY": preferred_axes = 0x2;
-    "mov.prefTranslZ": preferred_axes = 0x4;
-    "mov.prefRotX": preferred_axes = 0x8;
-    "mov.prefRotY": preferred_axes = 0x10;
-    "mov.prefRotZ": preferred_axes = 0x20;
+    "mov.translNoSim": forbidden !ForbiddenMovements::TRANSLATION_STOPPED;
+    "mov.translInSim": forbidden !ForbiddenMovements::TRANSLATION_RUNNING;
+    "mov.rotNoSim": forbidden !ForbiddenMovements::ROTATION_STOPPED;
+    "mov.rotInSim": forbidden !ForbiddenMovements::ROTATION_RUNNING;
+    "mov.altTransl": forbidden !ForbiddenMovements::OTHER_TRANSLATIONS;
+    "mov.altRot": forbidden !ForbiddenMovements::OTHER_ROTATIONS;
+    "mov.prefTranslX": preferred_axes = PreferredAxes::TRANSLATION_X;
+    "mov.prefTranslY": preferred_axes = PreferredAxes::TRANSLATION_Y;
+    "mov.prefTranslZ": preferred_axes = PreferredAxes::TRANSLATION_Z;
+    "mov.prefRotX": preferred_axes = PreferredAxes::ROTATION_X;
+    "mov.prefRotY": preferred_axes = PreferredAxes::ROTATION_Y;
+    "mov.prefRotZ": preferred_axes = PreferredAxes::ROTATION_Z;
 };
 
 /// Axis and speed (rad/s) of the measured rotation, world axes; zeros for an object that does not turn.
@@ -141,10 +137,6 @@ fn rotation(object: &Object) -> ([f64; 3], f64) {
 
 fn int_pair(values: &[i64]) -> SceneResult<[i64; 2]> {
     values.first_chunk().copied().ok_or_else(refused)
-}
-
-fn set_bits(flags: &mut i64, bits: i64, on: bool) {
-    if on { *flags |= bits } else { *flags &= !bits }
 }
 
 fn select(scene: &mut Scene, handle: Handle, on: bool) {

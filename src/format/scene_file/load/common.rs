@@ -5,7 +5,10 @@ use crate::format::ttt::chunks::{Common, UserParams};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{Counted, Text};
 use crate::scene::tree::assembly::Assembly;
-use crate::scene::{Data, Field, Handle, Movement, NOT_MODEL, Object, Pose, Scene, SceneResult, clean_alias};
+use crate::scene::{
+    Data, Field, ForbiddenMovements, Handle, ModelFlags, Movement, Object, ObjectFlags, Pose, PreferredAxes, Scene,
+    SceneResult, SpecialFlags, clean_alias,
+};
 
 /// Written since 2.5 into every property; where it is missing, the object was hidden.
 const NOT_HIDDEN: i64 = 0x4;
@@ -33,7 +36,8 @@ pub(super) fn fill(scene: &mut Scene, context: &Context<'_>, handle: Handle, obj
         identity(new, common);
         new.movement = movement(common);
         new.size_factor = common.size_factor.filter(|f| f.is_finite() && *f > 0.0).unwrap_or(1.0);
-        new.special_property = common.special_property.map_or(new.special_property, i64::from);
+        new.special_property =
+            common.special_property.map_or(new.special_property, |bits| SpecialFlags::from_bits_retain(bits.into()));
         new.hierarchy_colour = common.hierarchy_colour.unwrap_or(-1).into();
         new.self_collision_indicator = common.self_collision_indicator.unwrap_or(0).into();
         new.priority = common.script_exec_priority.map_or(1, i64::from).clamp(0, 2);
@@ -56,7 +60,7 @@ pub(super) fn fill(scene: &mut Scene, context: &Context<'_>, handle: Handle, obj
 fn visibility(new: &mut Object, common: &Common) {
     new.layer = common.layer.map_or(new.layer, i64::from);
     let Some(property) = common.object_property.map(i64::from) else { return };
-    new.object_property = property & !NOT_HIDDEN;
+    new.object_property = ObjectFlags::from_bits_retain(property & !NOT_HIDDEN);
     if property & NOT_HIDDEN == 0 && new.layer < 256 {
         new.layer *= 256;
     }
@@ -64,8 +68,8 @@ fn visibility(new: &mut Object, common: &Common) {
 
 fn model(new: &mut Object, common: &Common) {
     let switches = common.switches.or(common.switches_2).or(common.old_switches).unwrap_or(0);
-    let property = common.model_property.unwrap_or(0).into();
-    new.set_model_property(if switches & 1 == 0 { NOT_MODEL } else { property });
+    let flags = ModelFlags::from_bits_retain(common.model_property.unwrap_or(0).into());
+    new.set_model_property(if switches & 1 == 0 { ModelFlags::NOT_MODEL } else { flags });
     if let Some(text) = common.acknowledgment.as_ref().filter(|text| !text.0.is_empty()) {
         new.inert.set("modelAcknowledgment", Data::Text(text.0.clone()));
     }
@@ -83,13 +87,13 @@ fn identity(new: &mut Object, common: &Common) {
 fn movement(common: &Common) -> Movement {
     let mut movement = Movement::default();
     if let Some((axes, relativity, step)) = common.translation {
-        movement.preferred_axes = axes.into();
+        movement.preferred_axes = PreferredAxes::from_bits_retain(axes.into());
         (movement.relativity[0], movement.step[0]) = (relativity.into(), step);
     }
     if let Some((relativity, step)) = common.rotation {
         (movement.relativity[1], movement.step[1]) = (relativity.into(), step);
     }
-    movement.options = forbidden(common);
+    movement.forbidden = forbidden(common);
     movement
 }
 
@@ -117,19 +121,24 @@ fn assembly(common: &Common, serialization: i32) -> Assembly {
 }
 
 /// What a hand may not do to the object. Old files forbid moving and turning together.
-fn forbidden(common: &Common) -> i64 {
-    let bits = |switches: u8, bits: &[(u8, i64)]| {
-        bits.iter().filter(|(bit, _)| switches >> bit & 1 == 1).fold(0, |all, (_, flag)| all | flag)
+fn forbidden(common: &Common) -> ForbiddenMovements {
+    let bits = |switches: u8, bits: &[(u8, ForbiddenMovements)]| {
+        bits.iter().filter(|(bit, _)| switches >> bit & 1 == 1).map(|(_, flag)| *flag).collect::<ForbiddenMovements>()
     };
-    let stopped = Movement::TRANSLATION_STOPPED;
-    let running = Movement::TRANSLATION_RUNNING;
-    let (turning_stopped, turning_running) = (Movement::ROTATION_STOPPED, Movement::ROTATION_RUNNING);
+    let stopped = ForbiddenMovements::TRANSLATION_STOPPED;
+    let running = ForbiddenMovements::TRANSLATION_RUNNING;
+    let (turning_stopped, turning_running) =
+        (ForbiddenMovements::ROTATION_STOPPED, ForbiddenMovements::ROTATION_RUNNING);
     let moving = match (common.switches, common.switches_2.or(common.old_switches)) {
         (Some(new), _) => bits(new, &[(1, running), (2, stopped), (4, turning_running), (5, turning_stopped)]),
         (None, Some(old)) => bits(old, &[(1, running | turning_running), (2, stopped | turning_stopped)]),
-        (None, None) => 0,
+        (None, None) => ForbiddenMovements::empty(),
     };
-    moving | bits(common.locks.unwrap_or(0), &[(0, Movement::OTHER_TRANSLATIONS), (1, Movement::OTHER_ROTATIONS)])
+    moving
+        | bits(
+            common.locks.unwrap_or(0),
+            &[(0, ForbiddenMovements::OTHER_TRANSLATIONS), (1, ForbiddenMovements::OTHER_ROTATIONS)],
+        )
 }
 
 /// Names and values; units and flags concern a dialog.

@@ -3,7 +3,7 @@
 use super::{Context, custom_data};
 use crate::format::ttt::chunks::{Common, UserParams};
 use crate::format::ttt::{Counted, OriginalReference, Text};
-use crate::scene::{Data, Handle, Movement, Object, SceneResult};
+use crate::scene::{Data, ForbiddenMovements, Handle, Object, SceneResult};
 
 /// Current programs mark every property with it.
 const WRITTEN_SINCE_2_5: i32 = 0x4;
@@ -24,19 +24,19 @@ pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Comm
         alt_name: Some(alternative_name(object.old_name()).as_str().into()),
         hierarchy_colour: Some(object.hierarchy_colour as i32),
         self_collision_indicator: Some(object.self_collision_indicator as i32),
-        object_property: Some(object.object_property as i32 | WRITTEN_SINCE_2_5),
-        switches_2: Some(model | old_switches(movement.options)),
-        switches: Some(model | switches(movement.options) | u8::from(object.assembly.moves) << 7),
+        object_property: Some(object.object_property.bits() as i32 | WRITTEN_SINCE_2_5),
+        switches_2: Some(model | old_switches(movement.forbidden)),
+        switches: Some(model | switches(movement.forbidden) | u8::from(object.assembly.moves) << 7),
         assembly_pose: Some(object.assembly.pose.into()),
         assembly: Some((words(&object.assembly.child_words), words(&object.assembly.parent_words))),
         extension_string: Some(object.extension_string.as_str().into()),
-        locks: Some((movement.options >> 4 & 3) as u8),
-        special_property: Some(object.special_property as i32),
-        model_property: Some(object.model_property as i32),
+        locks: Some((movement.forbidden.bits() >> 4 & 3) as u8),
+        special_property: Some(object.special_property.bits() as i32),
+        model_property: Some(object.model_property.bits() as i32),
         layer: Some(object.layer as u16),
         script_exec_priority: Some(object.priority as i32),
         child_order: Some(order),
-        translation: Some((movement.preferred_axes as i32, movement.relativity[0] as i32, movement.step[0])),
+        translation: Some((movement.preferred_axes.bits() as i32, movement.relativity[0] as i32, movement.step[0])),
         rotation: Some((movement.relativity[1] as i32, movement.step[1])),
         size_factor: Some(object.size_factor),
         custom_data: custom_data::chunk(&object.custom_data),
@@ -68,24 +68,24 @@ fn alternative_name(name: &str) -> String {
 }
 
 /// Bits of what a hand may not do, moving and turning apart.
-fn switches(options: i64) -> u8 {
+fn switches(forbidden: ForbiddenMovements) -> u8 {
     bits(
-        options,
+        forbidden,
         &[
-            (Movement::TRANSLATION_RUNNING, 0x2),
-            (Movement::TRANSLATION_STOPPED, 0x4),
-            (Movement::ROTATION_RUNNING, 0x10),
-            (Movement::ROTATION_STOPPED, 0x20),
+            (ForbiddenMovements::TRANSLATION_RUNNING, 0x2),
+            (ForbiddenMovements::TRANSLATION_STOPPED, 0x4),
+            (ForbiddenMovements::ROTATION_RUNNING, 0x10),
+            (ForbiddenMovements::ROTATION_STOPPED, 0x20),
         ],
     )
 }
 
-fn old_switches(options: i64) -> u8 {
-    bits(options, &[(Movement::TRANSLATION_RUNNING, 0x2), (Movement::TRANSLATION_STOPPED, 0x4)])
+fn old_switches(forbidden: ForbiddenMovements) -> u8 {
+    bits(forbidden, &[(ForbiddenMovements::TRANSLATION_RUNNING, 0x2), (ForbiddenMovements::TRANSLATION_STOPPED, 0x4)])
 }
 
-fn bits(options: i64, table: &[(i64, u8)]) -> u8 {
-    table.iter().filter(|(option, _)| options & option != 0).fold(0, |bits, (_, bit)| bits | bit)
+fn bits(forbidden: ForbiddenMovements, table: &[(ForbiddenMovements, u8)]) -> u8 {
+    table.iter().filter(|(flag, _)| forbidden.contains(*flag)).fold(0, |bits, (_, bit)| bits | bit)
 }
 
 fn words(words: &[String]) -> Counted<Text> {

@@ -8,7 +8,7 @@ use crate::scene::joint::{Joint, JointMode, JointType};
 use crate::scene::shape::{Shape, Velocity};
 use crate::scene::simulation::dynamics_report::JointReport;
 use crate::scene::tree::dummy::Dummy;
-use crate::scene::{CopyOptions, Field, Handle, Kind, Pose, Scene};
+use crate::scene::{CopyOptions, DynamicFlags, Field, Handle, Kind, Pose, Scene};
 
 /// A generator of numbers, the same in every run.
 struct Random(u64);
@@ -137,7 +137,9 @@ impl Play {
             3 => scene.measure_velocities(Some(0.05)),
             4 => scene.store_initial_state(),
             5 => scene.restore_initial_state(),
-            _ => scene.modify(handle, Field::Measured, |object| object.dynamic_flag = 1).unwrap(),
+            _ => {
+                scene.modify(handle, Field::Measured, |object| object.dynamic_flag = DynamicFlags::RESPONDABLE).unwrap()
+            }
         }
     }
 

@@ -1,0 +1,114 @@
+//! Bit sets of objects, with the numbers scripts and files use. Bits without a name here are stored and read back as well.
+
+use bitflags::bitflags;
+
+bitflags! {
+    /// `sim.objectproperty_*`: display and selection.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct ObjectFlags: i64 {
+        const IGNORE_VIEW_FITTING = 0x1;
+        const COLLAPSED = 0x10;
+        const SELECTABLE = 0x20;
+        const SELECT_MODEL = 0x80;
+        /// Left out of the bounding boxes of models.
+        const HIDE_FROM_MODEL_BOX = 0x100;
+        const SELECT_INVISIBLE = 0x800;
+        const DEPTH_INVISIBLE = 0x1000;
+        const CANNOT_DELETE = 0x2000;
+        const CANNOT_DELETE_IN_SIMULATION = 0x4000;
+        const HIDDEN_FOR_SIMULATION = 0x1_0000;
+        const _ = !0;
+    }
+}
+
+bitflags! {
+    /// `sim.objectspecialproperty_*`: what sensors and calculations make of an object.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct SpecialFlags: i64 {
+        const COLLIDABLE = 0x1;
+        const MEASURABLE = 0x2;
+        /// Five bits for kinds of sensors, used as one.
+        const DETECTABLE = 0x1f0;
+        const RENDERABLE = 0x200;
+        const _ = !0;
+    }
+}
+
+bitflags! {
+    /// `sim.modelproperty_*`: what a model base switches off for all that is below it.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct ModelFlags: i64 {
+        const NOT_COLLIDABLE = 0x1;
+        const NOT_MEASURABLE = 0x2;
+        const NOT_DETECTABLE = 0x8;
+        const NOT_DYNAMIC = 0x20;
+        const NOT_RESPONDABLE = 0x40;
+        /// Keeps the state of the run when a simulation ends.
+        const NOT_RESET = 0x80;
+        const NOT_VISIBLE = 0x100;
+        const SCRIPTS_INACTIVE = 0x200;
+        const NOT_IN_PARENT_BOX = 0x400;
+        /// No model base.
+        const NOT_MODEL = 0xf000;
+        const _ = !0;
+    }
+}
+
+bitflags! {
+    /// How a user may not move an object by hand.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct ForbiddenMovements: i64 {
+        const TRANSLATION_STOPPED = 0x1;
+        const TRANSLATION_RUNNING = 0x2;
+        const ROTATION_STOPPED = 0x4;
+        const ROTATION_RUNNING = 0x8;
+        const OTHER_TRANSLATIONS = 0x10;
+        const OTHER_ROTATIONS = 0x20;
+        const _ = !0;
+    }
+}
+
+bitflags! {
+    /// Axes along or about which a user moves an object by hand.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct PreferredAxes: i64 {
+        const TRANSLATION_X = 0x1;
+        const TRANSLATION_Y = 0x2;
+        const TRANSLATION_Z = 0x4;
+        const ROTATION_X = 0x8;
+        const ROTATION_Y = 0x10;
+        const ROTATION_Z = 0x20;
+        const _ = !0;
+    }
+}
+
+impl PreferredAxes {
+    /// All six axes.
+    pub const ALL_AXES: Self = Self::from_bits_retain(0x3f);
+}
+
+bitflags! {
+    /// What the physics simulates of an object.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub struct DynamicFlags: i64 {
+        const RESPONDABLE = 1;
+        const DYNAMIC = 2;
+        const JOINT = 4;
+        const FORCE_SENSOR = 32;
+        const DUMMY = 64;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ModelFlags, ObjectFlags};
+
+    #[test]
+    fn bits_without_a_name_are_kept() {
+        let mut flags = ObjectFlags::from_bits_retain(0x7000_0000_0000_0020);
+        flags.set(ObjectFlags::SELECTABLE, false);
+        assert_eq!(flags.bits(), 0x7000_0000_0000_0000);
+        let all = ModelFlags::from_bits_retain(-1);
+        assert_eq!((all - ModelFlags::NOT_RESET).bits(), !0x80);
+    }
+}
