@@ -10,14 +10,10 @@ mod doctor;
 mod files;
 mod init;
 mod inspect;
-mod interrupt;
-mod output;
-mod progress;
 mod remote;
 mod run;
 mod serve;
 mod session;
-mod setup;
 mod test;
 mod unpack;
 
@@ -26,6 +22,8 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
+
+use session::{interrupt, output, progress, setup};
 
 /// Exit code for a wrong command line or a file that cannot be read or written; clap uses the same.
 const USAGE: u8 = 2;

@@ -4,13 +4,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Set when the user interrupts the program.
-pub(super) struct Interrupt {
+pub(in crate::cli) struct Interrupt {
     requested: Arc<AtomicBool>,
 }
 
 impl Interrupt {
     /// Installs the handler; `code` is the exit code after a second interrupt.
-    pub(super) fn install(code: u8) -> Self {
+    pub(in crate::cli) fn install(code: u8) -> Self {
         let requested = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&requested);
         let listening = ctrlc::set_handler(move || {
@@ -26,11 +26,11 @@ impl Interrupt {
     }
 
     /// Becomes true on the first interrupt.
-    pub(super) fn flag(&self) -> Arc<AtomicBool> {
+    pub(in crate::cli) fn flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.requested)
     }
 
-    pub(super) fn is_requested(&self) -> bool {
+    pub(in crate::cli) fn is_requested(&self) -> bool {
         self.requested.load(Ordering::Relaxed)
     }
 }

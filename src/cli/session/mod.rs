@@ -1,10 +1,16 @@
 //! What `swanilda run` does while a simulation runs: it shows progress, rests, and listens for ctrl-c.
 
+pub(super) mod interrupt;
+pub(super) mod output;
+pub(super) mod progress;
+pub(super) mod setup;
+
 use std::time::Duration;
 
-use super::interrupt::Interrupt;
-use super::output::Output;
-use super::progress::Progress;
+use interrupt::Interrupt;
+use output::Output;
+use progress::Progress;
+
 use crate::{Onlooker, Simulator};
 
 /// Sleep between polls of the wall clock in real-time mode.

@@ -12,7 +12,7 @@ use crate::{Console, LogLine, RunTotals};
 
 /// Output format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Format {
+pub(in crate::cli) enum Format {
     Text,
     /// One object per line, distinguished by its `type`.
     Json,
@@ -20,7 +20,7 @@ pub(super) enum Format {
 
 /// Writes the lines of a simulator and the command line's own.
 #[derive(Clone)]
-pub(super) struct Output {
+pub(in crate::cli) struct Output {
     format: Format,
     /// Suppress the simulator's own messages.
     quiet: bool,
@@ -29,17 +29,17 @@ pub(super) struct Output {
 }
 
 impl Output {
-    pub(super) fn new(format: Format, quiet: bool, bar: ProgressBar) -> Self {
+    pub(in crate::cli) fn new(format: Format, quiet: bool, bar: ProgressBar) -> Self {
         Self { format, quiet, bar }
     }
 
     /// A message of the command line itself, under the simulator's name in the log.
-    pub(super) fn note(&self, text: &str, time: f64) {
+    pub(in crate::cli) fn note(&self, text: &str, time: f64) {
         self.write_log(&LogLine { origin: "CoppeliaSim", level: verbosity::SCRIPT_INFOS, text, time, status: true });
     }
 
     /// Reports the address of a server.
-    pub(super) fn listening(&self, api: &str, address: SocketAddr) {
+    pub(in crate::cli) fn listening(&self, api: &str, address: SocketAddr) {
         match self.format {
             Format::Text => write_stdout(format!("{api} remote API at {address}").as_bytes()),
             Format::Json => write_json(&json!({
@@ -49,7 +49,7 @@ impl Output {
     }
 
     /// The last line: steps, times and errors of the run.
-    pub(super) fn summary(&self, totals: RunTotals, wall: Duration, errors: u64, exit_code: u8) {
+    pub(in crate::cli) fn summary(&self, totals: RunTotals, wall: Duration, errors: u64, exit_code: u8) {
         if self.quiet {
             return;
         }

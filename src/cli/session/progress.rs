@@ -11,7 +11,7 @@ use crate::{RunLimits, Simulator};
 const LONG: Duration = Duration::from_secs(1);
 
 /// The bar and what it counts.
-pub(super) struct Progress {
+pub(in crate::cli) struct Progress {
     bar: ProgressBar,
     limits: RunLimits,
     begun: Instant,
@@ -21,7 +21,7 @@ pub(super) struct Progress {
 
 impl Progress {
     /// A bar that stays hidden at first; for good when `hidden`, without a known end, or without a terminal.
-    pub(super) fn new(limits: RunLimits, hidden: bool) -> Self {
+    pub(in crate::cli) fn new(limits: RunLimits, hidden: bool) -> Self {
         let length = limits.steps.or(limits.time.map(milliseconds));
         let bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::hidden());
         let waiting = !hidden && length.is_some() && std::io::stderr().is_terminal();
@@ -29,11 +29,11 @@ impl Progress {
     }
 
     /// The bar, for callers that write to the terminal while it shows.
-    pub(super) fn bar(&self) -> ProgressBar {
+    pub(in crate::cli) fn bar(&self) -> ProgressBar {
         self.bar.clone()
     }
 
-    pub(super) fn show(&mut self, sim: &Simulator) {
+    pub(in crate::cli) fn show(&mut self, sim: &Simulator) {
         if self.waiting && self.begun.elapsed() > LONG {
             self.waiting = false;
             let style = ProgressStyle::with_template("{bar:40} {percent}% {msg}, {eta} left");
@@ -47,7 +47,7 @@ impl Progress {
         }
     }
 
-    pub(super) fn finish(&self) {
+    pub(in crate::cli) fn finish(&self) {
         self.bar.finish_and_clear();
     }
 }

@@ -13,7 +13,7 @@ use crate::{Options, ScriptKind, Simulator};
 
 /// Simulator options
 #[derive(clap::Args)]
-pub(super) struct Setup {
+pub(in crate::cli) struct Setup {
     /// Start with an empty scene instead of the default scene
     #[arg(long)]
     pub empty: bool,
@@ -63,7 +63,7 @@ enum Scene {
 }
 
 /// The files of the command line, read.
-pub(super) struct Sources {
+pub(in crate::cli) struct Sources {
     scene: Option<Scene>,
     add_ons: Vec<Source>,
 }
@@ -73,7 +73,7 @@ impl Setup {
     ///
     /// # Errors
     /// When one cannot be read.
-    pub(super) fn sources(&self, scene: Option<&Path>) -> Result<Sources, String> {
+    pub(in crate::cli) fn sources(&self, scene: Option<&Path>) -> Result<Sources, String> {
         let add_ons = self.addon.iter().map(|path| read(path).map(|source| self.up_to_date(source)));
         let add_ons = add_ons.collect::<Result<_, _>>()?;
         let scene = scene.map(read_scene).transpose()?.map(|scene| match scene {
@@ -88,15 +88,15 @@ impl Setup {
     }
 
     /// The named parameter of the command line.
-    pub(super) fn param(&self, name: &str) -> Option<&str> {
+    pub(in crate::cli) fn param(&self, name: &str) -> Option<&str> {
         self.define.iter().rev().find(|(defined, _)| defined == name).map(|(_, value)| value.as_str())
     }
 
-    pub(super) fn output(&self, progress: &Progress) -> Output {
+    pub(in crate::cli) fn output(&self, progress: &Progress) -> Output {
         Output::new(if self.json { Format::Json } else { Format::Text }, self.quiet, progress.bar())
     }
 
-    pub(super) fn options(&self, scene: Option<&Path>, interrupt: &Interrupt) -> Options {
+    pub(in crate::cli) fn options(&self, scene: Option<&Path>, interrupt: &Interrupt) -> Options {
         let mut options = Options {
             named_params: self.define.iter().cloned().collect(),
             data_dir: self.data_dir.clone(),
@@ -111,7 +111,7 @@ impl Setup {
     }
 
     /// Add-ons come with the application, so they start first; then the scene and its script.
-    pub(super) fn fill(&self, sim: &mut Simulator, sources: Sources, kind: ScriptKind, scene: Option<&Path>) {
+    pub(in crate::cli) fn fill(&self, sim: &mut Simulator, sources: Sources, kind: ScriptKind, scene: Option<&Path>) {
         for (name, code) in &sources.add_ons {
             // A script that fails has said so in the log, and is counted.
             let _ = sim.add_script(ScriptKind::AddOn, name, code);
@@ -187,7 +187,7 @@ fn folder_of(file: &Path) -> PathBuf {
 }
 
 /// A number of seconds, zero or more.
-pub(super) fn seconds(text: &str) -> Result<f64, String> {
+pub(in crate::cli) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds >= 0.0 && seconds.is_finite() => Ok(seconds),
         _ => Err("a number of seconds is needed".into()),
@@ -199,7 +199,7 @@ fn step_length(text: &str) -> Result<f64, String> {
     if (0.0001..=10.0).contains(&dt) { Ok(dt) } else { Err("a step lasts 0.0001 to 10 seconds".into()) }
 }
 
-pub(super) fn named_param(text: &str) -> Result<(String, String), String> {
+pub(in crate::cli) fn named_param(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((name, value)) if !name.is_empty() => Ok((name.to_owned(), value.to_owned())),
         _ => Err("NAME=VALUE is needed".into()),

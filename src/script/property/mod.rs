@@ -4,25 +4,12 @@
 //! targets.
 
 mod access;
-mod app;
-mod colour;
-mod display;
-mod dummy;
-mod engine;
-mod force_sensor;
 mod inert;
-mod joint;
-mod mesh;
 mod model_hash;
-mod object;
-mod proximity_sensor;
-mod scene;
-mod script;
-mod shape;
 mod stored;
 pub(crate) mod table;
+mod types;
 mod value;
-mod view;
 
 use std::rc::Rc;
 
@@ -33,10 +20,14 @@ use crate::scene::tree::script_object::ScriptType;
 use crate::scene::{Data, FIRST_MESH_UID, Handle, Namespace, Uid, ValueType, special};
 use access::{Accessor, Subject};
 use table::Source;
+use types::{
+    app, colour, display, dummy, engine, force_sensor, joint, mesh, object, proximity_sensor, scene, script, shape,
+    view,
+};
 
-pub(crate) use app::AppData;
 pub(crate) use stored::SignalOwners;
 pub(crate) use table::{Class, Row, app_class, flags, mesh_class, object_class, scene_class, script_class};
+pub(crate) use types::app::AppData;
 pub use value::{Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2, Vector3};
 
 /// What has properties.

@@ -1,4 +1,4 @@
-//! The table of static properties: `static.tsv` says which there are and what becomes of them, the files beside it how those that have
+//! The table of static properties: `static.tsv` says which there are and what becomes of them, the files in `types` how those that have
 //! a meaning are read and written.
 
 use std::collections::HashMap;

@@ -62,7 +62,7 @@ impl AppData {
     }
 }
 
-pub(super) const APP: &[Accessor] = subject_properties! {
+pub(in crate::script::property) const APP: &[Accessor] = subject_properties! {
     "sessionId": String, |s| s.sim.session_id();
     "platform": i64, |_s| platform();
     "protocolVersion": i64, |s| s.sim.events.protocol.get() as i64, |s, number| {
@@ -76,7 +76,7 @@ pub(super) const APP: &[Accessor] = subject_properties! {
 };
 
 /// Levels by their name, to be written only.
-pub(super) const VERBOSITY_WORDS: &[Accessor] = &[
+pub(in crate::script::property) const VERBOSITY_WORDS: &[Accessor] = &[
     Accessor { name: "consoleVerbosityStr", read: None, write: Some(set_console_level) },
     Accessor {
         name: "statusbarVerbosityStr",
@@ -87,7 +87,7 @@ pub(super) const VERBOSITY_WORDS: &[Accessor] = &[
 ];
 
 /// Folders this program has. Those of CoppeliaSim's installation are empty: what they hold is part of the program.
-pub(super) const PATHS: &[Accessor] = subject_properties! {
+pub(in crate::script::property) const PATHS: &[Accessor] = subject_properties! {
     "appPath": String, |_s| program_folder();
     "tempPath": String, |_s| temporary_folder();
     "sceneTempPath": String, |_s| temporary_folder();
@@ -95,7 +95,7 @@ pub(super) const PATHS: &[Accessor] = subject_properties! {
 };
 
 /// Each reading gives another value, from the generator of the application.
-pub(super) const RANDOM: &[Accessor] = subject_properties! {
+pub(in crate::script::property) const RANDOM: &[Accessor] = subject_properties! {
     "randomQuaternion": Quaternion, |s| Quaternion(quaternion_to_array(&s.sim.app.borrow_mut().random.rotation()));
     "randomFloat": f64, |s| s.sim.app.borrow_mut().random.next();
     "randomString": String, |s| s.sim.app.borrow_mut().random.string(RANDOM_LETTERS);

@@ -60,11 +60,11 @@ macro_rules! colours {
     } };
 }
 
-pub(super) const COLOUR: &[Accessor] =
+pub(in crate::script::property) const COLOUR: &[Accessor] =
     colours!(Body: "color.diffuse", "color.specular", "color.emission", "color.transparency");
 
-pub(super) const RAY_COLOUR: &[Accessor] =
+pub(in crate::script::property) const RAY_COLOUR: &[Accessor] =
     colours!(Emitted: "rayColor.diffuse", "rayColor.specular", "rayColor.emission", "rayColor.transparency");
 
-pub(super) const LIGHT_COLOUR: &[Accessor] =
+pub(in crate::script::property) const LIGHT_COLOUR: &[Accessor] =
     colours!(Emitted: "lightColor.diffuse", "lightColor.specular", "lightColor.emission");

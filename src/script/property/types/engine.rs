@@ -12,7 +12,7 @@ use crate::script::error::{ApiError, ApiResult};
 
 macro_rules! engine_properties {
     ($($name:ident $owner:ident;)*) => { $(
-        pub(super) const $name: &[Accessor] = subject_properties! {
+        pub(in crate::script::property) const $name: &[Accessor] = subject_properties! {
             "engineProperties": String, |s| read(s, EngineOwner::$owner)?, |s, json| write(s, EngineOwner::$owner, &json)?;
         };
     )* };

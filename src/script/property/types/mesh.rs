@@ -14,7 +14,11 @@ use crate::script::sim::Sim;
 
 impl Sim {
     /// The result of `read` for a mesh and its shape.
-    pub(super) fn with_mesh<R>(&self, uid: Uid, read: impl FnOnce(&Object, &Part) -> R) -> ApiResult<R> {
+    pub(in crate::script::property) fn with_mesh<R>(
+        &self,
+        uid: Uid,
+        read: impl FnOnce(&Object, &Part) -> R,
+    ) -> ApiResult<R> {
         let scene = self.scene.borrow();
         let (handle, index) = scene.mesh(uid).ok_or(ApiError::NoSuchTarget)?;
         let object = scene.object(handle)?;
@@ -64,7 +68,7 @@ impl Subject<'_> {
     }
 }
 
-pub(super) const TEXTURE: &[Accessor] = subject_properties! {
+pub(in crate::script::property) const TEXTURE: &[Accessor] = subject_properties! {
     "textureResolution": IntPair, |s| IntPair(s.image([0; 2], |image| image.size().map(i64::from))?);
     "textureCoordinates": Vec<f64>,
         |s| s.texture(Vec::new(), |texture| texture.coordinates.iter().copied().map(f64::from).collect())?;
@@ -80,7 +84,7 @@ pub(super) const TEXTURE: &[Accessor] = subject_properties! {
     "textureID": i64, |s| s.texture(-1, |texture| texture.source.raw())?;
 };
 
-pub(super) const MESH: &[Accessor] = subject_properties! {
+pub(in crate::script::property) const MESH: &[Accessor] = subject_properties! {
     "vertices": Vec<f64>, |s| s.geometry(Mesh::flat_vertices)?;
     "indices": Vec<i64>, |s| s.geometry(Mesh::flat_indices)?;
     "normals": Vec<f64>, |s| s.geometry(Mesh::flat_normals)?;

@@ -83,7 +83,7 @@ macro_rules! settings {
     )* } };
 }
 
-pub(super) const SIMULATION: &[Accessor] = subject_properties! {
+pub(in crate::script::property) const SIMULATION: &[Accessor] = subject_properties! {
     "realtimeSimulation": bool, |s| s.sim.scene.borrow().settings().real_time, |s, on| s.sim.set_real_time(on);
     "stepsPerRendering": i64, |s| s.sim.scene.borrow().settings().steps_per_rendering,
         |s, steps| s.sim.set_steps_per_rendering(steps);
@@ -93,7 +93,7 @@ pub(super) const SIMULATION: &[Accessor] = subject_properties! {
     "simulationState": i64, |s| s.sim.clock.state() as i64;
 };
 
-pub(super) const SIMULATION_SETTINGS: &[Accessor] = settings! {
+pub(in crate::script::property) const SIMULATION_SETTINGS: &[Accessor] = settings! {
     "removeNewObjectsAtEnd": bool, |s| s.remove_new_objects_at_end, |s, on| s.remove_new_objects_at_end = on;
     "pauseSimulationAtTime": bool, |s| s.pause_at_time, |s, on| s.pause_at_time = on;
     "pauseSimulationAtError": bool, |s| s.pause_at_error, |s, on| s.pause_at_error = on;
@@ -101,20 +101,20 @@ pub(super) const SIMULATION_SETTINGS: &[Accessor] = settings! {
     "realtimeModifier": f64, |s| s.real_time_factor, |s, factor| s.real_time_factor = factor.clamp(0.001, 100.0);
 };
 
-pub(super) const ENVIRONMENT: &[Accessor] = settings! {
+pub(in crate::script::property) const ENVIRONMENT: &[Accessor] = settings! {
     "visibilityLayers": i64, |s| s.visibility_layers, |s, layers| s.visibility_layers = layers & 0xffff;
     "scenePath": String, |s| s.path.clone(), |s, path| s.path = path;
     "acknowledgment": String, |s| s.acknowledgment.clone(), |s, text| s.acknowledgment = text;
 };
 
-pub(super) const IDENTITY: &[Accessor] = subject_properties! {
+pub(in crate::script::property) const IDENTITY: &[Accessor] = subject_properties! {
     "sceneUid": i64, |s| s.sim.scene_uid();
     "sceneIsLocked": bool, |s| s.sim.scene.borrow().settings().locked;
     "sceneUidString": String, |s| s.sim.scene_uid_text();
 };
 
 /// Settings of the physics that change only while the simulation is stopped.
-pub(super) const PHYSICS: &[Accessor] = subject_properties! {
+pub(in crate::script::property) const PHYSICS: &[Accessor] = subject_properties! {
     "dynamicsEngine": Vec<i64>, |s| s.sim.scene.borrow().settings().dynamics.engine.to_vec(), |s, engine| {
         let [kind, version, ..] = engine[..] else { return Err(ApiError::PropertyNotWritable) };
         s.sim.set_engine([kind, version])?;
@@ -122,7 +122,7 @@ pub(super) const PHYSICS: &[Accessor] = subject_properties! {
     "dynamicsStepSize": f64, |s| s.sim.scene.borrow().settings().dynamics.step, |s, step| s.sim.set_physics_step(step);
 };
 
-pub(super) const CONTAINER: &[Accessor] = subject_properties! {
+pub(in crate::script::property) const CONTAINER: &[Accessor] = subject_properties! {
     "objectCreationCounter": i64, |s| s.sim.counters().creations;
     "objectDestructionCounter": i64, |s| s.sim.counters().destructions;
     "hierarchyChangeCounter": i64, |s| s.sim.counters().hierarchy;
@@ -135,7 +135,7 @@ pub(super) const CONTAINER: &[Accessor] = subject_properties! {
         };
 };
 
-pub(super) const DYNAMICS: &[Accessor] = settings! {
+pub(in crate::script::property) const DYNAMICS: &[Accessor] = settings! {
     "dynamicsEnabled": bool, |s| s.dynamics.enabled, |s, on| s.dynamics.enabled = on;
     "showContactPoints": bool, |s| s.dynamics.show_contact_points, |s, on| s.dynamics.show_contact_points = on;
     "gravity": Vector3, |s| Vector3(Color::from_f32(s.dynamics.gravity).0),

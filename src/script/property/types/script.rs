@@ -71,7 +71,7 @@ impl Subject<'_> {
     }
 }
 
-pub(super) const SCRIPT: &[Accessor] = subject_properties! {
+pub(in crate::script::property) const SCRIPT: &[Accessor] = subject_properties! {
     "scriptDisabled": bool, |s| s.read_script(|o| o.disabled, |d| d.disabled)?,
         |s, on| s.write_script(|o| o.disabled = on, |d| d.disabled = on)?;
     "restartOnError": bool, |s| s.read_script(|o| o.restart_on_error, |d| d.restart_on_error)?,
@@ -88,7 +88,7 @@ pub(super) const SCRIPT: &[Accessor] = subject_properties! {
     "addOnMenuPath": String, |s| s.read_script(|_| String::new(), |_| String::new())?;
 };
 
-pub(super) const SCRIPT_OBJECT: &[Accessor] = object_properties! {
+pub(in crate::script::property) const SCRIPT_OBJECT: &[Accessor] = object_properties! {
     "scriptSize": f64, |o| o.script()?.size, Appearance |o, size| o.script_mut()?.size = size;
     "resetAfterSimError": bool, |o| o.script()?.reset_after_sim_error,
         Other |o, on| o.script_mut()?.reset_after_sim_error = on;

@@ -8,7 +8,7 @@ use super::{Color, Quaternion, Vector3};
 use crate::scene::Field;
 use crate::script::error::ApiError;
 
-pub(super) const SHAPE: &[Accessor] = object_properties! {
+pub(in crate::script::property) const SHAPE: &[Accessor] = object_properties! {
     "respondableMask": i64, |o| o.shape()?.dynamics.respondable_mask,
         Dynamics |o, mask| o.shape_mut()?.dynamics.respondable_mask = mask;
     "startInDynSleepMode": bool, |o| o.shape()?.dynamics.start_asleep,
@@ -49,7 +49,7 @@ macro_rules! applied {
     )* ] };
 }
 
-pub(super) const APPLY: &[Accessor] = applied! {
+pub(in crate::script::property) const APPLY: &[Accessor] = applied! {
     "applyCulling": bool, Appearance |part, on| part.appearance.culling = on;
     "applyShadingAngle": f64, Appearance |part, angle| part.appearance.shading_angle = angle;
     "applyShowEdges": bool, Appearance |part, on| part.appearance.edges = on;
@@ -62,7 +62,7 @@ pub(super) const APPLY: &[Accessor] = applied! {
     "flipFaces": bool, Geometry |part, on| if on { part.flip_faces() };
 };
 
-pub(super) const MASS: &[Accessor] = object_properties! {
+pub(in crate::script::property) const MASS: &[Accessor] = object_properties! {
     "mass": f64, |o| o.shape()?.mass.mass, Geometry |o, mass| {
         o.shape_mut()?.mass.set_mass(mass.finite().ok_or_else(refused)?);
         o.dynamics_reset = true;

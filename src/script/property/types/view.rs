@@ -11,7 +11,7 @@ use crate::script::Bytes;
 /// Angles of view, rad.
 const ANGLES: (f64, f64) = (0.001, 3.1);
 
-pub(super) const VIEWABLE: &[Accessor] = object_properties! {
+pub(in crate::script::property) const VIEWABLE: &[Accessor] = object_properties! {
     "viewAngle": f64, |o| o.view()?.angle,
         Sensor |o, angle| o.view_mut()?.angle = angle.finite().ok_or_else(refused)?.clamp(ANGLES.0, ANGLES.1);
     "viewSize": f64, |o| o.view()?.ortho_size, Sensor |o, size| o.view_mut()?.ortho_size = length(size)?;
@@ -28,7 +28,7 @@ pub(super) const VIEWABLE: &[Accessor] = object_properties! {
         };
 };
 
-pub(super) const VISION_SENSOR: &[Accessor] = object_properties! {
+pub(in crate::script::property) const VISION_SENSOR: &[Accessor] = object_properties! {
     "sensorSize": f64, |o| o.vision_sensor()?.size, Appearance |o, size| o.vision_sensor_mut()?.size = length(size)?;
     "backgroundColor": Color, |o| Color::from_f32(o.vision_sensor()?.background),
         Sensor |o, colour| o.vision_sensor_mut()?.background = colour.to_f32();
@@ -55,11 +55,11 @@ pub(super) const VISION_SENSOR: &[Accessor] = object_properties! {
     "depthBuffer": Vec<f64>, |o| o.vision_sensor()?.depth.iter().map(|&depth| depth.into()).collect();
 };
 
-pub(super) const CAMERA: &[Accessor] = object_properties! {
+pub(in crate::script::property) const CAMERA: &[Accessor] = object_properties! {
     "cameraSize": f64, |o| o.camera()?.size, Appearance |o, size| o.camera_mut()?.size = length(size)?;
 };
 
-pub(super) const TRACKED: &[Accessor] = placed_properties! {
+pub(in crate::script::property) const TRACKED: &[Accessor] = placed_properties! {
     "trackedObjectHandle": i64, |s, h| s.object(h)?.camera()?.tracked.map_or(-1, Handle::raw),
         |s, h, tracked| s.track(h, tracked)?;
 };
