@@ -75,14 +75,8 @@ impl Scene {
 
     /// Puts `handle` at `pose` expressed in `frame`; its children move along.
     pub fn set_pose_in(&mut self, handle: Handle, pose: Pose, frame: Frame, joint_base: bool) -> SceneResult<()> {
-        let parent = self.object(handle)?.parent();
-        let local = match frame {
-            Frame::Parent => pose,
-            Frame::Object(other) if !joint_base && parent == Some(other) => pose,
-            Frame::World if parent.is_none() => pose,
-            Frame::Inverse => self.parent_frame(handle)?.inverse() * pose.inverse(),
-            _ => self.parent_frame(handle)?.inverse() * self.frame_pose(handle, frame, joint_base)? * pose,
-        };
+        let pose = if frame == Frame::Inverse { pose.inverse() } else { pose };
+        let local = self.frame_to_parent(handle, frame, joint_base)?.map_or(pose, |to_parent| to_parent * pose);
         self.set_local_pose(handle, local)
     }
 
@@ -119,17 +113,7 @@ impl Scene {
     /// The pose in the parent's frame that `placement` means.
     fn local_pose_of(&self, handle: Handle, placement: Placement, frame: Frame, joint_base: bool) -> SceneResult<Pose> {
         let object = self.object(handle)?;
-        let parent = object.parent();
-        let direct = match frame {
-            Frame::Parent => true,
-            Frame::World => parent.is_none(),
-            Frame::Object(other) => !joint_base && parent == Some(other),
-            Frame::Inverse => false,
-        };
-        let to_local = match frame {
-            _ if direct => Pose::identity(),
-            _ => self.parent_frame(handle)?.inverse() * self.frame_pose(handle, frame, joint_base)?,
-        };
+        let to_local = self.frame_to_parent(handle, frame, joint_base)?.unwrap_or_else(Pose::identity);
         let inverse = frame == Frame::Inverse;
         Ok(match placement {
             Placement::Pose(pose) => to_local * if inverse { pose.inverse() } else { pose },
@@ -142,6 +126,21 @@ impl Scene {
                 Pose::from_parts(object.pose().translation, to_local.rotation * rotation)
             }
         })
+    }
+
+    /// From `frame` to the frame `handle` lives in; None where the two are the same.
+    fn frame_to_parent(&self, handle: Handle, frame: Frame, joint_base: bool) -> SceneResult<Option<Pose>> {
+        let parent = self.object(handle)?.parent();
+        let is_same = match frame {
+            Frame::Parent => true,
+            Frame::World => parent.is_none(),
+            Frame::Object(other) => !joint_base && parent == Some(other),
+            Frame::Inverse => false,
+        };
+        if is_same {
+            return Ok(None);
+        }
+        Ok(Some(self.parent_frame(handle)?.inverse() * self.frame_pose(handle, frame, joint_base)?))
     }
 
     /// Requests that the physics rebuilds `handle` and all below it.
