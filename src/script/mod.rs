@@ -25,7 +25,8 @@ pub use binding::cx::Cx;
 pub use binding::module::Module;
 pub use binding::returns::{IntoScript, Nil, Results};
 #[doc(hidden)]
-pub use binding::source::{Sink, Source, Values};
+pub use binding::sink::Sink;
+pub use binding::source::{Source, Values};
 pub use binding::{ApiFn, Param};
 pub use calls::callback::SysCall;
 pub use calls::threads::LevelChange;

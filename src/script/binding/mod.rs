@@ -7,6 +7,7 @@ pub(in crate::script) mod data;
 pub(in crate::script) mod module;
 pub(in crate::script) mod registry;
 pub(in crate::script) mod returns;
+pub(in crate::script) mod sink;
 pub(in crate::script) mod source;
 pub(in crate::script) mod states;
 

@@ -95,9 +95,10 @@ impl Namespace {
         names
     }
 
-    /// The members that need no Lua file, in the order in which the module lists them, then what is missing.
+    /// The members that need no Lua file, in the order in which the module lists them, then what is missing, in alphabetical order.
     pub(crate) fn listed(&self) -> impl Iterator<Item = (&'static str, Member)> {
-        self.listed.iter().filter_map(|&name| Some((name, self.get(name)?)))
+        let missing = self.names().into_iter().filter(|name| matches!(self.get(name), Some(Member::Missing(_))));
+        self.listed.iter().copied().chain(missing).filter_map(|name| Some((name, self.get(name)?)))
     }
 
     /// The member that a global name from before there were modules stands for.
@@ -291,5 +292,22 @@ fn add_lua_members(
             let replacement = deprecated.get(function).copied();
             namespace.members.insert(function, Member::Lua { file, function, replacement });
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Member, Module, Registry};
+
+    #[test]
+    fn members_are_listed_before_what_is_missing() {
+        static MODULE: Module =
+            Module { constants: "second\t2\nfirst\t1\n", reference: "z\nfirst\na\n", ..Module::new("m") };
+        let registry = Registry::new(&[&MODULE], &[]);
+        let listed: Vec<_> = registry.module("m").expect("it was bound").listed().collect();
+        let names: Vec<_> = listed.iter().map(|(name, _)| *name).collect();
+        assert_eq!(names, ["second", "first", "a", "z"]);
+        assert!(matches!(listed[1].1, Member::Constant(1)));
+        assert!(matches!(listed[2].1, Member::Missing(_)));
     }
 }

@@ -1,7 +1,7 @@
 //! Encoding: from the results of an API function to values on a Lua stack.
 
 use super::args::{Bytes, Table};
-use super::source::Sink;
+use super::sink::Sink;
 use crate::scene::{Data, Handle};
 use crate::script::error::{ApiError, ApiResult};
 

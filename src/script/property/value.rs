@@ -3,7 +3,8 @@
 use crate::scene::{Data, Key, ValueType};
 use crate::script::binding::args::{Args, Bytes, FromScript, Table};
 use crate::script::binding::returns::IntoScript;
-use crate::script::binding::source::{Sink, Source};
+use crate::script::binding::sink::Sink;
+use crate::script::binding::source::Source;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lua::Type;
 
