@@ -27,12 +27,12 @@ const CALLER: &str = "
     end";
 
 /// A simulator with a joint, a shape and a dummy.
-struct Door {
+struct Fixture {
     sim: Simulator,
     script: ScriptRef,
 }
 
-impl Door {
+impl Fixture {
     fn new() -> Self {
         let mut sim = Simulator::new(Options::default());
         let code = "sim = require 'sim' sim.createJoint(sim.joint_revolute, sim.jointmode_kinematic, 0)
@@ -105,8 +105,8 @@ fn fields(entries: &[(Key, Data)]) -> String {
     fields.join(", ")
 }
 
-/// The answers of both doors to one call; None where they agree.
-fn difference(first: &mut Door, second: &mut Door, name: &str, args: &[Data]) -> Option<String> {
+/// The answers of both ways to make one call; None where they agree.
+fn difference(first: &mut Fixture, second: &mut Fixture, name: &str, args: &[Data]) -> Option<String> {
     let (script, values) = (first.by_script(name, args), second.by_values(name, args));
     let agree = match (&script, &values) {
         (Ok(script), Ok(values)) => text(script) == text(values),
@@ -128,7 +128,7 @@ fn both_doors_give_the_same_answers() {
     assert!(names.len() > 300, "the functions of sim are read: {}", names.len());
     let mut differences = Vec::new();
     for chunk in names.chunks(60) {
-        let (mut first, mut second) = (Door::new(), Door::new());
+        let (mut first, mut second) = (Fixture::new(), Fixture::new());
         let objects: Vec<i64> = first.sim.scene().objects().map(|object| object.handle().raw()).collect();
         for name in chunk {
             for args in argument_lists(&objects) {
@@ -141,25 +141,28 @@ fn both_doors_give_the_same_answers() {
 
 #[test]
 fn functions_are_called_from_rust() {
-    let mut door = Door::new();
-    let dummy = door.sim.call_api("sim.createDummy", &[Data::Float(0.1)]).expect("there is room").remove(0);
+    let mut fixture = Fixture::new();
+    let dummy = fixture.sim.call_api("sim.createDummy", &[Data::Float(0.1)]).expect("there is room").remove(0);
     let place = Data::Array(vec![Data::Float(1.0), Data::Float(2.0), Data::Float(3.0)]);
-    assert_eq!(door.sim.call_api("sim.setObjectPosition", &[dummy.clone(), place.clone()]), Ok(vec![]));
-    assert_eq!(door.sim.call_api("sim.getObjectPosition", std::slice::from_ref(&dummy)), Ok(vec![place]));
-    assert_eq!(door.sim.call_api("sim.isHandle", &[dummy]), Ok(vec![Data::Bool(true)]));
-    let refused = door.sim.call_api("sim.getObjectPosition", &[Data::text("x")]).expect_err("no handle");
+    assert_eq!(fixture.sim.call_api("sim.setObjectPosition", &[dummy.clone(), place.clone()]), Ok(vec![]));
+    assert_eq!(fixture.sim.call_api("sim.getObjectPosition", std::slice::from_ref(&dummy)), Ok(vec![place]));
+    assert_eq!(fixture.sim.call_api("sim.isHandle", &[dummy]), Ok(vec![Data::Bool(true)]));
+    let refused = fixture.sim.call_api("sim.getObjectPosition", &[Data::text("x")]).expect_err("no handle");
     assert_eq!(refused.to_string(), "argument 1 is not a number.");
-    let missing = door.sim.call_api("sim.checkVisionSensor", &[]).expect_err("it is not built");
+    let missing = fixture.sim.call_api("sim.checkVisionSensor", &[]).expect_err("it is not built");
     assert_eq!(missing.to_string(), "not implemented in Swanilda: sim.checkVisionSensor");
-    let needs_lua = door.sim.call_api("setAutoYield", &[Data::Bool(false)]).expect_err("there is no coroutine");
+    let needs_lua = fixture.sim.call_api("setAutoYield", &[Data::Bool(false)]).expect_err("there is no coroutine");
     assert_eq!(needs_lua.to_string(), "can only be called by a Lua script.");
-    assert!(door.sim.call_api("sim.noSuchFunction", &[]).is_err());
+    assert!(fixture.sim.call_api("sim.noSuchFunction", &[]).is_err());
 }
 
 #[test]
 fn functions_of_other_modules_and_those_in_lua_are_called_from_rust() {
-    let mut door = Door::new();
-    assert_eq!(door.sim.call_api("simZMQ.z85_encode", &[Data::text("\u{1}\u{2}\u{3}\u{4}")]).map(|r| r.len()), Ok(1));
+    let mut fixture = Fixture::new();
+    assert_eq!(
+        fixture.sim.call_api("simZMQ.z85_encode", &[Data::text("\u{1}\u{2}\u{3}\u{4}")]).map(|r| r.len()),
+        Ok(1)
+    );
     let distance = [Data::Array(vec![0.0.into(), 0.0.into()]), Data::Array(vec![3.0.into(), 4.0.into()])];
-    assert_eq!(door.sim.call_api("sim.getConfigDistance", &distance), Ok(vec![Data::Float(5.0)]));
+    assert_eq!(fixture.sim.call_api("sim.getConfigDistance", &distance), Ok(vec![Data::Float(5.0)]));
 }

@@ -22,28 +22,28 @@ const NAMES: &[ApiFn] = functions![members];
 
 /// Where programs outside reach a simulator.
 #[derive(Default)]
-struct Doors {
+struct Listeners {
     zmq_server: RefCell<Option<Rc<ZmqServer>>>,
     web_socket_listener: RefCell<Option<TcpListener>>,
 }
 
 /// Lets programs outside call functions by ZeroMQ.
 pub(crate) fn set_zmq_server(states: &States, server: ZmqServer) {
-    states.get::<Doors>().zmq_server.replace(Some(Rc::new(server)));
+    states.get::<Listeners>().zmq_server.replace(Some(Rc::new(server)));
 }
 
 /// Where the WebSocket remote API is to listen.
 pub(crate) fn set_web_socket_listener(states: &States, listener: TcpListener) {
-    states.get::<Doors>().web_socket_listener.replace(Some(listener));
+    states.get::<Listeners>().web_socket_listener.replace(Some(listener));
 }
 
 fn zmq_server(cx: &Cx) -> Option<Rc<ZmqServer>> {
-    cx.module_state::<Doors>().zmq_server.borrow().clone()
+    cx.module_state::<Listeners>().zmq_server.borrow().clone()
 }
 
 /// The listener of the WebSocket remote API, if there is one.
 pub(super) fn listener(cx: &Cx) -> Option<std::io::Result<TcpListener>> {
-    cx.module_state::<Doors>().web_socket_listener.borrow().as_ref().map(TcpListener::try_clone)
+    cx.module_state::<Listeners>().web_socket_listener.borrow().as_ref().map(TcpListener::try_clone)
 }
 
 /// Longest wait, seconds: the simulator must look after itself from time to time.

@@ -1,4 +1,4 @@
-//! Poses of objects: local poses, relative frames, setting poses. World poses are next door, in `world`.
+//! Poses of objects: local poses, relative frames, setting poses. World poses are in `world`.
 
 use geometry::pose::velocity;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};

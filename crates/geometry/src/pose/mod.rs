@@ -1,4 +1,4 @@
-//! Poses and matrices: pure maths, no scene. Angles are next door, in `euler`.
+//! Poses and matrices: pure maths, no scene. Angles are in `euler`.
 //!
 //! Positions are in metres, angles in radians. At the scripting edge a pose is
 //! `[x, y, z, qx, qy, qz, qw]`, a matrix the upper 3x4 block in row-major order, an
