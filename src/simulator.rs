@@ -15,7 +15,7 @@ use std::time::Duration;
 use crate::format::scene_file::SceneFile;
 use crate::io::ZmqServer;
 use crate::modules;
-use crate::scene::tree::script_object::{ScriptObject, ScriptType};
+use crate::scene::object::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, Scene};
 use crate::script::coverage::LineCounts;
 use crate::script::{

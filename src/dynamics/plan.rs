@@ -11,8 +11,8 @@ use geometry::{Finite, MassProperties, Mesh};
 
 use super::frozen::Frozen;
 use crate::scene::joint::{Joint, JointMode, JointSolver, JointType};
+use crate::scene::object::dummy::LinkType;
 use crate::scene::shape::{Primitive, Shape};
-use crate::scene::tree::dummy::LinkType;
 use crate::scene::{Handle, Kind, ModelFlags, Object, Pose, Scene, Uid};
 
 /// `sim.physics_mujoco`.

@@ -5,12 +5,12 @@
 
 use super::appearance::texture_mapping::Textures;
 use super::joint::dependency::DependentJoints;
+use super::object::identity;
+use super::object::objects::Objects;
+use super::object::{Kind, Object};
 use super::shape::mesh_owners::MeshOwners;
 use super::shape::{Part, Shape};
 use super::tree::collection::Collections;
-use super::tree::identity;
-use super::tree::object::{Kind, Object};
-use super::tree::objects::Objects;
 use super::tree::references::Referrers;
 use super::tree::selection::Selection;
 use super::{Change, CustomData, Field, Handle, InertValues, Journal, SceneResult, Settings, Uid};

@@ -22,7 +22,7 @@ function placed() return place end
 
 fn simulator() -> (Simulator, Handle) {
     let mut sim = Simulator::new(Options::default());
-    let dummy = Kind::Dummy(crate::scene::tree::dummy::Dummy::new(0.01));
+    let dummy = Kind::Dummy(crate::scene::object::dummy::Dummy::new(0.01));
     let dummy = sim.scene_mut().add("watched", dummy).expect("there is room");
     (sim, dummy)
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::format::scene_input::SceneInput;
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::script::TestBench;
 use crate::script::test_bench::{RunReport, RunRequest};
 use crate::{Onlooker, Options, RunLimits, RunTotals, ScriptKind, Simulator};

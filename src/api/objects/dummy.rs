@@ -3,7 +3,7 @@
 use api_macro::api;
 
 use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::tree::dummy::Dummy;
+use crate::scene::object::dummy::Dummy;
 use crate::scene::{Handle, Kind};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![create_dummy, get_link_dummy, set_link_dummy];

@@ -6,7 +6,7 @@ use api_macro::api;
 
 use crate::api::scripts::script::script_of;
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Data, Handle, SceneError, ValueType, special};
 use crate::script::{Bytes, Number, Script, Target, Text};
 

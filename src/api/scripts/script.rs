@@ -5,7 +5,7 @@ use std::rc::Rc;
 use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::tree::script_object::{ScriptObject, ScriptType};
+use crate::scene::object::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, SceneError, special};
 use crate::script::Source;
 use crate::script::{Bytes, Number, Rest, Results, Script};

@@ -3,7 +3,7 @@
 use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::script::{Group, Rest, SysCall};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![

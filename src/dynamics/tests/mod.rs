@@ -11,8 +11,8 @@ use bench::{Bench, STEP, along_y, near};
 use super::*;
 use crate::scene::joint::Control;
 use crate::scene::joint::JointType;
+use crate::scene::object::dummy::{Dummy, LinkType};
 use crate::scene::sensor::force_sensor::ForceSensor;
-use crate::scene::tree::dummy::{Dummy, LinkType};
 use crate::scene::{Field, Kind, Pose};
 
 #[test]

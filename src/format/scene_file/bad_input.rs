@@ -65,7 +65,7 @@ fn flipped_bits_do_no_harm() {
 #[test]
 fn an_object_at_no_place_is_an_error() {
     let mut scene = Scene::new();
-    scene.add("far", crate::scene::Kind::Dummy(crate::scene::tree::dummy::Dummy::new(0.1))).unwrap();
+    scene.add("far", crate::scene::Kind::Dummy(crate::scene::object::dummy::Dummy::new(0.1))).unwrap();
     let mut file = super::save::scene(&scene, &[]).unwrap();
     let far = crate::scene::Pose::translation(1e300, 0.0, 0.0);
     file.contents.objects[0].common.pose = Some(far.into());

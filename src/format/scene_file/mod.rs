@@ -21,7 +21,7 @@ pub use read::{is_scene, read_file, read_path};
 pub use write::write_whole;
 
 use crate::format::ttt::{FileResult, container};
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Handle, Scene, SceneResult};
 
 impl SceneFile {

@@ -12,7 +12,7 @@ use super::scene_file::{LoadedScript, SceneFile, save};
 use super::ttt::chunks::MeshPool;
 use super::ttt::node::{Node, NodeResult};
 use super::ttt::{File, Indices, Rest};
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Handle, Scene};
 pub use compare::differences;
 

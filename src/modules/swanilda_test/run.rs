@@ -7,7 +7,7 @@ use api_macro::api;
 
 use super::{bench, line_data};
 use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Data, Key};
 use crate::script::Options;
 use crate::script::test_bench::{RunReport, RunRequest};

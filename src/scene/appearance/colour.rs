@@ -273,7 +273,7 @@ mod tests {
         assert_eq!(scene.object_colour(light, 1, Component::Specular), Ok(Some(vec![1.0, 0.0, 0.0])));
         assert_eq!(scene.object_colour(light, 0, Component::Specular), Ok(Some(vec![0.25; 3])));
         assert_eq!(scene.object_colour(light, 2, Component::Specular), Ok(None));
-        let dummy = scene.add("d", Kind::Dummy(crate::scene::tree::dummy::Dummy::new(0.1))).unwrap();
+        let dummy = scene.add("d", Kind::Dummy(crate::scene::object::dummy::Dummy::new(0.1))).unwrap();
         assert_eq!(scene.set_object_colour(dummy, 1, Component::Specular, &[0.0; 3]), Ok(false));
     }
 }

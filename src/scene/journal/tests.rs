@@ -1,7 +1,7 @@
 //! Readers of different speeds.
 
 use super::*;
-use crate::scene::tree::dummy::Dummy;
+use crate::scene::object::dummy::Dummy;
 use crate::scene::{Kind, Pose, Scene};
 
 const POSES: Topics = Topics::NONE.with_fields(&[Field::Pose]);

@@ -1,9 +1,19 @@
 //! A scene object: the common part, and the part of its type.
 
-use super::assembly::Assembly;
-use super::dummy::Dummy;
-use super::flags::{DynamicFlags, ModelFlags, ObjectFlags, SpecialFlags};
-use super::script_object::ScriptObject;
+pub mod assembly;
+pub mod dummy;
+pub mod flags;
+pub mod handle;
+pub(in crate::scene) mod identity;
+pub(in crate::scene) mod movement;
+pub(in crate::scene) mod objects;
+pub mod script_object;
+
+use assembly::Assembly;
+use dummy::Dummy;
+use flags::{DynamicFlags, ModelFlags, ObjectFlags, SpecialFlags};
+use script_object::ScriptObject;
+
 use crate::scene::appearance::colour::Colour;
 use crate::scene::graph::Graph;
 use crate::scene::joint::Joint;

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::object::{Kind, Object};
+use super::{Kind, Object};
 use crate::scene::pose::world::Moves;
 use crate::scene::{Handle, SceneError, SceneResult, Uid};
 
@@ -115,7 +115,7 @@ fn is_sensor(kind: &Kind) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::tree::dummy::Dummy;
+    use crate::scene::object::dummy::Dummy;
 
     fn add(store: &mut Objects) -> SceneResult<Handle> {
         let handle = store.free_handle()?;

@@ -6,8 +6,8 @@ use super::engine::EngineParam;
 use super::engine::{EngineOwner, Numbered, is_step_size, numbered};
 use super::engine_values::{element, value_in, with_element};
 use crate::scene::joint::Joint;
+use crate::scene::object::dummy::Dummy;
 use crate::scene::shape::Material;
-use crate::scene::tree::dummy::Dummy;
 use crate::scene::{Data, DynamicsSettings, InertValues};
 
 /// The numbers of a row of parameters: the first one of the real ones and how many a file of 4.10 holds, then of the integers.

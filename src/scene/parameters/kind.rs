@@ -1,6 +1,6 @@
 //! Numbered parameters by object type: where a value is stored, and side effects of a change.
 
-use crate::scene::tree::dummy::LinkType;
+use crate::scene::object::dummy::LinkType;
 use crate::scene::{Field, Handle, Kind, Scene, SceneResult};
 
 /// Parameters of shapes whose change needs a new rigid body.

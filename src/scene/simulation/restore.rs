@@ -216,7 +216,7 @@ fn restore_joint(joint: &mut Joint, initial: &Joint) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::tree::dummy::Dummy;
+    use crate::scene::object::dummy::Dummy;
 
     #[test]
     fn a_tree_turned_upside_down_comes_back() {

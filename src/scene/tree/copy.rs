@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::script_object::ScriptObject;
 use crate::scene::appearance::texture_mapping::TextureSource;
+use crate::scene::object::script_object::ScriptObject;
 use crate::scene::pose::placement::normalized;
 use crate::scene::shape::Velocity;
 use crate::scene::{CustomData, DynamicFlags, Handle, Kind, Measured, ModelFlags, Object, Scene, SceneResult};

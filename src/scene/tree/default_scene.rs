@@ -3,7 +3,7 @@
 use geometry::PrimitiveKind;
 use nalgebra::UnitQuaternion;
 
-use super::dummy::Dummy;
+use crate::scene::object::dummy::Dummy;
 use crate::scene::sensor::Light;
 use crate::scene::shape::build::PrimitiveOptions;
 use crate::scene::shape::{Material, Shape};

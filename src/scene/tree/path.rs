@@ -339,7 +339,7 @@ fn wildcard_match(pattern: &[u8], text: &[u8]) -> bool {
 mod tests {
     use super::*;
     use crate::scene::Kind;
-    use crate::scene::tree::dummy::Dummy;
+    use crate::scene::object::dummy::Dummy;
 
     fn dummy(scene: &mut Scene, alias: &str, parent: Option<Handle>) -> Handle {
         let handle = scene.add(alias, Kind::Dummy(Dummy::new(0.01))).unwrap();

@@ -59,7 +59,7 @@ impl Scene {
 mod tests {
     use super::{Change, Data, Field, Scene};
     use crate::scene::journal::{Topics, Unread};
-    use crate::scene::tree::dummy::Dummy;
+    use crate::scene::object::dummy::Dummy;
     use crate::scene::{CopyOptions, Kind};
 
     #[test]

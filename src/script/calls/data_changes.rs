@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::callback::SysCall;
 use crate::scene::journal::ChangedNames;
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Data, Handle, Key, Namespace};
 use crate::script::lifecycle::instance::Script;
 use crate::script::sim::Sim;

@@ -85,7 +85,7 @@ impl Sim {
         }
         let mut vetoed = false;
         for script in self.active_scripts().iter() {
-            let is_main = script.script_type == crate::scene::tree::script_object::ScriptType::Main;
+            let is_main = script.script_type == crate::scene::object::script_object::ScriptType::Main;
             if !is_main && script.base_state() == state::INITIALIZED {
                 let Reply { value, .. } = self.deliver(script, SysCall::BeforeMainScript, &[]);
                 vetoed |= value.as_ref().and_then(|v| v.field("doNotRunMainScript")).is_some_and(Data::truthy);

@@ -20,7 +20,7 @@ use super::lifecycle::{push_args, push_dotted};
 use super::lua::{LuaError, MULTIPLE, Stack, Type};
 use super::sim::Sim;
 use crate::scene::Data;
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use callback::SysCall;
 
 impl Sim {

@@ -23,7 +23,7 @@ use super::lifecycle::env::Runtime;
 use super::lifecycle::instance::Script;
 use super::sim::Sim;
 use crate::scene::Kind;
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 
 /// A text whose lines are counted.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]

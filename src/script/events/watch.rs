@@ -8,7 +8,7 @@ use super::filter::Filters;
 use super::keys::{Keys, keys};
 use super::protocol::Protocol;
 use super::queue::{Class, Entry, Event, Source};
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Data, Field, Handle, Namespace, Object, ValueType};
 use crate::script::lifecycle::instance::Script;
 use crate::script::property::{

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use crate::format::scene_file::{LoadedScript, save, write_whole};
 use crate::format::ttt::File;
 use crate::format::xml::{self, Variant};
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Data, Handle, SceneError};
 use crate::script::calls::callback::SysCall;
 use crate::script::error::ApiResult;

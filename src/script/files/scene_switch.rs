@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use crate::format::scene_file::{Loaded, LoadedScript, SceneFile};
-use crate::scene::tree::script_object::{ScriptObject, ScriptType};
+use crate::scene::object::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Edit, Handle, InertValues, Kind, Namespace, Settings};
 use crate::script::calls::callback::SysCall;
 use crate::script::error::{ApiError, ApiResult};

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::instance::{Detached, Script};
-use crate::scene::tree::script_object::ScriptObject;
+use crate::scene::object::script_object::ScriptObject;
 use crate::scene::{Handle, Scene};
 use crate::script::sim::Sim;
 

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::env::Runtime;
 use crate::scene::Handle;
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 
 /// Base states and bits of a script's state (spec: scripts 3).
 pub(crate) mod state {

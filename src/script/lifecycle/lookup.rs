@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::instance::Script;
 use crate::scene::Handle;
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::sim::Sim;
 

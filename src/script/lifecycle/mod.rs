@@ -25,7 +25,7 @@ use super::log::verbosity;
 use super::lua::{LuaError, MULTIPLE, Stack, Type};
 use super::sim::Sim;
 use crate::scene::Data;
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use env::{Hook, Runtime};
 use instance::{Script, state};
 use level::Level;

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::instance::Script;
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Field, Handle, Mark, ModelFlags, Object, Scene, Topics};
 use crate::script::sim::Sim;
 

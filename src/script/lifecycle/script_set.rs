@@ -7,7 +7,7 @@ use std::rc::Rc;
 use super::instance::{Detached, Script};
 use super::order::OrderCache;
 use crate::scene::Handle;
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::script::calls::callback::SysCall;
 use crate::script::lua::Budget;
 

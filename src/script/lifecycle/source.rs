@@ -2,7 +2,7 @@
 
 use super::instance::Script;
 use crate::scene::Scene;
-use crate::scene::tree::script_object::{ScriptObject, ScriptType};
+use crate::scene::object::script_object::{ScriptObject, ScriptType};
 
 /// A file as Lua shows it in positions: as it is, without quotes.
 fn file_name(path: &str) -> String {

@@ -45,7 +45,7 @@ pub(crate) use text_only::refuse_bytecode;
 #[cfg(test)]
 mod tests {
     use super::State;
-    use crate::scene::tree::script_object::ScriptType;
+    use crate::scene::object::script_object::ScriptType;
     use crate::script::lifecycle::env::Runtime;
     use crate::script::{Detached, Options, Registry, Silent, Sim};
 

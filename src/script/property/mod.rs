@@ -16,7 +16,7 @@ use std::rc::Rc;
 use super::error::{ApiError, ApiResult};
 use super::lifecycle::instance::Script;
 use super::sim::Sim;
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Data, FIRST_MESH_UID, Handle, Namespace, Uid, ValueType, special};
 use access::{Accessor, Subject};
 use table::Source;

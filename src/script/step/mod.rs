@@ -14,7 +14,7 @@ use super::lifecycle::order::Group;
 use super::log::verbosity;
 use super::sim::Sim;
 use crate::scene::Data;
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use clock::SimulationState;
 
 impl Sim {

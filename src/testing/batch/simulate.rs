@@ -9,7 +9,7 @@ use super::super::Config;
 use super::super::apart;
 use super::super::case::{Outcome, Status, TestCase};
 use crate::format::scene_input::SceneInput;
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::script::test_bench::{RunReport, RunRequest};
 use crate::{Limits, Options};
 

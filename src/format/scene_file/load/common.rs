@@ -4,7 +4,7 @@ use super::{Context, custom_data, path};
 use crate::format::ttt::chunks::{Common, UserParams};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{Counted, Text};
-use crate::scene::tree::assembly::Assembly;
+use crate::scene::object::assembly::Assembly;
 use crate::scene::{
     Data, Field, ForbiddenMovements, Handle, ModelFlags, Movement, Object, ObjectFlags, Pose, PreferredAxes, Scene,
     SceneResult, SpecialFlags, clean_alias,

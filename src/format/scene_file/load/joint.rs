@@ -6,9 +6,9 @@ use super::{Context, material};
 use crate::format::ttt::chunks::{Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk};
 use crate::format::ttt::{Text, unit_quaternion};
 use crate::scene::joint::{Control, Joint, JointMode, JointType};
+use crate::scene::object::dummy::{Dummy, LinkType};
 use crate::scene::parameters::engine_blocks::EngineValues;
 use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
-use crate::scene::tree::dummy::{Dummy, LinkType};
 
 /// The step of the physics that gains were multiplied by before 3.1.1.
 const OLD_STEP: f64 = 0.005;

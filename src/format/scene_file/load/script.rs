@@ -9,7 +9,7 @@ use crate::format::scene_file::{LoadedScript, ScriptCode};
 use crate::format::ttt::chunks::{Script as Chunk, ScriptObject as ObjectChunk};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{ScriptText, Text};
-use crate::scene::tree::script_object::{ScriptObject, ScriptType};
+use crate::scene::object::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Field, Handle, Scene, SceneResult};
 
 const THREADED: u8 = 0x1;

@@ -6,9 +6,9 @@ use super::{Context, shape};
 use crate::format::ttt::EngineBlock;
 use crate::format::ttt::chunks::{Colour, Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk};
 use crate::scene::joint::{Control, Joint};
+use crate::scene::object::dummy::Dummy;
 use crate::scene::parameters::engine_blocks::EngineValues;
 use crate::scene::sensor::force_sensor::ForceSensor;
-use crate::scene::tree::dummy::Dummy;
 
 const CYCLIC: u8 = 0x1;
 const MOTOR: u8 = 0x10;

@@ -4,7 +4,7 @@ use crate::format::scene_file::LoadedScript;
 use crate::format::ttt::chunks::{Colour, Script as Chunk, ScriptObject as ObjectChunk};
 use crate::format::ttt::{Counted, ScriptText};
 use crate::scene::Handle;
-use crate::scene::tree::script_object::{ScriptObject, ScriptType};
+use crate::scene::object::script_object::{ScriptObject, ScriptType};
 
 const DISABLED: u8 = 0x2;
 const OWN_MAIN_SCRIPT: u8 = 0x8;

@@ -5,9 +5,9 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::bits;
 use crate::scene::joint::{Joint, JointMode, JointType};
+use crate::scene::object::dummy::Dummy;
 use crate::scene::shape::{Shape, Velocity};
 use crate::scene::simulation::dynamics_report::JointReport;
-use crate::scene::tree::dummy::Dummy;
 use crate::scene::{CopyOptions, DynamicFlags, Field, Handle, Kind, Pose, Scene};
 
 /// A generator of numbers, the same in every run.

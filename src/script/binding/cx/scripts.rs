@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::Cx;
-use crate::scene::tree::script_object::ScriptType;
+use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Data, Handle};
 use crate::script::calls::callback::SysCall;
 use crate::script::error::ApiResult;

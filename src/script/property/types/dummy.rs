@@ -2,7 +2,7 @@
 
 use super::Text;
 use super::access::{Accessor, length, object_properties, placed_properties};
-use crate::scene::tree::dummy::LinkType;
+use crate::scene::object::dummy::LinkType;
 use crate::scene::{Handle, SceneError};
 
 pub(in crate::script::property) const DUMMY: &[Accessor] = object_properties! {

@@ -1,7 +1,7 @@
 //! Properties of script objects and detached scripts.
 
 use super::access::{Accessor, Subject, object_properties, subject_properties};
-use crate::scene::tree::script_object::ScriptObject;
+use crate::scene::object::script_object::ScriptObject;
 use crate::scene::{Field, SceneResult};
 use crate::script::error::ApiResult;
 use crate::script::lifecycle::instance::Detached;
