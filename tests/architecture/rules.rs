@@ -106,9 +106,10 @@ const SCENE: Rooms = &[
     ("joint", &["parameters"]),
     ("pose", &["joint"]),
     ("simulation", &["appearance", "joint", "pose", "shape"]),
-    ("tree", &["appearance", "graph", "joint", "pose", "sensor", "shape", "simulation", "voxels"]),
-    ("parameters", &["appearance", "joint", "sensor", "shape", "tree"]),
-    ("store", &["appearance", "joint", "pose", "shape", "tree"]),
+    ("object", &["appearance", "graph", "joint", "pose", "sensor", "shape", "simulation", "voxels"]),
+    ("tree", &["appearance", "graph", "joint", "object", "pose", "sensor", "shape", "simulation", "voxels"]),
+    ("parameters", &["appearance", "joint", "object", "sensor", "shape"]),
+    ("store", &["appearance", "joint", "object", "pose", "shape", "tree"]),
 ];
 
 const DYNAMICS: Rooms = &[
