@@ -15,7 +15,7 @@ use std::time::Duration;
 use crate::format::scene_file::SceneFile;
 use crate::io::ZmqServer;
 use crate::modules;
-use crate::scene::object::script_object::{ScriptObject, ScriptType};
+use crate::scene::object::script_object::{ExecutionPriority, ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, Scene};
 use crate::script::coverage::LineCounts;
 use crate::script::{
@@ -350,7 +350,7 @@ fn detached(name: &str, code: &[u8]) -> Detached {
         name: name.to_owned(),
         chunk_name: name.to_owned(),
         code: code.to_vec(),
-        priority: 1,
+        priority: ExecutionPriority::Normal,
         ..Detached::default()
     }
 }

@@ -200,7 +200,7 @@ impl Dynamics {
         self.bodies.sweep(f64::from(sub_step) / f64::from(call.sub_steps), world);
         let motions: BTreeMap<Handle, Motion> =
             self.links.iter().map(|(&handle, link)| (handle, link.motion)).collect();
-        let engine = scene.settings().dynamics.engine[0];
+        let engine = scene.settings().dynamics.engine.engine;
         let mut requests = Vec::new();
         for (&handle, link) in &mut self.links {
             let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) else { continue };

@@ -5,6 +5,7 @@
 use motion::{ruckig, ruckig_plan};
 
 use crate::scene::joint::{Control, Joint};
+use crate::scene::parameters::engine::Engine;
 
 /// The time in which position control closes the fraction P of its error, whatever the sub-step.
 const CONTROL_PERIOD: f64 = 0.005;
@@ -43,7 +44,7 @@ pub(super) struct Motor {
 impl Motor {
     /// The order for the next `step` seconds with the gains of that engine; None when the motor is off. Callback control is not decided
     /// here.
-    pub(super) fn drive(&mut self, joint: &Joint, engine: i64, now: Motion, step: f64) -> Option<Drive> {
+    pub(super) fn drive(&mut self, joint: &Joint, engine: Engine, now: Motion, step: f64) -> Option<Drive> {
         let limit = joint.target_force.abs();
         if joint.control != Control::Velocity || !joint.motor_lock || joint.target_velocity != 0.0 {
             self.lock = None;
@@ -151,7 +152,7 @@ mod tests {
     #[test]
     fn position_control_closes_a_tenth_of_the_error_in_five_milliseconds() {
         let joint = Joint { target_position: 0.1, ..joint(Control::Position) };
-        let drive = Motor::default().drive(&joint, 0, AT_ZERO, 0.005).expect("on");
+        let drive = Motor::default().drive(&joint, Engine::Bullet, AT_ZERO, 0.005).expect("on");
         assert!((drive.velocity * 0.005 - 0.01).abs() < 1e-15);
     }
 
@@ -159,7 +160,8 @@ mod tests {
     fn a_spring_pushes_with_its_effort() {
         let joint =
             Joint { spring: [2.0, 0.1], target_velocity: 1000.0, target_position: 0.5, ..joint(Control::Spring) };
-        let drive = Motor::default().drive(&joint, 0, Motion { position: 0.0, velocity: 1.0 }, 0.005).expect("on");
+        let drive =
+            Motor::default().drive(&joint, Engine::Bullet, Motion { position: 0.0, velocity: 1.0 }, 0.005).expect("on");
         assert!((drive.force - 0.9).abs() < 1e-12);
         assert_eq!(drive.velocity, 1000.0);
     }

@@ -12,11 +12,11 @@ use geometry::{Finite, MassProperties, Mesh};
 use super::frozen::Frozen;
 use crate::scene::joint::{Joint, JointMode, JointSolver, JointType};
 use crate::scene::object::dummy::LinkType;
+use crate::scene::parameters::engine::Engine;
 use crate::scene::shape::{Primitive, Shape};
 use crate::scene::{Handle, Kind, ModelFlags, Object, Pose, Scene, Uid};
 
 /// `sim.physics_mujoco`.
-const MUJOCO: i64 = 4;
 /// Root shapes further from the origin than this are out of service with their trees, metres.
 const ACTIVITY_RANGE: f64 = 1000.0;
 
@@ -175,14 +175,14 @@ impl PartForm {
 }
 
 fn surface(scene: &Scene, handle: Handle, shape: &Shape) -> Surface {
-    let engine = scene.settings().dynamics.engine;
-    let (friction, restitution) = shape.material.contact_values(engine);
+    let selected = scene.settings().dynamics.engine;
+    let (friction, restitution) = shape.material.contact_values(selected);
     let suspended = shape.dynamics.respondable_suspend_count > 0;
     Surface {
         root: scene.root_of(handle),
-        mask: if suspended { 0 } else { shape.dynamics.respondable_mask as u16 },
+        mask: if suspended { 0 } else { shape.dynamics.respondable_mask.bits() },
         friction,
-        friction_rule: if engine[0] == MUJOCO { FrictionRule::Largest } else { FrictionRule::Product },
+        friction_rule: if selected.engine == Engine::Mujoco { FrictionRule::Largest } else { FrictionRule::Product },
         restitution,
         linear_damping: shape.material.linear_damping,
         angular_damping: shape.material.angular_damping,

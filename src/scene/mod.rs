@@ -23,14 +23,16 @@ pub use geometry::Pose;
 
 pub use error::{SceneError, SceneResult};
 pub use journal::{Change, Counters, Cursor, Field, Journal, Mark, Topic, Topics, Unread};
-pub use object::flags::{DynamicFlags, ForbiddenMovements, ModelFlags, ObjectFlags, PreferredAxes, SpecialFlags};
+pub use object::flags::{
+    DynamicFlags, ForbiddenMovements, Layers, ModelFlags, ObjectFlags, PreferredAxes, SpecialFlags,
+};
 pub use object::handle::{Handle, Uid, flag, special};
 pub use object::movement::Movement;
 pub use object::{Kind, Measured, Object};
 pub use pose::placement::{Frame, Placement};
 pub use simulation::settings::{DynamicsSettings, Settings};
 pub use store::{FIRST_MESH_UID, Scene};
-pub use tree::collection::{Collection, CollectionItem, Collections};
+pub use tree::collection::{Collection, CollectionItem, CollectionOptions, Collections, ItemOptions, Members};
 pub use tree::copy::CopyOptions;
 pub use tree::path::clean_alias;
 pub use tree::references::{ReferenceLists, References};

@@ -105,7 +105,7 @@ const SCENE: Rooms = &[
     ("shape", &["appearance", "voxels"]),
     ("joint", &["parameters"]),
     ("pose", &["joint"]),
-    ("simulation", &["appearance", "joint", "pose", "shape"]),
+    ("simulation", &["appearance", "joint", "parameters", "pose", "shape"]),
     ("object", &["appearance", "graph", "joint", "pose", "sensor", "shape", "simulation", "voxels"]),
     ("tree", &["appearance", "graph", "joint", "object", "pose", "sensor", "shape", "simulation", "voxels"]),
     ("parameters", &["appearance", "joint", "object", "sensor", "shape"]),

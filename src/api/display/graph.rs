@@ -6,7 +6,7 @@ use api_macro::api;
 use geometry::Finite;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::graph::{Curve, Graph, Stream, Style, Transformation, TransformationKind};
+use crate::scene::graph::{Curve, Graph, GraphOptions, Stream, Style, Transformation, TransformationKind};
 use crate::scene::{Data, Field, Handle, Kind, Object, SceneError, special};
 use crate::script::{Number, Results};
 
@@ -24,14 +24,6 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     reset_graph,
 ];
 
-/// Bits of the options of streams; a curve of three dimensions has the first where its points are in the world.
-mod option {
-    pub const HIDDEN: i64 = 1;
-    pub const IN_WORLD: i64 = 1;
-    pub const NO_LABEL: i64 = 2;
-    pub const NOT_LINKED: i64 = 4;
-}
-
 /// Changes a graph.
 fn change<R>(
     cx: &mut Cx,
@@ -41,14 +33,14 @@ fn change<R>(
     Ok(cx.scene_mut().try_modify(handle, Field::Measured, |object| change(object.graph_mut()?))?)
 }
 
-fn style(name: String, unit: String, options: i64, colour: [f64; 3]) -> Style {
+fn style(name: String, unit: String, options: GraphOptions, colour: [f64; 3]) -> Style {
     Style {
         id: 0,
         name,
         unit,
         colour: colour.map(|part| part as f32),
-        label: options & option::NO_LABEL == 0,
-        linked: options & option::NOT_LINKED == 0,
+        label: !options.contains(GraphOptions::NO_LABEL),
+        linked: !options.contains(GraphOptions::NOT_LINKED),
     }
 }
 
@@ -75,8 +67,10 @@ fn add_graph_stream(
         cyclic_range: cyclic_range.finite().ok_or(SceneError::InvalidArgument)?,
         ..Transformation::default()
     };
-    let style = style(stream_name, unit, options.0, color);
-    let stream = Stream { visible: options.0 & option::HIDDEN == 0, transformation, ..Stream::new(style) };
+    let options = GraphOptions::from_bits_retain(options.0);
+    let style = style(stream_name, unit, options, color);
+    let stream =
+        Stream { visible: !options.contains(GraphOptions::HIDDEN_STREAM), transformation, ..Stream::new(style) };
     change(cx, graph_handle, |graph| graph.add_stream(stream))
 }
 
@@ -153,13 +147,14 @@ fn add_graph_curve(
         return Err(ApiError::TableSize);
     }
     default_values.as_slice().finite().ok_or(SceneError::InvalidArgument)?;
+    let options = GraphOptions::from_bits_retain(options.0);
     let curve = Curve {
-        style: style(curve_name, unit_str, options.0, color),
+        style: style(curve_name, unit_str, options, color),
         width: curve_width.0.clamp(1, 100),
         dimensions,
         streams: std::array::from_fn(|axis| stream_ids.get(axis).copied().unwrap_or(-1)),
         defaults: std::array::from_fn(|axis| default_values.get(axis).copied().unwrap_or(0.0)),
-        relative: options.0 & option::IN_WORLD == 0,
+        relative: !options.contains(GraphOptions::CURVE_IN_WORLD),
         fixed: None,
         old: false,
     };

@@ -3,7 +3,7 @@
 use api_macro::api;
 
 use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::{CollectionItem, Handle, SceneError, special};
+use crate::scene::{CollectionItem, CollectionOptions, Handle, ItemOptions, Members, Object, SceneError, special};
 use crate::script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -21,7 +21,8 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// @return collectionHandle the collection
 #[api("sim.createCollection")]
 fn create_collection(cx: &mut Cx, #[default(0)] options: Number) -> Result<i64> {
-    Ok(cx.scene_mut().collections_mut().add(options.0 & 1 != 0))
+    let options = CollectionOptions::from_bits_retain(options.0);
+    Ok(cx.scene_mut().collections_mut().add(options.contains(CollectionOptions::OVERRIDES)))
 }
 
 /// Removes a collection; its objects stay.
@@ -55,16 +56,18 @@ fn add_item_to_collection(
     object_handle: Number,
     options: Number,
 ) -> Result<()> {
-    let base = match what.0 {
-        special::ALL => None,
-        special::SINGLE | special::TREE | special::CHAIN => {
-            let base = Handle::from_raw(object_handle.0).ok_or(SceneError::NoSuchObject)?;
-            Some(cx.scene().object(base)?.handle())
-        }
+    let base = || {
+        let base = Handle::from_raw(object_handle.0).ok_or(SceneError::NoSuchObject)?;
+        cx.scene().object(base).map(Object::handle)
+    };
+    let members = match what.0 {
+        special::ALL => Members::All,
+        special::SINGLE => Members::Single(base()?),
+        special::TREE => Members::Tree(base()?),
+        special::CHAIN => Members::Chain(base()?),
         _ => return Err(SceneError::InvalidArgument.into()),
     };
-    let (subtract, exclude_base) = (options.0 & 1 != 0, options.0 & 2 != 0);
-    let item = CollectionItem { what: what.0, base, subtract, exclude_base };
+    let item = CollectionItem::new(members, ItemOptions::from_bits_retain(options.0));
     cx.scene_mut().collections_mut().get_mut(collection_handle.0)?.items.push(item);
     Ok(())
 }

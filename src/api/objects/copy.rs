@@ -20,7 +20,7 @@ fn handles(raw: &Handles) -> Result<Vec<Handle>> {
 #[api("sim.copyPasteObjects")]
 fn copy_paste_objects(cx: &mut Cx, object_handles: Handles, #[default(0)] options: Number) -> Result<Option<Vec<i64>>> {
     let handles = handles(&object_handles)?;
-    let copies = cx.copy_objects(&handles, CopyOptions(options.0))?;
+    let copies = cx.copy_objects(&handles, CopyOptions::from_bits_retain(options.0))?;
     let aligned = handles.iter().map(|original| copies.get(original).map_or(-1, |copy| copy.raw()));
     Ok((!copies.is_empty()).then(|| aligned.collect()))
 }

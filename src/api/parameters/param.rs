@@ -89,7 +89,7 @@ fn get_int32_param(cx: &Cx, parameter: Number) -> Result<i64> {
     Ok(match parameter.0 {
         int::PROGRAM_VERSION => PROGRAM_VERSION,
         int::PROGRAM_REVISION | int::EDIT_MODE_TYPE => 0,
-        int::DYNAMIC_ENGINE => cx.scene().settings().dynamics.engine[0],
+        int::DYNAMIC_ENGINE => cx.scene().settings().dynamics.engine.engine.number(),
         other => {
             let number = known(other, int::LAST)?;
             cx.app().idle_params.integers.get(&number).copied().unwrap_or_default()
@@ -108,7 +108,7 @@ fn set_int32_param(cx: &mut Cx, parameter: Number, parameter_value: Number) -> R
         return Ok(());
     }
     match parameter.0 {
-        int::DYNAMIC_ENGINE => cx.set_engine([value, 0])?,
+        int::DYNAMIC_ENGINE => cx.set_engine(value, 0)?,
         other => {
             let number = known(other, int::LAST)?;
             cx.app_mut().idle_params.integers.insert(number, value);

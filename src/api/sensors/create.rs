@@ -4,7 +4,8 @@ use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::appearance::colour::Component;
-use crate::scene::sensor::{ProximitySensor, VisionSensor};
+use crate::scene::sensor::volume::VolumeType;
+use crate::scene::sensor::{ProximityOptions, ProximitySensor, VisionOptions, VisionSensor};
 use crate::scene::voxels::octree::{OcTree, cell_size};
 use crate::scene::voxels::point_cloud::PointCloud;
 use crate::scene::{Field, Handle, Kind, SceneError};
@@ -44,8 +45,9 @@ fn create_proximity_sensor(
     let _ = sub_type;
     let integers = leading(int_params.as_ref())?.unwrap_or(ProximitySensor::INTEGERS);
     let floats = leading(float_params.as_ref())?;
-    let sensor = ProximitySensor::new(sensor_type.0, options.0, integers, floats);
-    let sensor = sensor.ok_or(SceneError::InvalidArgument)?;
+    let volume_type = VolumeType::from_code(sensor_type.0).ok_or(SceneError::InvalidArgument)?;
+    let options = ProximityOptions::from_bits_retain(options.0);
+    let sensor = ProximitySensor::new(volume_type, options, integers, floats);
     cx.add_object("proximitySensor", Kind::ProximitySensor(Box::new(sensor)))
 }
 
@@ -62,8 +64,9 @@ fn create_vision_sensor(
     #[default(None)] int_params: Option<Vec<i64>>,
     #[default(None)] float_params: Option<Vec<f64>>,
 ) -> Result<Handle> {
+    let options = VisionOptions::from_bits_retain(options.0);
     let [width, height, _, _] = leading(int_params.as_ref())?.unwrap_or([256, 256, 0, 0]);
-    let sensor = VisionSensor::new(options.0, [width, height], leading(float_params.as_ref())?);
+    let sensor = VisionSensor::new(options, [width, height], leading(float_params.as_ref())?);
     cx.add_object("visionSensor", Kind::VisionSensor(Box::new(sensor)))
 }
 

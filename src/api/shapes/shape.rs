@@ -7,7 +7,7 @@ use geometry::{Mesh, MeshError};
 
 use super::texture;
 use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::shape::build::PrimitiveOptions;
+use crate::scene::shape::options::{HeightfieldOptions, MeshOptions, PrimitiveOptions, PureShapeOptions};
 use crate::scene::shape::{Appearance, Part, Shape};
 use crate::scene::{Data, Field, Handle, Key, Kind, Scene, SceneError, SpecialFlags};
 use crate::script::{Bytes, Number};
@@ -43,9 +43,7 @@ fn create_primitive_shape(
 ) -> Result<i64> {
     let makeable = |kind: &PrimitiveKind| *kind != PrimitiveKind::Heightfield;
     let Some(kind) = PrimitiveKind::from_code(primitive_type.0).filter(makeable) else { return Ok(-1) };
-    let bit = |bit: i64| options.0 & bit != 0;
-    let options = PrimitiveOptions { culling: bit(1), sharp_edges: bit(2), open_ends: bit(4), plain_mesh: bit(8) };
-    let shape = Shape::primitive(kind, sizes, options)?;
+    let shape = Shape::primitive(kind, sizes, PrimitiveOptions::from_bits_retain(options.0))?;
     Ok(add(cx, kind.alias(), shape)?.raw())
 }
 
@@ -70,12 +68,11 @@ fn create_pure_shape(
     let kinds = [PrimitiveKind::Cuboid, PrimitiveKind::Spheroid, PrimitiveKind::Cylinder, PrimitiveKind::Cone];
     let kind = usize::try_from(primitive_type.0).ok().and_then(|i| kinds.get(i).copied());
     let kind = kind.ok_or(SceneError::InvalidArgument)?;
-    let bit = |bit: i64| options.0 & bit != 0;
-    let looks = PrimitiveOptions { culling: bit(1), sharp_edges: !bit(4), open_ends: bit(32), plain_mesh: false };
-    let mut shape = Shape::primitive(kind, sizes, looks)?;
+    let options = PureShapeOptions::from_bits_retain(options.0);
+    let mut shape = Shape::primitive(kind, sizes, options.primitive())?;
     shape.mass.set_mass(mass);
-    shape.dynamics.respondable = bit(8);
-    shape.dynamics.is_static = bit(16);
+    shape.dynamics.respondable = options.contains(PureShapeOptions::RESPONDABLE);
+    shape.dynamics.is_static = options.contains(PureShapeOptions::STATIC);
     add(cx, kind.alias(), shape)
 }
 
@@ -105,18 +102,21 @@ fn create_shape(
     #[default(None)] texture_resolution: Option<[f64; 2]>,
 ) -> Result<Handle> {
     let mut mesh = Mesh::from_flat(&vertices, &indices, normals.as_deref()).map_err(refusal)?;
+    let options = MeshOptions::from_bits_retain(options.0);
     let image = texture.zip(texture_resolution);
     let texture = texture_coordinates.zip(image);
-    if options.0 & 128 == 0 && texture.is_none() {
+    if !options.contains(MeshOptions::KEEP_DUPLICATE_VERTICES) && texture.is_none() {
         mesh.merge_duplicates(SAME_VERTEX);
     }
-    let appearance = mesh_looks(Shape::mesh_appearance(), options.0, shading_angle);
+    let mut appearance = shaded(Shape::mesh_appearance(), shading_angle);
+    appearance.culling = options.contains(MeshOptions::CULLING);
+    appearance.edges = options.contains(MeshOptions::EDGES);
     if normals.is_none() {
         mesh.compute_normals(appearance.shading_angle);
     }
     let mut shape = Shape::from_mesh(mesh, appearance)?;
     if let Some((coordinates, (pixels, size))) = texture {
-        let mapping = texture::of_mesh(cx, options.0, &coordinates[..], indices.len(), pixels.0, size)?;
+        let mapping = texture::of_mesh(cx, options, &coordinates[..], indices.len(), pixels.0, size)?;
         shape.parts[0].texture = Some(Box::new(mapping));
     }
     add(cx, "shape", shape)
@@ -142,10 +142,14 @@ fn create_heightfield_shape(
     heights: Vec<f64>,
 ) -> Result<Handle> {
     let count = |points: Number| usize::try_from(points.0).unwrap_or(0);
-    let appearance = mesh_looks(Shape::terrain_appearance(), options.0, shading_angle);
+    let options = HeightfieldOptions::from_bits_retain(options.0);
+    let mut appearance = shaded(Shape::terrain_appearance(), shading_angle);
+    appearance.culling = options.contains(HeightfieldOptions::CULLING);
+    appearance.edges = options.contains(HeightfieldOptions::EDGES);
     let (columns, rows) = (count(x_point_count), count(y_point_count));
-    let mut shape = Shape::terrain(columns, rows, x_size, &heights, appearance, options.0 & 4 != 0)?;
-    shape.dynamics.respondable = options.0 & 8 == 0;
+    let plain_mesh = options.contains(HeightfieldOptions::PLAIN_MESH);
+    let mut shape = Shape::terrain(columns, rows, x_size, &heights, appearance, plain_mesh)?;
+    shape.dynamics.respondable = !options.contains(HeightfieldOptions::NOT_RESPONDABLE);
     let handle = cx.scene_mut().add("heightfield", Kind::Shape(Box::new(shape)))?;
     cx.scene_mut().modify(handle, Field::SpecialProperty, |object| {
         object.special_property.remove(SpecialFlags::COLLIDABLE | SpecialFlags::MEASURABLE);
@@ -154,9 +158,7 @@ fn create_heightfield_shape(
     Ok(handle)
 }
 
-fn mesh_looks(mut appearance: Appearance, options: i64, shading_angle: f64) -> Appearance {
-    appearance.culling = options & 1 != 0;
-    appearance.edges = options & 2 != 0;
+fn shaded(mut appearance: Appearance, shading_angle: f64) -> Appearance {
     appearance.shading_angle = if shading_angle.is_finite() { shading_angle } else { 0.0 };
     appearance
 }

@@ -10,7 +10,8 @@ use crate::api::display::images::{failure, read_file};
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::format::picture::{Layout, Picture};
 use crate::scene::appearance::texture::Texture;
-use crate::scene::appearance::texture_mapping::{TextureMapping, TextureSource};
+use crate::scene::appearance::texture_mapping::{ApplyMode, TextureMapping, TextureOptions, TextureSource};
+use crate::scene::shape::options::MeshOptions;
 use crate::scene::shape::{Part, Shape};
 use crate::scene::{Data, Handle, Kind, Pose, Scene, SceneError};
 use crate::script::{Bytes, IntPair, Number};
@@ -21,18 +22,8 @@ pub(crate) const FUNCTIONS: &[ApiFn] =
 /// Default size of a new texture in pixels.
 const USUAL_SIDE: f64 = 256.0;
 const WHITE: u8 = 255;
-/// `sim.textureapplymode_decal`.
-const DECAL: i64 = 1;
 /// The name of what is from no file.
 const NAME: &str = "texture";
-/// Bits of `sim.createShape` for its texture.
-mod shape_option {
-    pub const NOT_INTERPOLATED: i64 = 4;
-    pub const DECAL: i64 = 8;
-    pub const RGBA: i64 = 16;
-    pub const FLIP_X: i64 = 32;
-    pub const KEEP_ROWS: i64 = 64;
-}
 
 /// A new plane with an image on it, from a file or white.
 ///
@@ -69,8 +60,9 @@ fn create_texture(
     let (scale, frame) =
         (scaling_uv.unwrap_or(plane).finite().ok_or(SceneError::InvalidData)?, frame([x, y, 0.0], [0.0, 0.0, angle])?);
     let id = cx.scene_mut().add_texture(texture)?;
+    let options = TextureOptions::from_bits_retain(options.0);
     let mapping =
-        TextureMapping { scale, frame, ..with_options(TextureMapping::new(TextureSource::Texture(id)), options.0) };
+        TextureMapping { scale, frame, ..TextureMapping::new(TextureSource::Texture(id)).with_options(options) };
     let handle = cx.scene_mut().add(PrimitiveKind::Plane.alias(), Kind::Shape(Box::new(shape)))?;
     cx.scene_mut().set_shape_texture(handle, Some(mapping))?;
     cx.notify_created(&[handle]);
@@ -99,16 +91,6 @@ fn of_file(name: &str, resolution: Option<[f64; 2]>) -> Result<Texture> {
 fn of_picture(name: &str, picture: Picture, has_alpha: bool) -> Result<Texture> {
     let size = picture.resolution().map(|side| side as u32);
     Texture::new(name, size, has_alpha, &picture.into_bytes()).ok_or(SceneError::InvalidData.into())
-}
-
-fn with_options(mapping: TextureMapping, options: i64) -> TextureMapping {
-    let bit = |bit: i64| options & bit != 0;
-    TextureMapping {
-        interpolate: !bit(1),
-        apply_mode: if bit(2) { DECAL } else { 0 },
-        repeat: [bit(4), bit(8)],
-        ..mapping
-    }
 }
 
 fn frame(position: [f64; 3], orientation: [f64; 3]) -> Result<Pose> {
@@ -169,7 +151,7 @@ fn set_shape_texture(
         mode: mode.ok_or(SceneError::InvalidArgument)?,
         scale: uv_scaling.finite().ok_or(SceneError::InvalidData)?,
         frame: frame(position.unwrap_or_default(), orientation.unwrap_or_default())?,
-        ..with_options(TextureMapping::new(source), options.0)
+        ..TextureMapping::new(source).with_options(TextureOptions::from_bits_retain(options.0))
     };
     Ok(cx.scene_mut().set_shape_texture(shape_handle, Some(mapping))?)
 }
@@ -233,23 +215,23 @@ fn write_texture(
 /// The texture of `sim.createShape`: two coordinates for each of `corners` corners, and the pixels of an image.
 pub(in crate::api) fn of_mesh(
     cx: &mut Cx,
-    options: i64,
+    options: MeshOptions,
     coordinates: &[f64],
     corners: usize,
     pixels: Vec<u8>,
     resolution: [f64; 2],
 ) -> Result<TextureMapping> {
-    use shape_option as option;
-    let bit = |bit: i64| options & bit != 0;
     let coordinates = coordinates.get(..2 * corners).ok_or(ApiError::TableSize)?;
     let coordinates: Rc<[f32]> = single_precision(coordinates)?;
-    let layout = if bit(option::RGBA) { Layout::Rgba } else { Layout::Rgb };
+    let layout = if options.contains(MeshOptions::TEXTURE_HAS_ALPHA) { Layout::Rgba } else { Layout::Rgb };
     let picture = Picture::new(pixels, resolution.map(|side| side as i64), layout).map_err(failure)?;
-    let picture = picture.flipped(bit(option::FLIP_X), !bit(option::KEEP_ROWS));
-    let id = cx.scene_mut().add_texture(of_picture(NAME, picture, bit(option::RGBA))?)?;
+    let picture = picture
+        .flipped(options.contains(MeshOptions::FLIP_TEXTURE_X), !options.contains(MeshOptions::TEXTURE_FROM_BOTTOM));
+    let id =
+        cx.scene_mut().add_texture(of_picture(NAME, picture, options.contains(MeshOptions::TEXTURE_HAS_ALPHA))?)?;
     Ok(TextureMapping {
-        interpolate: !bit(option::NOT_INTERPOLATED),
-        apply_mode: if bit(option::DECAL) { DECAL } else { 0 },
+        interpolate: !options.contains(MeshOptions::TEXTURE_NOT_INTERPOLATED),
+        apply_mode: ApplyMode::decal_if(options.contains(MeshOptions::TEXTURE_AS_DECAL)),
         coordinates,
         ..TextureMapping::new(TextureSource::Texture(id))
     })
@@ -271,7 +253,7 @@ pub(in crate::api) fn viz(scene: &Scene, part: &Part) -> Option<Data> {
         ("texture", Data::Buffer(texture.rgba())),
         ("resolution", texture.size().map(i64::from).into()),
         ("coordinates", coordinates.into()),
-        ("applyMode", mapping.apply_mode.into()),
+        ("applyMode", mapping.apply_mode.0.into()),
         ("options", options.into()),
         ("id", mapping.source.raw().into()),
     ]))

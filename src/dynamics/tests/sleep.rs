@@ -1,7 +1,7 @@
 //! Bodies that rest fall asleep, and everything that could move them wakes them.
 
 use super::*;
-use crate::scene::shape::{Shape, Velocity};
+use crate::scene::shape::{RespondableMask, Shape, Velocity};
 
 /// A box asleep on a floor, both respondable.
 struct Sleeper {
@@ -144,7 +144,7 @@ fn a_support_that_is_removed_wakes() {
 #[test]
 fn a_support_that_lets_pass_wakes() {
     let mut sleeper = Sleeper::new();
-    sleeper.change(sleeper.floor, |shape| shape.dynamics.respondable_mask = 0);
+    sleeper.change(sleeper.floor, |shape| shape.dynamics.respondable_mask = RespondableMask::NONE);
     sleeper.bench.run(2);
     assert!(sleeper.at()[2] < 0.02);
 }

@@ -9,6 +9,7 @@ use geometry::PrimitiveKind;
 
 use super::{Loaded, SceneFile, save};
 use crate::format::ttt::File;
+use crate::scene::parameters::engine::Engine;
 use crate::scene::parameters::engine_blocks::EngineValues;
 use crate::scene::shape::Shape;
 use crate::scene::{DynamicsSettings, Handle, InertValues, Kind, Object, Pose, Scene, Settings};
@@ -56,7 +57,7 @@ fn place(scene: &Scene, handle: Handle) -> String {
 fn description(scene: &Scene, object: &Object) -> String {
     let mut slim = object.clone();
     let mut text = String::new();
-    let engines = |values: &dyn Fn(usize) -> (Vec<f64>, Vec<i32>)| format!("{:?}", [0, 1, 2, 3, 4].map(values));
+    let engines = |values: &dyn Fn(Engine) -> (Vec<f64>, Vec<i32>)| format!("{:?}", Engine::ALL.map(values));
     match &mut slim.kind {
         Kind::Shape(shape) => {
             for part in &mut shape.parts {
@@ -123,7 +124,7 @@ pub(crate) fn assert_same(a: &Scene, b: &Scene, what: &str) {
             panic!("{what} {place}:\n{}\n{}\n{}", &text[..text.len().min(160)], around(&x), around(&y));
         }
     }
-    let rows = |scene: &Scene| [0, 1, 2, 3, 4].map(|engine| scene.settings().dynamics.engine_rows(engine));
+    let rows = |scene: &Scene| Engine::ALL.map(|engine| scene.settings().dynamics.engine_rows(engine));
     assert_eq!(rows(a), rows(b), "{what}");
     let plain = |scene: &Scene| {
         let settings = scene.settings().clone();

@@ -103,7 +103,10 @@ fn every_kind_of_the_simple_variant_is_understood() {
         find(alias);
     }
     let settings = scene.settings();
-    assert_eq!((settings.time_step, settings.dynamics.engine[0], settings.dynamics.gravity[2]), (0.02, 1, -3.7));
+    assert_eq!(
+        (settings.time_step, settings.dynamics.engine.engine.number(), settings.dynamics.gravity[2]),
+        (0.02, 1, -3.7)
+    );
 }
 
 /// Loads what can be loaded; what is wrong says so.

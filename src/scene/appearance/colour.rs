@@ -253,6 +253,7 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::sensor::{Light, LightType};
     use geometry::PrimitiveKind;
 
     #[test]
@@ -267,7 +268,7 @@ mod tests {
     #[test]
     fn a_light_has_two_colours() {
         let mut scene = Scene::new();
-        let light = Kind::Light(Box::new(crate::scene::sensor::Light::new(3)));
+        let light = Kind::Light(Box::new(Light::new(LightType::Directional)));
         let light = scene.add("l", light).unwrap();
         assert_eq!(scene.set_object_colour(light, 1, Component::Specular, &[1.0, 0.0, 0.0]), Ok(true));
         assert_eq!(scene.object_colour(light, 1, Component::Specular), Ok(Some(vec![1.0, 0.0, 0.0])));

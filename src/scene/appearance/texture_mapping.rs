@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use bitflags::bitflags;
+
 use super::texture::Texture;
 use crate::scene::shape::{Part, Shape};
 use crate::scene::{Field, Handle, Object, Pose, Scene, SceneError, SceneResult};
@@ -24,10 +26,34 @@ pub struct TextureMapping {
     pub interpolate: bool,
     /// Along u and v.
     pub repeat: [bool; 2],
-    /// `sim.textureapplymode_*`.
-    pub apply_mode: i64,
+    pub apply_mode: ApplyMode,
     /// u and v of each corner of each triangle; empty where the image is projected. Shared between copies.
     pub coordinates: Rc<[f32]>,
+}
+
+/// `sim.textureapplymode_*`: how an image and the colour below it are mixed. Other numbers are stored as written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ApplyMode(pub i64);
+
+impl ApplyMode {
+    pub const MODULATE: Self = Self(0);
+    pub const DECAL: Self = Self(1);
+
+    pub fn decal_if(decal: bool) -> Self {
+        if decal { Self::DECAL } else { Self::MODULATE }
+    }
+}
+
+bitflags! {
+    /// Options of `sim.createTexture` and `sim.setShapeTexture`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct TextureOptions: i64 {
+        const NOT_INTERPOLATED = 0x1;
+        const DECAL = 0x2;
+        const REPEAT_U = 0x4;
+        const REPEAT_V = 0x8;
+        const _ = !0;
+    }
 }
 
 /// Where an image comes from.
@@ -66,8 +92,17 @@ impl TextureMapping {
             frame: Pose::identity(),
             interpolate: true,
             repeat: [true, true],
-            apply_mode: 0,
+            apply_mode: ApplyMode::MODULATE,
             coordinates: Rc::default(),
+        }
+    }
+
+    pub fn with_options(self, options: TextureOptions) -> Self {
+        Self {
+            interpolate: !options.contains(TextureOptions::NOT_INTERPOLATED),
+            apply_mode: ApplyMode::decal_if(options.contains(TextureOptions::DECAL)),
+            repeat: [TextureOptions::REPEAT_U, TextureOptions::REPEAT_V].map(|axis| options.contains(axis)),
+            ..self
         }
     }
 

@@ -4,6 +4,8 @@ pub(in crate::scene) mod record;
 
 use std::collections::VecDeque;
 
+use bitflags::bitflags;
+
 use super::{Handle, SceneError, SceneResult};
 
 /// A graph: its streams have a slot for each time that was recorded since they are there.
@@ -23,7 +25,20 @@ pub struct Graph {
     pub curves: Vec<Curve>,
 }
 
-/// What a stream or curve is called and looks like.
+bitflags! {
+    /// Options of `sim.addGraphStream` and `sim.addGraphCurve`, where the first bit has a meaning of its own.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct GraphOptions: i64 {
+        const HIDDEN_STREAM = 0x1;
+        /// The points of a curve of three dimensions do not move with the graph.
+        const CURVE_IN_WORLD = 0x1;
+        const NO_LABEL = 0x2;
+        const NOT_LINKED = 0x4;
+        const _ = !0;
+    }
+}
+
+/// Name and look of a stream or curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Style {
     pub id: i64,

@@ -7,7 +7,7 @@ pub mod motion;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use std::f64::consts::{PI, TAU};
 
-use super::parameters::engine::ENGINES;
+use super::parameters::engine::Engine;
 use super::{Handle, InertValues, Pose};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,7 +94,7 @@ pub struct Joint {
     pub max_accel: f64,
     pub max_jerk: f64,
     /// Gains of position control, P, I, D, by the number of the engine they are meant for.
-    pub gains: [[f64; 3]; ENGINES.len()],
+    pub gains: [[f64; 3]; Engine::ALL.len()],
     /// K and C of spring control.
     pub spring: [f64; 2],
     pub velocity_profile: bool,
@@ -160,7 +160,7 @@ impl Joint {
             max_vel: limits,
             max_accel: limits,
             max_jerk: limits,
-            gains: [[0.1, 0.0, 0.0]; ENGINES.len()],
+            gains: [[0.1, 0.0, 0.0]; Engine::ALL.len()],
             spring: [0.1, 0.0],
             velocity_profile: false,
             position_profile: false,
@@ -196,8 +196,8 @@ impl Joint {
     }
 
     /// Gains of position control (P, I, D) when that engine is selected.
-    pub fn gains_with(&self, engine: i64) -> [f64; 3] {
-        usize::try_from(engine).ok().and_then(|engine| self.gains.get(engine)).copied().unwrap_or(self.gains[0])
+    pub fn gains_with(&self, engine: Engine) -> [f64; 3] {
+        self.gains[engine as usize]
     }
 
     pub fn is_revolute(&self) -> bool {

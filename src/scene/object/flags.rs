@@ -99,9 +99,50 @@ bitflags! {
     }
 }
 
+bitflags! {
+    /// The visibility layers an object is on, or those that are shown.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct Layers: u16 {
+        const SHAPES = 0x1;
+        const JOINTS = 0x2;
+        const DUMMIES = 0x4;
+        const SENSORS = 0x8;
+        const CAMERAS_AND_LIGHTS = 0x10;
+        const GRAPHS = 0x20;
+        const VOXELS = 0x40;
+        const SCRIPTS = 0x400;
+        /// Those shown by default.
+        const SHOWN_BY_DEFAULT = 0xff;
+        const _ = !0;
+    }
+}
+
+impl Layers {
+    /// From a number of a script, of which the low 16 bits count.
+    pub fn from_number(number: i64) -> Self {
+        Self::from_bits_retain(number as u16)
+    }
+
+    pub fn number(self) -> i64 {
+        self.bits().into()
+    }
+
+    /// The layers above those shown by default that correspond to them.
+    pub fn hidden(self) -> Self {
+        Self::from_bits_retain(self.bits() << 8)
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{ModelFlags, ObjectFlags};
+    use super::{Layers, ModelFlags, ObjectFlags};
+
+    #[test]
+    fn a_layer_is_a_number_of_16_bits() {
+        assert_eq!(Layers::from_number(0x7001_8300).number(), 0x8300);
+        assert_eq!(Layers::from_number(-1).number(), 0xffff);
+        assert_eq!(Layers::DUMMIES.hidden().number(), 0x400);
+    }
 
     #[test]
     fn bits_without_a_name_are_kept() {

@@ -11,8 +11,8 @@ pub mod script_object;
 
 use assembly::Assembly;
 use dummy::Dummy;
-use flags::{DynamicFlags, ModelFlags, ObjectFlags, SpecialFlags};
-use script_object::ScriptObject;
+use flags::{DynamicFlags, Layers, ModelFlags, ObjectFlags, SpecialFlags};
+use script_object::{ExecutionPriority, ScriptObject};
 
 use crate::scene::appearance::colour::Colour;
 use crate::scene::graph::Graph;
@@ -43,7 +43,7 @@ pub struct Object {
     pub special_property: SpecialFlags,
     /// [`ModelFlags::NOT_MODEL`] for objects that are no model base.
     pub model_property: ModelFlags,
-    pub layer: i64,
+    pub layer: Layers,
     /// Of the body; shapes have theirs in their meshes.
     pub colour: Colour,
     /// How a hand may move it.
@@ -57,8 +57,8 @@ pub struct Object {
     /// Shared with its copies.
     pub dna: Vec<u8>,
     pub size_factor: f64,
-    /// Order among siblings for scripts (`sim.scriptexecorder_*`).
-    pub priority: i64,
+    /// Order among siblings, for scripts.
+    pub priority: ExecutionPriority,
     pub custom_data: CustomData,
     /// Named values that last as long as the scripts that set them; they are not saved.
     pub signals: CustomData,
@@ -139,16 +139,16 @@ impl Kind {
         }
     }
 
-    fn default_layer(&self) -> i64 {
+    fn default_layer(&self) -> Layers {
         match self {
-            Self::Shape(_) => 0x0001,
-            Self::Joint(_) => 0x0002,
-            Self::Dummy(_) => 0x0004,
-            Self::ProximitySensor(_) | Self::VisionSensor(_) | Self::ForceSensor(_) => 0x0008,
-            Self::Camera(_) | Self::Light(_) => 0x0010,
-            Self::Graph(_) => 0x0020,
-            Self::OcTree(_) | Self::PointCloud(_) => 0x0040,
-            Self::Script(_) => 0x0400,
+            Self::Shape(_) => Layers::SHAPES,
+            Self::Joint(_) => Layers::JOINTS,
+            Self::Dummy(_) => Layers::DUMMIES,
+            Self::ProximitySensor(_) | Self::VisionSensor(_) | Self::ForceSensor(_) => Layers::SENSORS,
+            Self::Camera(_) | Self::Light(_) => Layers::CAMERAS_AND_LIGHTS,
+            Self::Graph(_) => Layers::GRAPHS,
+            Self::OcTree(_) | Self::PointCloud(_) => Layers::VOXELS,
+            Self::Script(_) => Layers::SCRIPTS,
         }
     }
 
@@ -188,7 +188,7 @@ impl Object {
             persistent_uid: String::new(),
             dna: Vec::new(),
             size_factor: 1.0,
-            priority: 1,
+            priority: ExecutionPriority::Normal,
             custom_data: CustomData::default(),
             signals: CustomData::default(),
             inert: InertValues::default(),

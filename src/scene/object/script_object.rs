@@ -11,6 +11,41 @@ pub enum ScriptType {
     Passive = 9,
 }
 
+/// `sim.scriptexecorder_*`: when scripts run, among those of the same level of the tree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub enum ExecutionPriority {
+    /// Also of scripts that are no objects, unless they say otherwise.
+    #[default]
+    First = 0,
+    Normal = 1,
+    Last = 2,
+}
+
+impl ExecutionPriority {
+    /// The priority with a number of a script; numbers outside are the nearest one.
+    pub fn from_number(number: i64) -> Self {
+        match number {
+            ..=0 => Self::First,
+            1 => Self::Normal,
+            2.. => Self::Last,
+        }
+    }
+
+    /// From the number of files before 4.4: below zero is first, above zero last.
+    pub fn from_order(order: i64) -> Self {
+        Self::from_number(order.saturating_add(1))
+    }
+
+    /// The number that files before 4.4 have.
+    pub fn order(self) -> i64 {
+        self.number() - Self::Normal.number()
+    }
+
+    pub fn number(self) -> i64 {
+        self as i64
+    }
+}
+
 impl ScriptType {
     /// The type with number `n`.
     pub fn from_number(n: i64) -> Option<Self> {

@@ -1,8 +1,7 @@
 //! The numbered parameters of cameras, sensors, lights and voxels (`sim.visionintparam_*`, `sim.camerafloatparam_*`, ...).
 
 use crate::scene::sensor::force_sensor::ForceSensor;
-use crate::scene::sensor::volume::PYRAMID;
-use crate::scene::sensor::{Camera, Light, ProximitySensor, View, VisionSensor};
+use crate::scene::sensor::{Camera, Light, ProximitySensor, RenderMode, View, VisionSensor};
 use crate::scene::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
 
 /// `sim.visionintparam_*`, `sim.visionfloatparam_*`.
@@ -91,7 +90,7 @@ impl VisionSensor {
             vision::RESOLUTION_X => self.view.resolution[0].into(),
             vision::RESOLUTION_Y => self.view.resolution[1].into(),
             vision::ENTITY_TO_RENDER => self.entity,
-            vision::RENDER_MODE => self.render_mode,
+            vision::RENDER_MODE => self.render_mode.0,
             vision::PERSPECTIVE_OPERATION => self.view.perspective.into(),
             vision::RGB_IGNORED => self.ignore_image.into(),
             vision::DEPTH_IGNORED => self.ignore_depth.into(),
@@ -105,7 +104,7 @@ impl VisionSensor {
             vision::RESOLUTION_X => self.set_resolution([value, height]),
             vision::RESOLUTION_Y => self.set_resolution([width, value]),
             vision::ENTITY_TO_RENDER => self.entity = value,
-            vision::RENDER_MODE => self.render_mode = value,
+            vision::RENDER_MODE => self.render_mode = RenderMode(value),
             vision::PERSPECTIVE_OPERATION => self.view.perspective = value != 0,
             vision::RGB_IGNORED => self.ignore_image = value != 0,
             vision::DEPTH_IGNORED => self.ignore_depth = value != 0,
@@ -118,7 +117,7 @@ impl VisionSensor {
 impl ProximitySensor {
     fn int_param(&self, id: i64) -> Option<i64> {
         match id {
-            prox::VOLUME_TYPE => Some(self.volume_type - PYRAMID),
+            prox::VOLUME_TYPE => Some(self.volume.volume_type.index()),
             prox::ENTITY_TO_DETECT => Some(self.entity),
             _ => None,
         }

@@ -17,8 +17,53 @@ const TABLE: &str = include_str!("engine.tsv");
 /// The first real number of each engine is its step size: one for all here, a setting of the scene.
 const STEP_SIZES: [i64; 5] = [1, 9001, 18_001, 27_001, 37_001];
 
-/// The engines by their number (`sim.physics_*`), as they stand in front of the names.
-pub const ENGINES: [&str; 5] = ["bullet", "ode", "vortex", "newton", "mujoco"];
+/// A physics engine of CoppeliaSim (`sim.physics_*`). Scenes have parameters for each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Engine {
+    #[default]
+    Bullet = 0,
+    Ode = 1,
+    Vortex = 2,
+    Newton = 3,
+    Mujoco = 4,
+}
+
+impl Engine {
+    pub const ALL: [Self; 5] = [Self::Bullet, Self::Ode, Self::Vortex, Self::Newton, Self::Mujoco];
+
+    pub fn from_number(number: i64) -> Option<Self> {
+        Self::ALL.into_iter().find(|engine| engine.number() == number)
+    }
+
+    pub fn number(self) -> i64 {
+        self as i64
+    }
+
+    /// What the names of its parameters begin with.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bullet => "bullet",
+            Self::Ode => "ode",
+            Self::Vortex => "vortex",
+            Self::Newton => "newton",
+            Self::Mujoco => "mujoco",
+        }
+    }
+}
+
+/// The engine a scene selects, and its version (0: the first of Bullet). Both affect which of the parameters count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct SelectedEngine {
+    pub engine: Engine,
+    pub version: i64,
+}
+
+impl SelectedEngine {
+    /// Number of the engine, version.
+    pub fn numbers(self) -> [i64; 2] {
+        [self.engine.number(), self.version]
+    }
+}
 
 /// What a parameter belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

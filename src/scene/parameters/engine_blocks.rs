@@ -2,8 +2,7 @@
 //!
 //! What a row holds beyond the numbers known here is ignored; it has no counterpart.
 
-use super::engine::EngineParam;
-use super::engine::{EngineOwner, Numbered, is_step_size, numbered};
+use super::engine::{Engine, EngineOwner, EngineParam, Numbered, is_step_size, numbered};
 use super::engine_values::{element, value_in, with_element};
 use crate::scene::joint::Joint;
 use crate::scene::object::dummy::Dummy;
@@ -21,7 +20,7 @@ const fn rows(first_real: i64, reals: usize, first_int: i64, ints: usize) -> Row
     Rows { reals: (first_real, reals), ints: (first_int, ints) }
 }
 
-/// In the order of [`super::engine::ENGINES`].
+/// In the order of [`Engine::ALL`].
 const SCENE: [Rows; 5] = [
     rows(1, 3, 1001, 3),
     rows(9001, 4, 10_001, 3),
@@ -48,13 +47,13 @@ const DUMMY: Rows = rows(46_001, 21, 47_001, 2);
 
 /// What has engine parameters of its own.
 pub trait EngineValues {
-    /// Those of one engine, by its place in [`super::engine::ENGINES`].
-    fn rows(&self, engine: usize) -> Option<Rows>;
+    /// Those of one engine.
+    fn rows(&self, engine: Engine) -> Option<Rows>;
     fn value(&self, param: &EngineParam) -> Data;
     fn set(&mut self, param: &'static EngineParam, value: Data);
 
     /// Sets the parameters of one engine from the rows of a file.
-    fn load_engine(&mut self, engine: usize, reals: &[f64], ints: &[i32]) {
+    fn load_engine(&mut self, engine: Engine, reals: &[f64], ints: &[i32]) {
         let Some(Rows { reals: (first_real, _), ints: (first_int, _) }) = self.rows(engine) else { return };
         for (number, real) in (first_real..).zip(reals) {
             if real.is_finite() && !is_step_size(number) {
@@ -67,7 +66,7 @@ pub trait EngineValues {
     }
 
     /// The rows of one engine; zero where a number has no counterpart.
-    fn engine_rows(&self, engine: usize) -> (Vec<f64>, Vec<i32>) {
+    fn engine_rows(&self, engine: Engine) -> (Vec<f64>, Vec<i32>) {
         let Some(rows) = self.rows(engine) else { return Default::default() };
         let ((first_real, reals), (first_int, ints)) = (rows.reals, rows.ints);
         let real = |at: usize| self.number(first_real + at as i64).unwrap_or_default();
@@ -102,8 +101,8 @@ pub trait EngineValues {
 }
 
 impl EngineValues for Material {
-    fn rows(&self, engine: usize) -> Option<Rows> {
-        MATERIAL.get(engine).copied()
+    fn rows(&self, engine: Engine) -> Option<Rows> {
+        Some(MATERIAL[engine as usize])
     }
     fn value(&self, param: &EngineParam) -> Data {
         self.engine_value(param)
@@ -114,8 +113,8 @@ impl EngineValues for Material {
 }
 
 impl EngineValues for Joint {
-    fn rows(&self, engine: usize) -> Option<Rows> {
-        JOINT.get(engine).copied()
+    fn rows(&self, engine: Engine) -> Option<Rows> {
+        Some(JOINT[engine as usize])
     }
     fn value(&self, param: &EngineParam) -> Data {
         self.engine_value(param)
@@ -126,8 +125,8 @@ impl EngineValues for Joint {
 }
 
 impl EngineValues for DynamicsSettings {
-    fn rows(&self, engine: usize) -> Option<Rows> {
-        SCENE.get(engine).copied()
+    fn rows(&self, engine: Engine) -> Option<Rows> {
+        Some(SCENE[engine as usize])
     }
     fn value(&self, param: &EngineParam) -> Data {
         inert_value(&self.engine_values, param, EngineOwner::Scene)
@@ -138,8 +137,8 @@ impl EngineValues for DynamicsSettings {
 }
 
 impl EngineValues for Dummy {
-    fn rows(&self, engine: usize) -> Option<Rows> {
-        (engine == 4).then_some(DUMMY)
+    fn rows(&self, engine: Engine) -> Option<Rows> {
+        (engine == Engine::Mujoco).then_some(DUMMY)
     }
     fn value(&self, param: &EngineParam) -> Data {
         inert_value(&self.engine_values, param, EngineOwner::Dummy)
@@ -161,18 +160,15 @@ mod tests {
     #[test]
     fn rows_come_back() {
         let mut material = Material::default();
-        material.load_engine(0, &[0.25, 0.5, 0.75], &[1]);
+        material.load_engine(Engine::Bullet, &[0.25, 0.5, 0.75], &[1]);
         assert_eq!((material.restitution, material.friction), (0.25, 0.5));
-        let (reals, ints) = material.engine_rows(0);
+        let (reals, ints) = material.engine_rows(Engine::Bullet);
         assert_eq!((&reals[..3], &ints[..]), (&[0.25, 0.5, 0.75][..], &[1][..]));
         let mut other = Material::default();
-        (0..5).for_each(|engine| {
+        Engine::ALL.into_iter().for_each(|engine| {
             let (reals, ints) = material.engine_rows(engine);
             other.load_engine(engine, &reals, &ints);
         });
-        assert_eq!(
-            (0..5).map(|e| other.engine_rows(e)).collect::<Vec<_>>(),
-            (0..5).map(|e| material.engine_rows(e)).collect::<Vec<_>>()
-        );
+        assert_eq!(Engine::ALL.map(|e| other.engine_rows(e)), Engine::ALL.map(|e| material.engine_rows(e)));
     }
 }

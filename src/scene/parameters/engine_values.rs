@@ -1,7 +1,9 @@
 //! The values of engine parameters. Those the physics here uses are fields of materials and joints; all others are kept beside them as
 //! they were set.
 
-use super::engine::{ENGINES, EngineOwner, EngineParam, Numbered, engine_params, is_step_size, numbered};
+use super::engine::{
+    Engine, EngineOwner, EngineParam, Numbered, SelectedEngine, engine_params, is_step_size, numbered,
+};
 use crate::scene::joint::Joint;
 use crate::scene::shape::Material;
 use crate::scene::{Data, Field, Handle, InertValues, Object, Scene, SceneError, SceneResult};
@@ -151,17 +153,17 @@ impl Material {
         })
     }
 
-    /// Friction and restitution that the selected engine, number and version (`sim.physics_*`), would use.
-    pub fn contact_values(&self, engine: [i64; 2]) -> (f64, f64) {
+    /// Friction and restitution that the selected engine, would use.
+    pub fn contact_values(&self, selected: SelectedEngine) -> (f64, f64) {
         let value =
             |name: &str| self.named_value(name).as_ref().and_then(|value| element(value, 0)).unwrap_or_default();
-        match engine {
-            [1, _] => (value("ode.friction"), 0.0),
-            [2, _] => (value("vortex.linearPrimaryAxisFrictionValue"), value("vortex.restitution")),
-            [3, _] => (value("newton.kineticFriction"), value("newton.restitution")),
-            [4, _] => (value("mujoco.friction"), 0.0),
-            [0, BULLET_283] => (value("bullet.friction"), self.restitution),
-            _ => (self.friction, self.restitution),
+        match selected.engine {
+            Engine::Ode => (value("ode.friction"), 0.0),
+            Engine::Vortex => (value("vortex.linearPrimaryAxisFrictionValue"), value("vortex.restitution")),
+            Engine::Newton => (value("newton.kineticFriction"), value("newton.restitution")),
+            Engine::Mujoco => (value("mujoco.friction"), 0.0),
+            Engine::Bullet if selected.version == BULLET_283 => (value("bullet.friction"), self.restitution),
+            Engine::Bullet => (self.friction, self.restitution),
         }
     }
 
@@ -207,7 +209,7 @@ impl Joint {
 /// The number of the engine whose gains of position control the parameter is.
 fn engine_of_gains(param: &EngineParam) -> Option<usize> {
     let (engine, "posPid") = param.split() else { return None };
-    ENGINES.iter().position(|&name| name == engine)
+    Engine::ALL.into_iter().position(|known| known.name() == engine)
 }
 
 #[cfg(test)]
@@ -230,11 +232,12 @@ mod tests {
 
     #[test]
     fn the_selected_engine_decides_about_contacts() {
+        let selected = |engine, version| SelectedEngine { engine, version };
         let grip = Material::rest_stack_grasp();
-        assert_eq!(grip.contact_values([0, 0]), (1.0, 0.0));
-        assert_eq!(grip.contact_values([0, BULLET_283]), (0.5, 0.0));
-        assert_eq!(Material::default().contact_values([1, 0]), (0.71, 0.0));
-        assert_eq!(Material::default().contact_values([4, 0]), (1.0, 0.0));
+        assert_eq!(grip.contact_values(selected(Engine::Bullet, 0)), (1.0, 0.0));
+        assert_eq!(grip.contact_values(selected(Engine::Bullet, BULLET_283)), (0.5, 0.0));
+        assert_eq!(Material::default().contact_values(selected(Engine::Ode, 0)), (0.71, 0.0));
+        assert_eq!(Material::default().contact_values(selected(Engine::Mujoco, 0)), (1.0, 0.0));
     }
 
     #[test]

@@ -1,11 +1,13 @@
 //! Numbered parameters that all objects have (`sim.objintparam_*`, `sim.objfloatparam_*`), visibility and boxes.
 //!
-//! What a type adds stands in `kind_params`; numbers of functionality that is gone (roles, permissions) are not known.
+//! The parameters of each type are in `kind`. Numbers of removed functions (roles, permissions) are unknown.
 
 use geometry::BoundingBox;
 use nalgebra::{Point3, Vector3};
 
-use crate::scene::{Field, Handle, Kind, ModelFlags, Object, ObjectFlags, Pose, Scene, SceneResult, SpecialFlags};
+use crate::scene::{
+    Field, Handle, Kind, Layers, ModelFlags, Object, ObjectFlags, Pose, Scene, SceneResult, SpecialFlags,
+};
 
 /// `sim.dummystringparam_assemblytag`.
 const ASSEMBLY_TAG: i64 = 10004;
@@ -20,7 +22,7 @@ impl Scene {
     pub fn int_param(&self, handle: Handle, id: i64) -> SceneResult<Option<i64>> {
         let object = self.object(handle)?;
         match id {
-            10 => Ok(Some(object.layer)),
+            10 => Ok(Some(object.layer.number())),
             27 => Ok(Some(object.self_collision_indicator)),
             36 => Ok(Some(i64::from(self.is_visible(handle)?))),
             37 => Ok(Some(object.uid())),
@@ -32,7 +34,7 @@ impl Scene {
     /// Sets an integer parameter; false when the object has no such parameter, or only one to read.
     pub fn set_int_param(&mut self, handle: Handle, id: i64, value: i64) -> SceneResult<bool> {
         match id {
-            10 => self.modify(handle, Field::Layer, |object| object.layer = value & 0xffff)?,
+            10 => self.modify(handle, Field::Layer, |object| object.layer = Layers::from_number(value))?,
             27 => self.modify(handle, Field::Inert, |object| object.self_collision_indicator = value)?,
             38 => self.modify(handle, Field::Inert, |object| object.hierarchy_colour = value)?,
             _ => return self.set_kind_int_param(handle, id, value),
@@ -96,7 +98,7 @@ impl Scene {
     pub fn is_visible(&self, handle: Handle) -> SceneResult<bool> {
         let layer = self.object(handle)?.layer;
         let hidden = self.calculated_model_property(handle).contains(ModelFlags::NOT_VISIBLE);
-        Ok(layer & self.settings().visibility_layers != 0 && !hidden)
+        Ok(layer.intersects(self.settings().visibility_layers) && !hidden)
     }
 
     /// Box around a model in the frame of its base.

@@ -3,7 +3,7 @@
 use geometry::pose::euler::{rotation_from_euler, rotation_to_euler};
 
 use crate::scene::appearance::texture_mapping::TextureMapping;
-use crate::scene::shape::{Appearance, Shape};
+use crate::scene::shape::{Appearance, RespondableMask, Shape};
 
 impl Shape {
     fn first_appearance(&self) -> Option<&Appearance> {
@@ -33,7 +33,7 @@ impl Shape {
             3015 => seen(|a| a.wireframe),
             3016 => i64::from(self.is_compound()),
             3017 | 3018 => i64::from(self.is_convex()),
-            3019 => dynamics.respondable_mask,
+            3019 => dynamics.respondable_mask.0,
             3024 => seen(|a| a.edges),
             3028 => self.parts.len() as i64,
             3029 => i64::from(dynamics.start_asleep),
@@ -51,7 +51,7 @@ impl Shape {
             3004 => self.dynamics.respondable = on,
             3014 => self.each_appearance(|a| a.culling = on),
             3015 => self.each_appearance(|a| a.wireframe = on),
-            3019 => self.dynamics.respondable_mask = value,
+            3019 => self.dynamics.respondable_mask = RespondableMask(value),
             3024 => self.each_appearance(|a| a.edges = on),
             3029 => self.dynamics.start_asleep = on,
             3030 => self.dynamics.kinematic = on,

@@ -2,6 +2,7 @@
 
 pub(in crate::scene) mod build;
 pub mod force_sensor;
+pub mod options;
 pub mod volume;
 pub mod volume_faces;
 
@@ -12,11 +13,11 @@ use super::appearance::colour::Colour;
 use volume::Volume;
 use volume_faces::KnownFaces;
 
+pub use options::{ProximityOptions, VisionOptions};
+
 /// What a proximity sensor sees with.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProximitySensor {
-    /// `sim.proximitysensor_*` sub-type number.
-    pub volume_type: i64,
     pub volume: Volume,
     pub explicit: bool,
     /// Of the point that shows it, metres.
@@ -81,13 +82,24 @@ impl View {
     }
 }
 
+/// How a vision sensor makes its image (`sim.visionintparam_render_mode`). Scripts and files may choose modes that are not known here;
+/// they are stored as written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RenderMode(pub i64);
+
+impl RenderMode {
+    pub const OPENGL: Self = Self(0);
+    pub const EXTERNAL: Self = Self(5);
+    pub const OPENGL3: Self = Self(7);
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub struct VisionSensor {
     pub view: View,
     pub explicit: bool,
     pub size: f64,
     pub entity: i64,
-    pub render_mode: i64,
+    pub render_mode: RenderMode,
     /// Of the picture where there is nothing.
     pub background: [f32; 3],
     pub background_from_environment: bool,
@@ -137,10 +149,23 @@ impl Default for Camera {
     }
 }
 
+/// `sim.light_*`: where a light shines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LightType {
+    Omnidirectional = 1,
+    Spot = 2,
+    Directional = 3,
+}
+
+impl LightType {
+    pub fn code(self) -> i64 {
+        self as i64
+    }
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub struct Light {
-    /// 1 omnidirectional, 2 spot, 3 directional.
-    pub light_type: i64,
+    pub light_type: LightType,
     pub enabled: bool,
     /// What it sheds.
     pub colour: Colour,
@@ -154,7 +179,7 @@ pub struct Light {
 }
 
 impl Light {
-    pub fn new(light_type: i64) -> Self {
+    pub fn new(light_type: LightType) -> Self {
         Self {
             light_type,
             enabled: true,

@@ -2,12 +2,32 @@
 
 use std::f64::consts::TAU;
 
-/// `sim.proximitysensor_*`.
-pub const PYRAMID: i64 = 30;
-pub const CYLINDER: i64 = 31;
-pub const DISC: i64 = 32;
-pub const CONE: i64 = 33;
-pub const RAY: i64 = 34;
+/// `sim.proximitysensor_*`: the shape of the volume.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VolumeType {
+    Pyramid = 30,
+    Cylinder = 31,
+    Disc = 32,
+    Cone = 33,
+    Ray = 34,
+}
+
+impl VolumeType {
+    const ALL: [Self; 5] = [Self::Pyramid, Self::Cylinder, Self::Disc, Self::Cone, Self::Ray];
+
+    pub fn from_code(code: i64) -> Option<Self> {
+        Self::ALL.into_iter().find(|volume_type| volume_type.code() == code)
+    }
+
+    pub fn code(self) -> i64 {
+        self as i64
+    }
+
+    /// Position among the types, from 0: what `sim.proxintparam_volume_type` and the volumes of files contain.
+    pub fn index(self) -> i64 {
+        self.code() - Self::Pyramid.code()
+    }
+}
 
 /// Segments of a drawn arc of a whole turn.
 const ARC_STEPS: usize = 32;
@@ -15,6 +35,7 @@ const ARC_STEPS: usize = 32;
 /// Where a sensor looks: the meaning of most numbers depends on the type. Lengths in metres; pairs are near and far.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Volume {
+    pub volume_type: VolumeType,
     /// From the sensor to where the volume begins.
     pub offset: f64,
     pub range: f64,
@@ -38,22 +59,22 @@ impl Volume {
     pub const SMALLEST: f64 = 1e-5;
 
     /// End points of the edges of the volume in the sensor's frame.
-    pub fn edges(&self, volume_type: i64) -> Vec<[Point; 2]> {
-        match volume_type {
-            PYRAMID | CYLINDER => {
-                let [near, far] = ends(self, volume_type);
+    pub fn edges(&self) -> Vec<[Point; 2]> {
+        match self.volume_type {
+            VolumeType::Pyramid | VolumeType::Cylinder => {
+                let [near, far] = self.ends();
                 prism(&near, &far)
             }
-            DISC => self.disc(),
-            CONE => self.cone(),
-            RAY => vec![[[0.0, 0.0, self.offset], [0.0, 0.0, self.offset + self.range]]],
-            _ => Vec::new(),
+            VolumeType::Disc => self.disc(),
+            VolumeType::Cone => self.cone(),
+            VolumeType::Ray => vec![[[0.0, 0.0, self.offset], [0.0, 0.0, self.offset + self.range]]],
         }
     }
 
     /// End points of the edges of the part of the volume that is nearer than the threshold.
-    pub fn close_edges(&self, volume_type: i64) -> Vec<[Point; 2]> {
-        let begin = self.offset + if matches!(volume_type, DISC | CONE) { self.radius[0] } else { 0.0 };
+    pub fn close_edges(&self) -> Vec<[Point; 2]> {
+        let is_round = matches!(self.volume_type, VolumeType::Disc | VolumeType::Cone);
+        let begin = self.offset + if is_round { self.radius[0] } else { 0.0 };
         let depth = (self.close_threshold - begin).min(self.range);
         if self.close_threshold <= 0.0 || depth <= 0.0 {
             return Vec::new();
@@ -61,10 +82,19 @@ impl Volume {
         let grown = |[near, far]: [f64; 2]| [near, near + (far - near) * depth / self.range.max(Self::SMALLEST)];
         let mut near = self.clone();
         (near.range, near.x_size, near.y_size) = (depth, grown(self.x_size), grown(self.y_size));
-        if volume_type == CYLINDER {
+        if self.volume_type == VolumeType::Cylinder {
             near.radius = grown(self.radius);
         }
-        near.edges(volume_type)
+        near.edges()
+    }
+
+    /// The polygons at both ends of a pyramid or a cylinder.
+    pub(in crate::scene) fn ends(&self) -> [Vec<Point>; 2] {
+        let depths = [self.offset, self.offset + self.range];
+        [0, 1].map(|end| match self.volume_type {
+            VolumeType::Cylinder => circle(self.radius[end], depths[end], self.faces[0]),
+            _ => rectangle(self.x_size[end], self.y_size[end], depths[end]),
+        })
     }
 
     /// A flat sector around z, `y_size` thick.
@@ -109,15 +139,6 @@ impl Volume {
     }
 }
 
-/// The polygons at both ends of a pyramid or a cylinder.
-pub(in crate::scene) fn ends(volume: &Volume, volume_type: i64) -> [Vec<Point>; 2] {
-    let depths = [volume.offset, volume.offset + volume.range];
-    [0, 1].map(|end| match volume_type {
-        CYLINDER => circle(volume.radius[end], depths[end], volume.faces[0]),
-        _ => rectangle(volume.x_size[end], volume.y_size[end], depths[end]),
-    })
-}
-
 fn rectangle(x: f64, y: f64, z: f64) -> Vec<Point> {
     [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[i, j]| [0.5 * i * x, 0.5 * j * y, z]).to_vec()
 }
@@ -143,10 +164,10 @@ fn prism(near: &[Point], far: &[Point]) -> Vec<[Point; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::sensor::ProximitySensor;
+    use crate::scene::sensor::{ProximityOptions, ProximitySensor};
 
-    fn volume(volume_type: i64) -> Volume {
-        ProximitySensor::new(volume_type, 0, ProximitySensor::INTEGERS, None).unwrap().volume
+    fn volume(volume_type: VolumeType) -> Volume {
+        ProximitySensor::new(volume_type, ProximityOptions::empty(), ProximitySensor::INTEGERS, None).volume
     }
 
     #[test]
@@ -155,19 +176,19 @@ mod tests {
             let depths: Vec<f64> = edges.iter().flatten().map(|point| point[2]).collect();
             (depths.iter().copied().fold(f64::MAX, f64::min), depths.iter().copied().fold(f64::MIN, f64::max))
         };
-        assert_eq!(volume(RAY).edges(RAY), [[[0.0, 0.0, 0.1], [0.0, 0.0, 0.5]]]);
-        assert_eq!(volume(PYRAMID).edges(PYRAMID).len(), 12);
-        let (near, far) = depths(&volume(CYLINDER).edges(CYLINDER));
+        assert_eq!(volume(VolumeType::Ray).edges(), [[[0.0, 0.0, 0.1], [0.0, 0.0, 0.5]]]);
+        assert_eq!(volume(VolumeType::Pyramid).edges().len(), 12);
+        let (near, far) = depths(&volume(VolumeType::Cylinder).edges());
         assert!((near - 0.1).abs() < 1e-12 && (far - 0.3).abs() < 1e-12);
-        let (_, far) = depths(&volume(CONE).edges(CONE));
+        let (_, far) = depths(&volume(VolumeType::Cone).edges());
         assert!((far - 0.3).abs() < 1e-12);
     }
 
     #[test]
     fn only_what_is_near_is_close() {
-        let mut ray = volume(RAY);
-        assert_eq!(ray.close_edges(RAY), Vec::<[Point; 2]>::new());
+        let mut ray = volume(VolumeType::Ray);
+        assert_eq!(ray.close_edges(), Vec::<[Point; 2]>::new());
         ray.close_threshold = 0.2;
-        assert_eq!(ray.close_edges(RAY), [[[0.0, 0.0, 0.1], [0.0, 0.0, 0.2]]]);
+        assert_eq!(ray.close_edges(), [[[0.0, 0.0, 0.1], [0.0, 0.0, 0.2]]]);
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::ProximitySensor;
-use super::volume::{CYLINDER, PYRAMID, Volume, ends};
+use super::volume::{Volume, VolumeType};
 
 type Plane = [f64; 4];
 
@@ -23,7 +23,6 @@ pub struct VolumeFaces {
 /// What a file said bounds a volume.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KnownFaces {
-    volume_type: i64,
     volume: Volume,
     faces: VolumeFaces,
 }
@@ -34,20 +33,18 @@ impl ProximitySensor {
         if faces == self.faces() {
             return;
         }
-        let (volume_type, volume) = (self.volume_type, self.volume.clone());
-        self.known_faces = Some(Box::new(KnownFaces { volume_type, volume, faces }));
+        self.known_faces = Some(Box::new(KnownFaces { volume: self.volume.clone(), faces }));
     }
 
     /// What bounds the volume: as it was kept, or worked out. The planes of discs and cones, and of volumes with a gap inside, are not
     /// worked out: there are none then.
     pub fn faces(&self) -> VolumeFaces {
-        let same = |known: &KnownFaces| known.volume_type == self.volume_type && known.volume == self.volume;
-        match self.known_faces.as_deref().filter(|known| same(known)) {
+        match self.known_faces.as_deref().filter(|known| known.volume == self.volume) {
             Some(known) => known.faces.clone(),
             None => VolumeFaces {
-                planes_inside: self.volume.planes(self.volume_type).concat(),
-                edges: self.volume.edges(self.volume_type).as_flattened().concat(),
-                close_edges: self.volume.close_edges(self.volume_type).as_flattened().concat(),
+                planes_inside: self.volume.planes().concat(),
+                edges: self.volume.edges().as_flattened().concat(),
+                close_edges: self.volume.close_edges().as_flattened().concat(),
                 ..VolumeFaces::default()
             },
         }
@@ -56,11 +53,11 @@ impl ProximitySensor {
 
 impl Volume {
     /// The planes around a pyramid or a cylinder without a gap.
-    fn planes(&self, volume_type: i64) -> Vec<Plane> {
-        if ![PYRAMID, CYLINDER].contains(&volume_type) || self.inside_gap != 0.0 {
+    fn planes(&self) -> Vec<Plane> {
+        if !matches!(self.volume_type, VolumeType::Pyramid | VolumeType::Cylinder) || self.inside_gap != 0.0 {
             return Vec::new();
         }
-        let [near, far] = ends(self, volume_type).map(|end| end.into_iter().map(Vector3::from).collect::<Vec<_>>());
+        let [near, far] = self.ends().map(|end| end.into_iter().map(Vector3::from).collect::<Vec<_>>());
         let caps = [[0.0, 0.0, -1.0, self.offset], [0.0, 0.0, 1.0, -(self.offset + self.range)]];
         let side = |i: usize| {
             let next = (i + 1) % near.len();
@@ -78,15 +75,15 @@ impl Volume {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::sensor::volume::CONE;
+    use crate::scene::sensor::ProximityOptions;
 
-    fn sensor(volume_type: i64) -> ProximitySensor {
-        ProximitySensor::new(volume_type, 0, ProximitySensor::INTEGERS, None).unwrap()
+    fn sensor(volume_type: VolumeType) -> ProximitySensor {
+        ProximitySensor::new(volume_type, ProximityOptions::empty(), ProximitySensor::INTEGERS, None)
     }
 
     #[test]
     fn planes_are_those_seen_in_files() {
-        let mut sensor = sensor(CYLINDER);
+        let mut sensor = sensor(VolumeType::Cylinder);
         (sensor.volume.offset, sensor.volume.range) = (0.0, 0.06);
         (sensor.volume.radius, sensor.volume.faces) = ([0.005, 0.025], [12, 0]);
         let faces = sensor.faces();
@@ -98,7 +95,7 @@ mod tests {
 
     #[test]
     fn points_inside_are_behind_all_planes() {
-        for volume_type in [PYRAMID, CYLINDER] {
+        for volume_type in [VolumeType::Pyramid, VolumeType::Cylinder] {
             let sensor = sensor(volume_type);
             let middle = sensor.volume.offset + 0.5 * sensor.volume.range;
             let planes = sensor.faces().planes_inside;
@@ -108,7 +105,7 @@ mod tests {
 
     #[test]
     fn what_was_kept_holds_while_the_volume_does() {
-        let mut sensor = sensor(CONE);
+        let mut sensor = sensor(VolumeType::Cone);
         let kept = VolumeFaces { planes_outside: vec![1.0; 4], ..VolumeFaces::default() };
         sensor.keep_faces(kept.clone());
         assert_eq!(sensor.faces(), kept);

@@ -7,6 +7,7 @@ use geometry::MassProperties;
 use geometry::Mesh;
 use geometry::primitive::{PrimitiveKind, bounding_size, clamp_size, has_pure_size, heightfield, tessellate};
 
+use super::options::PrimitiveOptions;
 use super::{Appearance, HeightField, Material, Part, Primitive, Shape, ShapeDynamics, Velocity};
 use crate::scene::Pose;
 use crate::scene::{SceneError, SceneResult};
@@ -17,17 +18,6 @@ const DENSITY: f64 = 500.0;
 const FLAT: f64 = 1e-4;
 const GREY: [f32; 3] = [0.9; 3];
 const SAND: [f32; 3] = [0.68, 0.56, 0.36];
-
-/// How `sim.createPrimitiveShape` makes a shape.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct PrimitiveOptions {
-    pub culling: bool,
-    pub sharp_edges: bool,
-    /// Cylinders only.
-    pub open_ends: bool,
-    /// Only the mesh, which physics does not know to be a primitive.
-    pub plain_mesh: bool,
-}
 
 impl Shape {
     /// A simple shape of one part that lies in the shape frame.
@@ -51,16 +41,16 @@ impl Shape {
     /// For height fields, which need heights.
     pub fn primitive(kind: PrimitiveKind, size: [f64; 3], options: PrimitiveOptions) -> SceneResult<Self> {
         let size = clamp_size(kind, size);
-        let open_ends = options.open_ends && kind == PrimitiveKind::Cylinder;
+        let open_ends = options.contains(PrimitiveOptions::OPEN_ENDS) && kind == PrimitiveKind::Cylinder;
         let mut mesh = tessellate(kind, size, open_ends).ok_or(SceneError::InvalidArgument)?;
         let mut appearance = Appearance::new([1.0; 3]);
-        appearance.culling = options.culling;
-        if options.sharp_edges {
+        appearance.culling = options.contains(PrimitiveOptions::CULLING);
+        if options.contains(PrimitiveOptions::SHARP_EDGES) {
             (appearance.shading_angle, appearance.edge_angle) = (0.0, 0.0);
         }
         mesh.compute_normals(appearance.shading_angle);
         let flat = matches!(kind, PrimitiveKind::Plane | PrimitiveKind::Disc);
-        let pure = !options.plain_mesh && !open_ends && has_pure_size(kind, size);
+        let pure = !options.contains(PrimitiveOptions::PLAIN_MESH) && !open_ends && has_pure_size(kind, size);
         let analytic = [size[0], size[1], if flat { FLAT } else { size[2] }];
         let part = Part {
             uid: 0,

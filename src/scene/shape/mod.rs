@@ -4,6 +4,7 @@ pub mod build;
 pub(in crate::scene) mod group;
 pub(in crate::scene) mod hull_points;
 pub(in crate::scene) mod mesh_owners;
+pub mod options;
 pub mod reshape;
 
 use std::rc::Rc;
@@ -77,6 +78,21 @@ pub struct Velocity {
     pub angular: [f64; 3],
 }
 
+/// Which shapes a shape collides with: those with a common bit, in the low byte within a tree, in the high byte between trees.
+/// Higher bits have no meaning; they are stored as written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RespondableMask(pub i64);
+
+impl RespondableMask {
+    pub const ALL: Self = Self(0xffff);
+    pub const NONE: Self = Self(0);
+
+    /// The bits that have a meaning.
+    pub fn bits(self) -> u16 {
+        self.0 as u16
+    }
+}
+
 /// Dynamic properties of a shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShapeDynamics {
@@ -85,8 +101,7 @@ pub struct ShapeDynamics {
     pub kinematic: bool,
     pub start_asleep: bool,
     pub dynamic_when_parented: bool,
-    /// Low byte: local mask, high byte: global mask. Kept as written.
-    pub respondable_mask: i64,
+    pub respondable_mask: RespondableMask,
     pub respondable_suspend_count: i64,
     pub initial_velocity: Velocity,
 }
@@ -99,7 +114,7 @@ impl Default for ShapeDynamics {
             kinematic: false,
             start_asleep: false,
             dynamic_when_parented: false,
-            respondable_mask: 0xffff,
+            respondable_mask: RespondableMask::ALL,
             respondable_suspend_count: 0,
             initial_velocity: Velocity::default(),
         }

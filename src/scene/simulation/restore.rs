@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 
 use crate::scene::joint::Joint;
 use crate::scene::shape::Velocity;
-use crate::scene::{DynamicFlags, Field, Handle, Kind, ModelFlags, Object, ObjectFlags, Pose, Scene, SceneResult, Uid};
+use crate::scene::{
+    DynamicFlags, Field, Handle, Kind, Layers, ModelFlags, Object, ObjectFlags, Pose, Scene, SceneResult, Uid,
+};
 
 /// The state of one object at simulation start.
 #[derive(Debug, Clone)]
@@ -13,7 +15,7 @@ pub struct InitialState {
     local: Pose,
     world: Pose,
     model_property: ModelFlags,
-    layer: i64,
+    layer: Layers,
     kind: InitialKind,
 }
 
@@ -63,12 +65,12 @@ impl Scene {
     fn hide_for_simulation(&mut self, handle: Handle) {
         let hidden = self.object(handle).is_ok_and(|object| {
             object.object_property.contains(ObjectFlags::HIDDEN_FOR_SIMULATION)
-                && object.layer != 0
+                && !object.layer.is_empty()
                 && object.initial.is_some()
         });
         if hidden {
             // The handle was just read.
-            let _ = self.modify(handle, Field::Layer, |object| object.layer = 0);
+            let _ = self.modify(handle, Field::Layer, |object| object.layer = Layers::empty());
         }
     }
 

@@ -1,7 +1,8 @@
 //! Settings of a scene, as in CoppeliaSim's simulation dialog.
 
-use crate::scene::InertValues;
 use crate::scene::appearance::environment::Environment;
+use crate::scene::parameters::engine::SelectedEngine;
+use crate::scene::{InertValues, Layers};
 
 /// Scene-wide settings. Times in seconds.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,7 +16,7 @@ pub struct Settings {
     pub pause_at_time: bool,
     pub time_to_pause: f64,
     pub dynamics: DynamicsSettings,
-    pub visibility_layers: i64,
+    pub visibility_layers: Layers,
     /// Where the file of the scene is; empty without a file.
     pub path: String,
     /// Simulation steps per drawn image. Kept for scripts: nothing is drawn.
@@ -34,8 +35,8 @@ pub struct DynamicsSettings {
     pub step: f64,
     /// m/s^2, world axes. Kept in 32 bits as the original does, so that it reads back the same.
     pub gravity: [f32; 3],
-    /// Engine number and version (`sim.physics_*`). Kept for scripts that ask; rapier does the work.
-    pub engine: [i64; 2],
+    /// Rapier does the work; this decides which parameters it reads.
+    pub engine: SelectedEngine,
     pub show_contact_points: bool,
     /// Parameters of physics engines, as they were set.
     pub engine_values: InertValues,
@@ -52,7 +53,7 @@ impl Default for Settings {
             pause_at_time: false,
             time_to_pause: 3600.0,
             dynamics: DynamicsSettings::default(),
-            visibility_layers: 0x00ff,
+            visibility_layers: Layers::SHOWN_BY_DEFAULT,
             path: String::new(),
             steps_per_rendering: 1,
             acknowledgment: String::new(),
@@ -68,7 +69,7 @@ impl Default for DynamicsSettings {
             enabled: true,
             step: 0.005,
             gravity: [0.0, 0.0, -9.81],
-            engine: [0, 0],
+            engine: SelectedEngine::default(),
             show_contact_points: false,
             engine_values: InertValues::default(),
         }

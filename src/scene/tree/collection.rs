@@ -2,25 +2,73 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::scene::{Handle, Scene, SceneError, SceneResult, special};
+use bitflags::bitflags;
+
+use crate::scene::{Handle, Scene, SceneError, SceneResult};
 
 /// The first handle of a collection.
 const FIRST_HANDLE: i64 = 2_000_000;
 
+bitflags! {
+    /// Options of `sim.createCollection`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct CollectionOptions: i64 {
+        /// Members count whatever their collidable, measurable and detectable flags say.
+        const OVERRIDES = 0x1;
+        const _ = !0;
+    }
+}
+
+bitflags! {
+    /// Options of `sim.addItemToCollection`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct ItemOptions: i64 {
+        const SUBTRACT = 0x1;
+        const EXCLUDE_BASE = 0x2;
+        const _ = !0;
+    }
+}
+
 /// A set of objects that scripts build up (`sim.createCollection`).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Collection {
-    /// Whether checks of the collection against itself count.
+    /// [`CollectionOptions::OVERRIDES`].
     pub overrides: bool,
     pub items: Vec<CollectionItem>,
+}
+
+/// The objects an item stands for: `sim.handle_all`, `_single`, `_tree` or `_chain`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Members {
+    All,
+    Single(Handle),
+    /// An object and everything below it.
+    Tree(Handle),
+    /// An object and everything above it.
+    Chain(Handle),
+}
+
+impl CollectionItem {
+    pub fn new(members: Members, options: ItemOptions) -> Self {
+        let [subtract, exclude_base] = [ItemOptions::SUBTRACT, ItemOptions::EXCLUDE_BASE].map(|o| options.contains(o));
+        Self { members, subtract, exclude_base }
+    }
+}
+
+impl Members {
+    /// The object the others are found from; all objects need none.
+    pub fn base(self) -> Option<Handle> {
+        match self {
+            Self::All => None,
+            Self::Single(base) | Self::Tree(base) | Self::Chain(base) => Some(base),
+        }
+    }
 }
 
 /// One instruction of a collection: what to add or subtract.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CollectionItem {
-    /// `sim.handle_all`, `_single`, `_tree` or `_chain`.
-    pub what: i64,
-    pub base: Option<Handle>,
+    pub members: Members,
     pub subtract: bool,
     pub exclude_base: bool,
 }
@@ -64,7 +112,7 @@ impl Collections {
 
     pub(super) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
         for collection in self.by_handle.values_mut() {
-            collection.items.retain(|item| item.base.is_none_or(|base| !doomed.contains(&base)));
+            collection.items.retain(|item| item.members.base().is_none_or(|base| !doomed.contains(&base)));
         }
     }
 }
@@ -98,13 +146,14 @@ impl Scene {
     }
 
     fn item_objects(&self, item: &CollectionItem) -> Vec<Handle> {
-        let Some(base) = item.base else { return self.objects().map(crate::scene::Object::handle).collect() };
-        let mut objects = match item.what {
-            special::TREE => self.subtree(base),
-            special::CHAIN => std::iter::once(base).chain(self.ancestors(base)).collect(),
-            _ => vec![base],
+        let mut objects: Vec<Handle> = match item.members {
+            Members::All => return self.objects().map(crate::scene::Object::handle).collect(),
+            Members::Single(object) => vec![object],
+            Members::Tree(base) => self.subtree(base),
+            Members::Chain(tip) => std::iter::once(tip).chain(self.ancestors(tip)).collect(),
         };
-        objects.retain(|&object| self.exists(object) && !(item.exclude_base && object == base));
+        let base = item.members.base();
+        objects.retain(|&object| self.exists(object) && !(item.exclude_base && Some(object) == base));
         objects
     }
 }

@@ -2,26 +2,27 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use bitflags::bitflags;
+
 use crate::scene::appearance::texture_mapping::TextureSource;
 use crate::scene::object::script_object::ScriptObject;
 use crate::scene::pose::placement::normalized;
 use crate::scene::shape::Velocity;
 use crate::scene::{CustomData, DynamicFlags, Handle, Kind, Measured, ModelFlags, Object, Scene, SceneResult};
 
-/// The option bits of `sim.copyPasteObjects`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct CopyOptions(pub i64);
-
-impl CopyOptions {
-    const MODELS: i64 = 1;
-    const NO_SCRIPTS: i64 = 2;
-    const NO_CUSTOM_DATA: i64 = 4;
-    const NO_REFERENCES: i64 = 8;
-    const NO_TEXTURES: i64 = 16;
-    const NO_MODEL_TAGS: i64 = 32;
-
-    fn has(self, bit: i64) -> bool {
-        self.0 & bit != 0
+bitflags! {
+    /// Options of `sim.copyPasteObjects`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct CopyOptions: i64 {
+        /// Whole models.
+        const MODELS = 0x1;
+        const NO_SCRIPTS = 0x2;
+        const NO_CUSTOM_DATA = 0x4;
+        const NO_REFERENCES = 0x8;
+        const NO_TEXTURES = 0x10;
+        /// The copies are no models.
+        const NO_MODEL_TAGS = 0x20;
+        const _ = !0;
     }
 }
 
@@ -35,9 +36,9 @@ impl Scene {
             self.object(unknown)?;
         }
         let listed: BTreeSet<Handle> = handles.iter().copied().collect();
-        let mut chosen = if options.has(CopyOptions::MODELS) { self.models_in(&listed) } else { listed };
+        let mut chosen = if options.contains(CopyOptions::MODELS) { self.models_in(&listed) } else { listed };
         let is_script = |h: &Handle| self.object(*h).and_then(Object::script).is_ok();
-        if options.has(CopyOptions::NO_SCRIPTS) {
+        if options.contains(CopyOptions::NO_SCRIPTS) {
             chosen.retain(|h| !is_script(h));
         } else {
             let attached: Vec<Handle> = chosen.iter().flat_map(|&h| self.proxy_scripts(h)).collect();
@@ -117,7 +118,7 @@ fn start_anew(object: &mut Object, options: CopyOptions) {
         Kind::Shape(shape) => {
             shape.velocity = Velocity::default();
             (shape.force, shape.torque) = ([0.0; 3], [0.0; 3]);
-            if options.has(CopyOptions::NO_TEXTURES) {
+            if options.contains(CopyOptions::NO_TEXTURES) {
                 shape.parts.iter_mut().for_each(|part| part.texture = None);
             }
         }
@@ -125,14 +126,14 @@ fn start_anew(object: &mut Object, options: CopyOptions) {
         Kind::ProximitySensor(sensor) => sensor.detection = None,
         _ => {}
     }
-    if options.has(CopyOptions::NO_CUSTOM_DATA) {
+    if options.contains(CopyOptions::NO_CUSTOM_DATA) {
         object.custom_data = CustomData::default();
     }
-    if options.has(CopyOptions::NO_REFERENCES) {
+    if options.contains(CopyOptions::NO_REFERENCES) {
         object.references.clear();
         object.original_references.clear();
     }
-    if options.has(CopyOptions::NO_MODEL_TAGS) {
+    if options.contains(CopyOptions::NO_MODEL_TAGS) {
         object.model_property = ModelFlags::NOT_MODEL;
     }
 }

@@ -4,15 +4,15 @@ use geometry::PrimitiveKind;
 use nalgebra::UnitQuaternion;
 
 use crate::scene::object::dummy::Dummy;
-use crate::scene::sensor::Light;
-use crate::scene::shape::build::PrimitiveOptions;
+use crate::scene::sensor::{Light, LightType};
+use crate::scene::shape::options::PrimitiveOptions;
 use crate::scene::shape::{Material, Shape};
-use crate::scene::{Field, Handle, Kind, ModelFlags, Pose, Scene, SceneResult};
+use crate::scene::{Field, Handle, Kind, Layers, ModelFlags, Pose, Scene, SceneResult};
 
 /// Full extents of the floor, m. Its top is the plane z = 0.
 const FLOOR: [f64; 3] = [5.0, 5.0, 0.2];
 /// The layer the floor's body is on: not shown, as a look of its own would lie on top of it.
-const FLOOR_LAYER: i64 = 0x8000;
+const FLOOR_LAYER: Layers = Layers::from_bits_retain(0x8000);
 /// The last of the preset materials.
 const FLOOR_MATERIAL: i64 = Material::FIRST_PRESET + 8;
 /// Where the camera and the lights are, m.
@@ -30,7 +30,7 @@ impl Scene {
         self.set_world_pose(camera, looking_at_origin(CAMERA_AT))?;
         let lights = self.add("DefaultLights", Kind::Dummy(Dummy::new(0.1)))?;
         for at in LIGHTS_AT {
-            let light = self.add("light", Kind::Light(Box::new(Light::new(3))))?;
+            let light = self.add("light", Kind::Light(Box::new(Light::new(LightType::Directional))))?;
             self.set_world_pose(light, looking_at_origin(at))?;
             self.set_parent(light, Some(lights), true)?;
         }

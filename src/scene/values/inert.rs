@@ -73,7 +73,7 @@ mod tests {
         }
         let Unread::Changes(changes) = scene.journal().read(&mut cursor) else { panic!("nothing was lost") };
         assert!(changes.eq(&[Change::Modified(dummy, Field::Inert)]));
-        let copies = scene.copy_objects(&[dummy], CopyOptions(0)).expect("there is room");
+        let copies = scene.copy_objects(&[dummy], CopyOptions::empty()).expect("there is room");
         assert_eq!(scene.inert_value(Some(copies[&dummy]), "assemblyTag"), Ok(Some(&Data::text("a"))));
         assert_eq!(scene.inert_value(None, "assemblyTag"), Ok(None));
     }

@@ -9,6 +9,7 @@ use super::keys::{Keys, keys};
 use super::protocol::Protocol;
 use super::queue::{Class, Entry, Event, Source};
 use crate::scene::object::script_object::ScriptType;
+use crate::scene::parameters::engine::SelectedEngine;
 use crate::scene::{Data, Field, Handle, Namespace, Object, ValueType};
 use crate::script::lifecycle::instance::Script;
 use crate::script::property::{
@@ -238,7 +239,7 @@ pub(super) struct Watch {
     pub named_params: BTreeMap<String, Vec<u8>>,
     pub selection: Vec<Handle>,
     /// Physics engine: `engineProperties` of objects are those of the one selected.
-    pub engine: [i64; 2],
+    pub engine: SelectedEngine,
 }
 
 impl Watch {

@@ -12,9 +12,6 @@ use crate::script::calls::callback::SysCall;
 use crate::script::error::ApiResult;
 use crate::script::sim::Sim;
 
-/// Priorities of scripts count from 0 here, in files around 0.
-const NORMAL_PRIORITY: i64 = 1;
-
 impl Sim {
     /// The scene as a file.
     ///
@@ -68,7 +65,7 @@ impl Sim {
                 language: detached.language().to_owned(),
                 disabled: detached.disabled,
                 source: None,
-                exec_order: detached.priority - NORMAL_PRIORITY,
+                exec_order: detached.priority.order(),
             })
         });
         saved.collect()

@@ -3,12 +3,9 @@
 use std::rc::Rc;
 
 use super::instance::{Detached, Script};
-use crate::scene::object::script_object::ScriptObject;
+use crate::scene::object::script_object::{ExecutionPriority, ScriptObject};
 use crate::scene::{Handle, Scene};
 use crate::script::sim::Sim;
-
-/// Where old files say that a script comes before, with or after the others; later ones count from 0.
-const NORMAL_PRIORITY: i64 = 1;
 
 impl Sim {
     /// Attaches a script to an object, as scenes before 4.7 have it.
@@ -19,7 +16,7 @@ impl Sim {
                 code: script.code.clone(),
                 language: script.language.clone(),
                 disabled: script.disabled,
-                priority: (NORMAL_PRIORITY + exec_order).clamp(0, 2),
+                priority: ExecutionPriority::from_order(exec_order),
                 owner: Some(owner),
                 source: script.source.clone(),
                 ..Detached::default()

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::env::Runtime;
 use crate::scene::Handle;
-use crate::scene::object::script_object::ScriptType;
+use crate::scene::object::script_object::{ExecutionPriority, ScriptType};
 
 /// Base states and bits of a script's state (spec: scripts 3).
 pub(crate) mod state {
@@ -43,7 +43,7 @@ pub(crate) struct Detached {
     pub source: Option<String>,
     pub disabled: bool,
     pub restart_on_error: bool,
-    pub priority: i64,
+    pub priority: ExecutionPriority,
     pub path: String,
     pub language: String,
     /// The object an old script is attached to.

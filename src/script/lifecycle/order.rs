@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::instance::Script;
-use crate::scene::object::script_object::ScriptType;
+use crate::scene::object::script_object::{ExecutionPriority, ScriptType};
 use crate::scene::{Field, Handle, Mark, ModelFlags, Object, Scene, Topics};
 use crate::script::sim::Sim;
 
@@ -148,6 +148,6 @@ fn by_depth(scene: &Scene, wanted: impl Fn(&Object) -> bool) -> Vec<Handle> {
 
 fn sorted(scene: &Scene, siblings: &[Handle]) -> Vec<Handle> {
     let mut list = siblings.to_vec();
-    list.sort_by_key(|&h| scene.object(h).map_or(1, |object| object.priority));
+    list.sort_by_key(|&h| scene.object(h).map_or(ExecutionPriority::Normal, |object| object.priority));
     list
 }

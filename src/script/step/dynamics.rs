@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use crate::dynamics::{Attention, Call, Dynamics, JointRequest, Trigger, Verdict};
 use crate::scene::joint::Joint;
+use crate::scene::parameters::engine::Engine;
 use crate::scene::{Data, Handle, Scene};
 use crate::script::calls::callback::SysCall;
 use crate::script::error::{ApiError, ApiResult};
@@ -112,9 +113,12 @@ impl Sim {
     }
 
     fn contact_callback(self: &Rc<Self>, first: Handle, second: Handle) -> Verdict {
-        let engine = self.scene.borrow().settings().dynamics.engine[0];
-        let data =
-            Data::map([("handle1", first.raw().into()), ("handle2", second.raw().into()), ("engine", engine.into())]);
+        let engine = self.scene.borrow().settings().dynamics.engine.engine;
+        let data = Data::map([
+            ("handle1", first.raw().into()),
+            ("handle2", second.raw().into()),
+            ("engine", engine.number().into()),
+        ]);
         let everyone = self.active_scripts_reversed();
         let answer =
             CONTACT.iter().find_map(|&callback| self.first_answer(&everyone, callback, std::slice::from_ref(&data)));
@@ -170,14 +174,14 @@ fn joint_data(joint: &Joint, request: &JointRequest, call: Call, number: u32) ->
 
 /// What the table returned by `sysCall_contact` means (spec: dynamics 4): values for the selected engine come first, then
 /// those for Bullet.
-fn verdict(answer: &Data, engine: i64) -> Verdict {
+fn verdict(answer: &Data, engine: Engine) -> Verdict {
     let number = |engine: &str, name: &str| {
         let nested = answer.field(engine).and_then(|table| table.field(name));
         nested.or_else(|| answer.field(&format!("{engine}.{name}"))).and_then(Data::as_f64)
     };
     let own = |[ode, newton]: [&str; 2]| match engine {
-        1 => number("ode", ode),
-        3 => number("newton", newton),
+        Engine::Ode => number("ode", ode),
+        Engine::Newton => number("newton", newton),
         _ => None,
     };
     match (answer.field("ignoreContact"), answer.field("collisionResponse")) {

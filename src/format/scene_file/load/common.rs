@@ -5,9 +5,10 @@ use crate::format::ttt::chunks::{Common, UserParams};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{Counted, Text};
 use crate::scene::object::assembly::Assembly;
+use crate::scene::object::script_object::ExecutionPriority;
 use crate::scene::{
-    Data, Field, ForbiddenMovements, Handle, ModelFlags, Movement, Object, ObjectFlags, Pose, PreferredAxes, Scene,
-    SceneResult, SpecialFlags, clean_alias,
+    Data, Field, ForbiddenMovements, Handle, Layers, ModelFlags, Movement, Object, ObjectFlags, Pose, PreferredAxes,
+    Scene, SceneResult, SpecialFlags, clean_alias,
 };
 
 /// Written since 2.5 into every property; where it is missing, the object was hidden.
@@ -40,7 +41,7 @@ pub(super) fn fill(scene: &mut Scene, context: &Context<'_>, handle: Handle, obj
             common.special_property.map_or(new.special_property, |bits| SpecialFlags::from_bits_retain(bits.into()));
         new.hierarchy_colour = common.hierarchy_colour.unwrap_or(-1).into();
         new.self_collision_indicator = common.self_collision_indicator.unwrap_or(0).into();
-        new.priority = common.script_exec_priority.map_or(1, i64::from).clamp(0, 2);
+        new.priority = ExecutionPriority::from_number(common.script_exec_priority.unwrap_or(1).into());
         new.assembly = assembly(common, context.header.serialization);
         new.extension_string = common.extension_string.as_ref().map(Text::decode).unwrap_or_default();
         new.user_params = user_params(common.user_params.as_ref());
@@ -58,11 +59,11 @@ pub(super) fn fill(scene: &mut Scene, context: &Context<'_>, handle: Handle, obj
 }
 
 fn visibility(new: &mut Object, common: &Common) {
-    new.layer = common.layer.map_or(new.layer, i64::from);
+    new.layer = common.layer.map_or(new.layer, Layers::from_bits_retain);
     let Some(property) = common.object_property.map(i64::from) else { return };
     new.object_property = ObjectFlags::from_bits_retain(property & !NOT_HIDDEN);
-    if property & NOT_HIDDEN == 0 && new.layer < 256 {
-        new.layer *= 256;
+    if property & NOT_HIDDEN == 0 && new.layer.bits() < 256 {
+        new.layer = new.layer.hidden();
     }
 }
 

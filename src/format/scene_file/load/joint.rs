@@ -7,6 +7,7 @@ use crate::format::ttt::chunks::{Dummy as DummyChunk, ForceSensor as ForceSensor
 use crate::format::ttt::{Text, unit_quaternion};
 use crate::scene::joint::{Control, Joint, JointMode, JointType};
 use crate::scene::object::dummy::{Dummy, LinkType};
+use crate::scene::parameters::engine::Engine;
 use crate::scene::parameters::engine_blocks::EngineValues;
 use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
 
@@ -157,7 +158,7 @@ pub(super) fn dummy(chunk: &DummyChunk) -> Dummy {
         dummy.assembly_tag = tag;
     }
     if let Some(mujoco) = &chunk.mujoco {
-        dummy.load_engine(4, &mujoco.reals, &mujoco.ints);
+        dummy.load_engine(Engine::Mujoco, &mujoco.reals, &mujoco.ints);
     }
     dummy
 }

@@ -3,11 +3,9 @@
 use super::Context;
 use crate::format::ttt::EngineBlock;
 use crate::format::ttt::chunks::{Material as Chunk, MeshNode, Shape as ShapeChunk};
+use crate::scene::parameters::engine::Engine;
 use crate::scene::parameters::engine_blocks::EngineValues;
 use crate::scene::shape::Material;
-
-const BULLET: usize = 0;
-const ODE: usize = 1;
 
 /// Shapes have had materials of their own since 3.3.3; before, they named one of the file.
 const OWN_MATERIAL_SINCE: u16 = 30_303;
@@ -35,7 +33,7 @@ fn material(context: &Context<'_>, chunk: &Chunk, is_static: bool) -> Material {
         bullet_of_old(&mut material, bullet.map(f64::from));
     }
     if let Some((contacts, values)) = chunk.od2.as_ref().or(chunk.ode.as_ref()) {
-        material.load_engine(ODE, &values.map(f64::from), &[*contacts]);
+        material.load_engine(Engine::Ode, &values.map(f64::from), &[*contacts]);
     }
     load_all(&mut material, [&chunk.bullet, &chunk.ode_values, &chunk.vortex, &chunk.newton, &chunk.mujoco]);
     let sticky = chunk.mvar.unwrap_or(0) & STICKY != 0;
@@ -48,7 +46,7 @@ fn material(context: &Context<'_>, chunk: &Chunk, is_static: bool) -> Material {
 
 /// The blocks of the engines, in their order.
 pub(super) fn load_all(values: &mut impl EngineValues, blocks: [&Option<EngineBlock>; 5]) {
-    for (engine, block) in blocks.into_iter().enumerate() {
+    for (engine, block) in Engine::ALL.into_iter().zip(blocks) {
         if let Some(block) = block {
             values.load_engine(engine, &block.reals, &block.ints);
         }
@@ -57,7 +55,11 @@ pub(super) fn load_all(values: &mut impl EngineValues, blocks: [&Option<EngineBl
 
 /// Restitution, friction, two dampings, margins: before there were two frictions, the one counted for both.
 fn bullet_of_old(material: &mut Material, [restitution, friction, linear, angular, margins @ ..]: [f64; 6]) {
-    material.load_engine(BULLET, &[restitution, friction, friction, linear, angular, margins[0], margins[1]], &[]);
+    material.load_engine(
+        Engine::Bullet,
+        &[restitution, friction, friction, linear, angular, margins[0], margins[1]],
+        &[],
+    );
 }
 
 /// Materials stored in the node itself, up to 3.0.1.
@@ -65,10 +67,10 @@ fn oldest(root: &MeshNode) -> Material {
     let mut material = Material::default();
     if let Some(bullet) = root.bul_v16 {
         let [restitution, friction, linear, angular, margin] = bullet.map(f64::from);
-        material.load_engine(BULLET, &[restitution, friction, friction, linear, angular, margin], &[]);
+        material.load_engine(Engine::Bullet, &[restitution, friction, friction, linear, angular, margin], &[]);
     }
     if let Some((contacts, values)) = root.ode_v16 {
-        material.load_engine(ODE, &values.map(f64::from), &[contacts]);
+        material.load_engine(Engine::Ode, &values.map(f64::from), &[contacts]);
     }
     material
 }

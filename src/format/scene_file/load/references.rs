@@ -7,7 +7,7 @@ use crate::format::ttt::chunks::{Collection as CollectionChunk, CollectionElemen
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{Counted, EngineBlock, File};
 use crate::scene::joint::{Dependency, JointMode};
-use crate::scene::{CollectionItem, Field, Handle, ReferenceLists, References, Scene, SceneResult, special};
+use crate::scene::{CollectionItem, Field, Handle, Members, ReferenceLists, References, Scene, SceneResult};
 
 /// Larger numbers are handles of collections.
 const LAST_OBJECT: i32 = 999_999;
@@ -149,15 +149,14 @@ fn collections(scene: &mut Scene, chunks: &[CollectionChunk], map: &HandleMap) -
 
 /// Objects one by one, from a base down, from a tip up, or everything; a base that is gone takes its element with it.
 fn item(element: &CollectionElement, map: &HandleMap) -> Option<CollectionItem> {
-    let (what, exclude_base) = match element.kind? {
-        0 => (special::SINGLE, false),
-        1 => (special::TREE, false),
-        2 => (special::TREE, true),
-        3 => (special::CHAIN, false),
-        4 => (special::CHAIN, true),
-        _ => (special::ALL, false),
-    };
+    let kind = element.kind?;
     let base = map.get(&element.handles?[0]).copied();
+    let members = match kind {
+        0 => Members::Single(base?),
+        1 | 2 => Members::Tree(base?),
+        3 | 4 => Members::Chain(base?),
+        _ => Members::All,
+    };
     let subtract = element.flags.unwrap_or(1) & 1 == 0;
-    (base.is_some() || what == special::ALL).then_some(CollectionItem { what, base, subtract, exclude_base })
+    Some(CollectionItem { members, subtract, exclude_base: matches!(kind, 2 | 4) })
 }

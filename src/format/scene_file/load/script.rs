@@ -9,7 +9,7 @@ use crate::format::scene_file::{LoadedScript, ScriptCode};
 use crate::format::ttt::chunks::{Script as Chunk, ScriptObject as ObjectChunk};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{ScriptText, Text};
-use crate::scene::object::script_object::{ScriptObject, ScriptType};
+use crate::scene::object::script_object::{ExecutionPriority, ScriptObject, ScriptType};
 use crate::scene::{Field, Handle, Scene, SceneResult};
 
 const THREADED: u8 = 0x1;
@@ -27,7 +27,6 @@ const CALLS_SINCE: u16 = 30103;
 const PARENT_IS_PROXY: u8 = 0x4;
 /// Since then an object says itself whether its scripts come first; where older files count from -1, it counts from 0.
 const OBJECT_PRIORITY: u16 = 40400;
-const NORMAL_PRIORITY: i64 = 1;
 
 /// Replacements of the image filters of 3.x: a script since 4.1.
 const FILTERS: &str = "function sysCall_vision(inData)
@@ -150,7 +149,7 @@ pub(super) fn hand_over(scene: &mut Scene, chunk: &Chunk, context: &Context<'_>,
             object.user_params = params;
         }
         if context.header.version < OBJECT_PRIORITY {
-            object.priority = NORMAL_PRIORITY + i64::from(chunk.exec_order.unwrap_or(0).clamp(-1, 1));
+            object.priority = ExecutionPriority::from_order(chunk.exec_order.unwrap_or(0).into());
         }
     })
 }

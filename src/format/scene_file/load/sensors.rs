@@ -4,9 +4,9 @@ use super::Context;
 use crate::format::ttt::Counted;
 use crate::format::ttt::chunks as file;
 use crate::scene::appearance::colour::Colour;
-use crate::scene::sensor::volume::{PYRAMID, RAY, Volume};
+use crate::scene::sensor::volume::{Volume, VolumeType};
 use crate::scene::sensor::volume_faces::VolumeFaces;
-use crate::scene::sensor::{Camera, Light, ProximitySensor, View, VisionSensor};
+use crate::scene::sensor::{Camera, Light, LightType, ProximitySensor, RenderMode, View, VisionSensor};
 
 const EVERYTHING: i32 = -1;
 /// Where this bit of a colour is clear, it is translucent.
@@ -57,8 +57,7 @@ pub(super) fn proximity_sensor(context: &Context<'_>, chunk: &file::ProximitySen
     let old_angle = chunk.old_angle_threshold.filter(|_| bit(2));
     let [samples, required] = chunk.randomized.unwrap_or([1, 1]);
     let mut sensor = ProximitySensor {
-        volume_type: i64::from(chunk.sensor_type.unwrap_or(RAY as i32)).clamp(PYRAMID, RAY),
-        volume: volume(chunk.volume.as_ref()),
+        volume: volume(volume_type(chunk.sensor_type), chunk.volume.as_ref()),
         explicit: bit(7),
         size: chunk.size.unwrap_or(0.01),
         show_volume: bit(0),
@@ -96,13 +95,23 @@ fn faces(chunk: &file::Volume) -> Option<VolumeFaces> {
     })
 }
 
-fn volume(chunk: Option<&file::Volume>) -> Volume {
+/// The type of that number; the first or last one for numbers below or above all types.
+fn volume_type(number: Option<i32>) -> VolumeType {
+    match number {
+        Some(number) if number <= VolumeType::Pyramid as i32 => VolumeType::Pyramid,
+        Some(number) => VolumeType::from_code(number.into()).unwrap_or(VolumeType::Ray),
+        None => VolumeType::Ray,
+    }
+}
+
+fn volume(volume_type: VolumeType, chunk: Option<&file::Volume>) -> Volume {
     let none = file::Volume::default();
     let chunk = chunk.unwrap_or(&none);
     let [offset, range, x, y, x_far, y_far, radius, radius_far, angle] = chunk.sizes.unwrap_or_default();
     let [faces, faces_far, subdivisions, subdivisions_far] = chunk.faces.unwrap_or([32, 1, 1, 0]).map(i64::from);
     let old_threshold = chunk.old_smallest_distance.filter(|_| chunk.switches.unwrap_or(0) & 1 == 1);
     Volume {
+        volume_type,
         offset,
         range,
         x_size: [x, x_far],
@@ -134,9 +143,10 @@ pub(super) fn vision_sensor(chunk: &file::VisionSensor) -> VisionSensor {
         size: chunk.size.or(chunk.old_size.map(|[size, ..]| size.into())).unwrap_or(0.01),
         entity: chunk.renderable.unwrap_or(EVERYTHING).into(),
         render_mode: match chunk.render_mode {
-            Some(6) => 5,
-            Some(8) => 7,
-            mode => mode.unwrap_or(0).into(),
+            // The same with a window of its own.
+            Some(6) => RenderMode::EXTERNAL,
+            Some(8) => RenderMode::OPENGL3,
+            mode => RenderMode(mode.unwrap_or(0).into()),
         },
         background: chunk.default_buffer.unwrap_or_default(),
         background_from_environment: third & 0x80 != 0,
@@ -167,7 +177,7 @@ pub(super) fn camera(chunk: &file::Camera) -> Camera {
 
 pub(super) fn light(chunk: &file::Light) -> Light {
     let ([kind, exponent], size) = chunk.kind_and_size.unwrap_or(([1, 5], 0.1));
-    let mut light = Light::new(i64::from(kind).clamp(1, 3));
+    let mut light = Light::new(light_type(kind));
     (light.spot_exponent, light.size) = (exponent.into(), size);
     light.spot_cutoff = chunk.spot_cutoff.unwrap_or(light.spot_cutoff);
     light.attenuation = chunk.attenuation.unwrap_or(light.attenuation);
@@ -177,6 +187,15 @@ pub(super) fn light(chunk: &file::Light) -> Light {
         light.colour = emitted(chunk, light.colour);
     }
     light
+}
+
+/// The type of that number; the first or last one for numbers below or above all types.
+fn light_type(number: i32) -> LightType {
+    match number {
+        ..=1 => LightType::Omnidirectional,
+        2 => LightType::Spot,
+        3.. => LightType::Directional,
+    }
 }
 
 /// What a light sheds stands in the second group of its colour; in old files it is the mean of the diffuse light.

@@ -5,7 +5,8 @@ use super::material::load_all;
 use crate::format::ttt::chunks::{self, Dynamics, Simulation};
 use crate::format::ttt::{File, Text};
 use crate::scene::appearance::environment::{Environment, Fog};
-use crate::scene::{Data, DynamicsSettings, Scene, SceneResult, Settings};
+use crate::scene::parameters::engine::{Engine, SelectedEngine};
+use crate::scene::{Data, DynamicsSettings, Layers, Scene, SceneResult, Settings};
 
 /// Simulation steps of the presets of old files, seconds; the next number means a step of one's own.
 const STEP_PRESETS: [f64; 5] = [0.2, 0.1, 0.05, 0.025, 0.01];
@@ -73,7 +74,10 @@ fn dynamics(settings: &mut DynamicsSettings, chunk: &Dynamics) {
         .or(chunk.oldest_engine)
         .map(|(engine, gravity, mode)| (engine, gravity.map(f64::from), mode + 1));
     let (engine, gravity, preset) = chunk.engine.or(old).unwrap_or((0, [0.0, 0.0, -9.81], CUSTOM));
-    settings.engine = [i64::from(engine).clamp(0, 4), chunk.engine_version.unwrap_or(0).into()];
+    settings.engine = SelectedEngine {
+        engine: Engine::from_number(i64::from(engine).clamp(0, 4)).unwrap_or_default(),
+        version: chunk.engine_version.unwrap_or(0).into(),
+    };
     if gravity.iter().all(|g| g.is_finite()) {
         settings.gravity = gravity.map(|g| g as f32);
     }
@@ -89,7 +93,7 @@ fn dynamics(settings: &mut DynamicsSettings, chunk: &Dynamics) {
 }
 
 fn environment(settings: &mut Settings, chunk: &chunks::Environment) {
-    settings.visibility_layers = chunk.active_layers.map_or(settings.visibility_layers, i64::from);
+    settings.visibility_layers = chunk.active_layers.map_or(settings.visibility_layers, Layers::from_bits_retain);
     settings.acknowledgment = chunk.acknowledgment.as_ref().map(Text::decode).unwrap_or_default();
     let switches = chunk.switches.unwrap_or(0);
     settings.locked = switches & LOCKED != 0;

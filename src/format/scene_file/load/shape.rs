@@ -16,7 +16,7 @@ use crate::format::ttt::chunks::{MeshData, MeshNode, Shape as Chunk, ShapeGeomet
 use crate::format::ttt::tree::{Mesh as FileMesh, MeshTree};
 use crate::scene::Pose;
 use crate::scene::appearance::texture_mapping::TextureMapping;
-use crate::scene::shape::{Appearance, HeightField, Part, Primitive, Shape, ShapeDynamics, Velocity};
+use crate::scene::shape::{Appearance, HeightField, Part, Primitive, RespondableMask, Shape, ShapeDynamics, Velocity};
 
 /// Smallest moment of inertia per kilogram (m2) that counts.
 const SMALLEST_MOMENT: f64 = 1e-8;
@@ -235,7 +235,7 @@ fn dynamics(chunk: &Chunk) -> ShapeDynamics {
         start_asleep: first & 0x40 != 0,
         respondable: second & 0x1 != 0,
         dynamic_when_parented: second & 0x20 != 0,
-        respondable_mask: chunk.respondable_mask.map_or(0xffff, i64::from),
+        respondable_mask: chunk.respondable_mask.map_or(RespondableMask::ALL, |mask| RespondableMask(mask.into())),
         respondable_suspend_count: 0,
         initial_velocity: Velocity { linear: [lx, ly, lz], angular: [ax, ay, az] },
     }

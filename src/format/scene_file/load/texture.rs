@@ -6,7 +6,7 @@ use super::HandleMap;
 use crate::format::ttt::chunks::{Texture as Chunk, TextureMapping as MappingChunk};
 use crate::format::ttt::{Rest, Text};
 use crate::scene::appearance::texture::Texture;
-use crate::scene::appearance::texture_mapping::{TextureMapping, TextureSource};
+use crate::scene::appearance::texture_mapping::{ApplyMode, TextureMapping, TextureSource};
 use crate::scene::{Field, Handle, Scene, SceneResult};
 
 /// Larger numbers are textures, smaller ones handles of vision sensors.
@@ -51,7 +51,9 @@ pub(super) fn mapping(chunk: &MappingChunk) -> Option<TextureMapping> {
         frame: chunk.projection.and_then(|frame| frame.pose()).unwrap_or_default(),
         interpolate: flags & INTERPOLATE != 0,
         repeat: [flags & REPEAT_U != 0, flags & REPEAT_V != 0],
-        apply_mode: chunk.apply_mode.map_or_else(|| (old & DECAL != 0).into(), i64::from),
+        apply_mode: chunk
+            .apply_mode
+            .map_or_else(|| ApplyMode::decal_if(old & DECAL != 0), |mode| ApplyMode(mode.into())),
         coordinates: chunk.uv.as_ref().map(|Rest(uv)| uv.as_slice().into()).unwrap_or_default(),
     })
 }

@@ -33,7 +33,7 @@ pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Comm
         locks: Some((movement.forbidden.bits() >> 4 & 3) as u8),
         special_property: Some(object.special_property.bits() as i32),
         model_property: Some(object.model_property.bits() as i32),
-        layer: Some(object.layer as u16),
+        layer: Some(object.layer.bits()),
         script_exec_priority: Some(object.priority as i32),
         child_order: Some(order),
         translation: Some((movement.preferred_axes.bits() as i32, movement.relativity[0] as i32, movement.step[0])),

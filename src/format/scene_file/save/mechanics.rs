@@ -7,6 +7,7 @@ use crate::format::ttt::EngineBlock;
 use crate::format::ttt::chunks::{Colour, Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk};
 use crate::scene::joint::{Control, Joint};
 use crate::scene::object::dummy::Dummy;
+use crate::scene::parameters::engine::Engine;
 use crate::scene::parameters::engine_blocks::EngineValues;
 use crate::scene::sensor::force_sensor::ForceSensor;
 
@@ -15,8 +16,6 @@ const MOTOR: u8 = 0x10;
 const CONTROL_LOOP: u8 = 0x20;
 const HYBRID: u8 = 0x40;
 const SPRING: u8 = 0x80;
-/// MuJoCo among the engines.
-const MUJOCO: usize = 4;
 
 pub(super) fn joint(context: &Context<'_>, joint: &Joint, colour: Option<Colour>) -> Chunk {
     let [bullet, ode, vortex, newton, mujoco] = shape::blocks(joint);
@@ -82,7 +81,7 @@ pub(super) fn force_sensor(sensor: &ForceSensor, colour: Option<Colour>) -> Forc
 }
 
 pub(super) fn dummy(context: &Context<'_>, dummy: &Dummy, colour: Option<Colour>) -> DummyChunk {
-    let (reals, ints) = dummy.engine_rows(MUJOCO);
+    let (reals, ints) = dummy.engine_rows(Engine::Mujoco);
     DummyChunk {
         size: Some(dummy.size),
         assembly_tag: Some(dummy.assembly_tag.as_str().into()),

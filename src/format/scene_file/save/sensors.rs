@@ -8,8 +8,6 @@ use crate::scene::sensor::volume::Volume;
 use crate::scene::sensor::volume_faces::VolumeFaces;
 use crate::scene::sensor::{Camera, Light, ProximitySensor, VisionSensor};
 
-/// The first type of proximity sensors; their volumes count from 0.
-const FIRST_SENSOR_TYPE: i32 = 30;
 /// What kinds of detectable objects there once were.
 const ULTRASONIC: i32 = 16;
 /// The bits that later renderers read: all of what a picture can show.
@@ -37,8 +35,6 @@ pub(super) fn proximity_sensor(
     sensor: &ProximitySensor,
     colour: Colour,
 ) -> file::ProximitySensor {
-    // Sensors are numbered otherwise than their volumes: a ray is 34 and 4.
-    let shape = sensor.volume_type as i32 - FIRST_SENSOR_TYPE;
     let switches = [
         (sensor.show_volume, 0),
         (sensor.exact, 1),
@@ -47,8 +43,8 @@ pub(super) fn proximity_sensor(
         (sensor.explicit, 7),
     ];
     file::ProximitySensor {
-        sensor_type: Some(sensor.volume_type as i32),
-        volume: Some(volume(&sensor.volume, shape, sensor.faces())),
+        sensor_type: Some(sensor.volume.volume_type as i32),
+        volume: Some(volume(&sensor.volume, sensor.faces())),
         size: Some(sensor.size),
         angle_threshold: Some(sensor.angle_threshold),
         switches: Some(bits(&switches)),
@@ -62,14 +58,15 @@ pub(super) fn proximity_sensor(
     }
 }
 
-fn volume(volume: &Volume, shape: i32, faces: VolumeFaces) -> file::Volume {
+fn volume(volume: &Volume, faces: VolumeFaces) -> file::Volume {
     let [x, x_far] = volume.x_size;
     let [y, y_far] = volume.y_size;
     let [radius, radius_far] = volume.radius;
     let [sides, sides_far] = volume.faces.map(|n| n as i32);
     let [subdivisions, subdivisions_far] = volume.subdivisions.map(|n| n as i32);
     file::Volume {
-        volume_type: Some(shape),
+        // Sensors and their volumes have different numbers: a ray is 34 and 4.
+        volume_type: Some(volume.volume_type.index() as i32),
         sizes: Some([volume.offset, volume.range, x, y, x_far, y_far, radius, radius_far, volume.angle]),
         inside_angle: Some(volume.inside_gap),
         faces: Some([sides, sides_far, subdivisions, subdivisions_far]),
@@ -97,7 +94,7 @@ pub(super) fn vision_sensor(context: &Context<'_>, sensor: &VisionSensor, colour
         renderable: Some(entity(context, sensor.entity)),
         default_buffer: Some(sensor.background),
         size: Some(sensor.size),
-        render_mode: Some(sensor.render_mode as i32),
+        render_mode: Some(sensor.render_mode.0 as i32),
         render_attributes: Some(RENDER_EVERYTHING),
         switches_3: Some(bits(&third)),
         switches_2: Some(bits(&second)),

@@ -6,7 +6,7 @@ use super::{Context, custom_data, shape};
 use crate::format::ttt::Counted;
 use crate::format::ttt::chunks::{Collection, CollectionElement, Dynamics, Environment, Page, Simulation, View, Views};
 use crate::format::ttt::tree::Contents;
-use crate::scene::{CollectionItem, Data, Kind, Object, Scene, Settings, special};
+use crate::scene::{CollectionItem, Data, Kind, Members, Object, Scene, Settings};
 
 /// The preset of the physics, and of the step, that means settings of one's own.
 const CUSTOM: i32 = 5;
@@ -55,7 +55,7 @@ fn dynamics(settings: &Settings) -> Dynamics {
         }
     }
     let [bullet, ode, vortex, newton, mujoco] = blocks;
-    let [engine, version] = dynamics.engine.map(|number| number as i32);
+    let [engine, version] = dynamics.engine.numbers().map(|number| number as i32);
     Dynamics {
         engine: Some((engine, dynamics.gravity.map(f64::from), CUSTOM)),
         engine_version: Some(version),
@@ -75,7 +75,7 @@ fn environment(scene: &Scene) -> Environment {
     let (fog, [largest, relative]) = (&around.fog, around.triangle_sizes);
     let ambient = scene.inert.get("ambientLight").and_then(three);
     Environment {
-        active_layers: Some(scene.settings().visibility_layers as u16),
+        active_layers: Some(scene.settings().visibility_layers.bits()),
         old_ambient: ambient.map(|light| light.map(|c| c / 2.0)),
         ambient,
         acknowledgment: Some(scene.settings().acknowledgment.as_str().into()),
@@ -143,16 +143,16 @@ fn collection(context: &Context<'_>, handle: i64) -> Option<Collection> {
 }
 
 fn element(context: &Context<'_>, item: &CollectionItem, at: usize) -> CollectionElement {
-    let kind = match (item.what, item.exclude_base) {
-        (special::SINGLE, _) => 0,
-        (special::TREE, false) => 1,
-        (special::TREE, true) => 2,
-        (special::CHAIN, false) => 3,
-        (special::CHAIN, true) => 4,
-        _ => 5,
+    let kind = match (item.members, item.exclude_base) {
+        (Members::Single(_), _) => 0,
+        (Members::Tree(_), false) => 1,
+        (Members::Tree(_), true) => 2,
+        (Members::Chain(_), false) => 3,
+        (Members::Chain(_), true) => 4,
+        (Members::All, _) => 5,
     };
     CollectionElement {
-        handles: Some([context.file_handle(item.base), at as i32]),
+        handles: Some([context.file_handle(item.members.base()), at as i32]),
         kind: Some(kind),
         flags: Some((!item.subtract).into()),
     }

@@ -8,6 +8,7 @@ use crate::format::ttt::chunks::{Material as MaterialChunk, MeshData, MeshNode, 
 use crate::format::ttt::tree::{Mesh as FileMesh, MeshTree};
 use crate::format::ttt::{EngineBlock, Heights};
 use crate::scene::Pose;
+use crate::scene::parameters::engine::Engine;
 use crate::scene::parameters::engine_blocks::EngineValues;
 use crate::scene::shape::reshape::box_of;
 use crate::scene::shape::{Appearance, Material, Part, Primitive, Shape, ShapeDynamics};
@@ -39,7 +40,7 @@ pub(super) fn shape(context: &mut Context<'_>, shape: &Shape) -> Chunk {
     Chunk {
         geometry: Some(geometry),
         material: Some(material(&shape.material)),
-        respondable_mask: Some(dynamics.respondable_mask as u16),
+        respondable_mask: Some(dynamics.respondable_mask.bits()),
         initial_velocity: Some([linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]]),
         switches: Some(switches(dynamics)),
         switches_3: Some(u8::from(dynamics.respondable) | u8::from(dynamics.dynamic_when_parented) << 5),
@@ -215,7 +216,7 @@ fn material(material: &Material) -> MaterialChunk {
 
 /// One block per engine.
 pub(super) fn blocks(values: &impl EngineValues) -> [Option<EngineBlock>; 5] {
-    std::array::from_fn(|engine| {
+    Engine::ALL.map(|engine| {
         let (reals, ints) = values.engine_rows(engine);
         Some(EngineBlock { reals, ints })
     })

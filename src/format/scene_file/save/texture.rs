@@ -5,10 +5,7 @@ use crate::format::ttt::Rest;
 use crate::format::ttt::chunks::{Texture as Chunk, TextureMapping as MappingChunk};
 use crate::scene::Scene;
 use crate::scene::appearance::texture::Texture;
-use crate::scene::appearance::texture_mapping::{TextureMapping, TextureSource};
-
-/// The mode that older programs know as a flag.
-const DECAL: i64 = 1;
+use crate::scene::appearance::texture_mapping::{ApplyMode, TextureMapping, TextureSource};
 
 /// The images of a scene, or those of a model that are `used`.
 pub(super) fn all(scene: &Scene, used: impl Fn(i64) -> bool) -> Vec<Chunk> {
@@ -33,11 +30,12 @@ pub(super) fn mapping(context: &Context<'_>, texture: &TextureMapping) -> Mappin
     let [u, v] = texture.repeat;
     let flags = u8::from(texture.interpolate) | u8::from(u) << 2 | u8::from(v) << 3;
     MappingChunk {
-        old_flags: Some(flags | u8::from(texture.apply_mode == DECAL) << 1),
+        // Older programs know one mode, as a flag.
+        old_flags: Some(flags | u8::from(texture.apply_mode == ApplyMode::DECAL) << 1),
         flags: Some(flags),
         source: Some(([id, texture.mode], texture.scale)),
         projection: Some(texture.frame.into()),
         uv: Some(Rest(texture.coordinates.to_vec())),
-        apply_mode: Some(texture.apply_mode as i32),
+        apply_mode: Some(texture.apply_mode.0 as i32),
     }
 }

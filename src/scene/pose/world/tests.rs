@@ -95,7 +95,7 @@ impl Play {
             7 if all.len() > 20 => scene.remove(&scene.subtree(handle)).unwrap(),
             7 => {
                 let originals = scene.subtree(handle);
-                scene.copy_objects(&originals, CopyOptions(0)).unwrap();
+                scene.copy_objects(&originals, CopyOptions::empty()).unwrap();
             }
             _ => self.add(),
         }

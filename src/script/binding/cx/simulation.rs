@@ -60,8 +60,8 @@ impl Cx<'_> {
     ///
     /// # Errors
     /// When there is no such engine.
-    pub(crate) fn set_engine(&mut self, engine: [i64; 2]) -> ApiResult<()> {
-        self.sim.set_engine(engine)
+    pub(crate) fn set_engine(&mut self, number: i64, version: i64) -> ApiResult<()> {
+        self.sim.set_engine(number, version)
     }
 
     /// Sets the wished sub-step of the physics, seconds. Without effect while the simulation is not stopped.

@@ -10,7 +10,7 @@ use crate::script::Bytes;
 pub(in crate::script::property) const LIGHT: &[Accessor] = object_properties! {
     "lightSize": f64, |o| o.light()?.size, Appearance |o, size| o.light_mut()?.size = length(size)?;
     "enabled": bool, |o| o.light()?.enabled, Appearance |o, on| o.light_mut()?.enabled = on;
-    "lightType": i64, |o| o.light()?.light_type;
+    "lightType": i64, |o| o.light()?.light_type.code();
     "spotExponent": i64, |o| o.light()?.spot_exponent,
         Appearance |o, exponent| o.light_mut()?.spot_exponent = exponent.clamp(0, 100);
     "spotCutoffAngle": f64, |o| o.light()?.spot_cutoff,

@@ -6,7 +6,7 @@
 use serde_json::{Map, Value};
 
 use super::access::{Accessor, Subject, subject_properties};
-use crate::scene::parameters::engine::{ENGINES, EngineOwner, EngineParam, engine_params};
+use crate::scene::parameters::engine::{EngineOwner, EngineParam, engine_params};
 use crate::scene::{Data, ValueType};
 use crate::script::error::{ApiError, ApiResult};
 
@@ -27,8 +27,7 @@ engine_properties! {
 
 fn read(subject: &Subject<'_>, owner: EngineOwner) -> ApiResult<String> {
     let scene = subject.sim.scene.borrow();
-    let number = usize::try_from(scene.settings().dynamics.engine[0]).unwrap_or_default();
-    let engine = ENGINES.get(number).copied().unwrap_or(ENGINES[0]);
+    let engine = scene.settings().dynamics.engine.engine.name();
     let mut values = Map::new();
     for param in engine_params(owner).filter(|param| param.is_property && param.split().0 == engine) {
         let value = scene.engine_value(param, subject.target.object())?;

@@ -5,7 +5,7 @@ use geometry::{Finite, Mesh};
 use super::access::{Accessor, Subject, refused, subject_properties};
 use super::{IntPair, Target, Text};
 use crate::scene::appearance::texture::Texture;
-use crate::scene::appearance::texture_mapping::TextureMapping;
+use crate::scene::appearance::texture_mapping::{ApplyMode, TextureMapping};
 use crate::scene::shape::Part;
 use crate::scene::{Field, Object, Uid};
 use crate::script::binding::args::Bytes;
@@ -72,8 +72,8 @@ pub(in crate::script::property) const TEXTURE: &[Accessor] = subject_properties!
     "textureResolution": IntPair, |s| IntPair(s.image([0; 2], |image| image.size().map(i64::from))?);
     "textureCoordinates": Vec<f64>,
         |s| s.texture(Vec::new(), |texture| texture.coordinates.iter().copied().map(f64::from).collect())?;
-    "textureApplyMode": i64, |s| s.texture(0, |texture| texture.apply_mode)?,
-        |s, mode| s.change_texture(|texture| texture.apply_mode = mode)?;
+    "textureApplyMode": i64, |s| s.texture(0, |texture| texture.apply_mode.0)?,
+        |s, mode| s.change_texture(|texture| texture.apply_mode = ApplyMode(mode))?;
     "textureRepeatU": bool, |s| s.texture(true, |texture| texture.repeat[0])?,
         |s, on| s.change_texture(|texture| texture.repeat[0] = on)?;
     "textureRepeatV": bool, |s| s.texture(true, |texture| texture.repeat[1])?,

@@ -6,13 +6,13 @@ use super::access::{Accessor, object_properties, pair, placed_properties, refuse
 use super::table::object_class;
 use super::{Long, PoseArray, Text, Vector3};
 use crate::scene::{
-    ForbiddenMovements, Handle, ModelFlags, Object, ObjectFlags, PreferredAxes, Scene, SceneResult, SpecialFlags,
-    clean_alias,
+    ForbiddenMovements, Handle, Layers, ModelFlags, Object, ObjectFlags, PreferredAxes, Scene, SceneResult,
+    SpecialFlags, clean_alias,
 };
 use crate::script::Bytes;
 
 pub(in crate::script::property) const OWN: &[Accessor] = object_properties! {
-    "layer": i64, |o| o.layer, Layer |o, layer| o.layer = layer & 0xffff;
+    "layer": i64, |o| o.layer.number(), Layer |o, layer| o.layer = Layers::from_number(layer);
     "objectUid": Long, |o| Long(o.uid());
     "parentHandle": i64, |o| o.parent().map_or(-1, Handle::raw);
     "calcLinearVelocity": Vector3, |o| Vector3(o.measured.linear);

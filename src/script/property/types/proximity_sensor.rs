@@ -21,7 +21,7 @@ pub(in crate::script::property) const PROXIMITY_SENSOR: &[Accessor] = object_pro
     "showVolume": bool, |o| o.proximity_sensor()?.show_volume,
         Appearance |o, on| o.proximity_sensor_mut()?.show_volume = on;
     "randomizedDetection": bool, |o| o.proximity_sensor()?.randomized;
-    "sensorType": i64, |o| o.proximity_sensor()?.volume_type;
+    "sensorType": i64, |o| o.proximity_sensor()?.volume.volume_type.code();
     "detectedObjectHandle": i64, |o| detection(o.proximity_sensor()?).map_or(-1, |found| found.object.raw());
     "angleThreshold": f64, |o| o.proximity_sensor()?.angle_threshold,
         Sensor |o, angle| o.proximity_sensor_mut()?.angle_threshold = angle.finite().ok_or_else(refused)?.max(0.0);
@@ -52,18 +52,14 @@ pub(in crate::script::property) const VOLUME: &[Accessor] = object_properties! {
         Sensor |o, faces| o.proximity_sensor_mut()?.volume.faces = counts(&faces, 3)?;
     "volume_subdivisions": Vec<i64>, |o| o.proximity_sensor()?.volume.subdivisions.to_vec(),
         Sensor |o, parts| o.proximity_sensor_mut()?.volume.subdivisions = counts(&parts, 1)?;
-    "volume_edges": Vec<f64>, |o| flat(edges(o.proximity_sensor()?, Volume::edges));
-    "volume_closeEdges": Vec<f64>, |o| flat(edges(o.proximity_sensor()?, Volume::close_edges));
+    "volume_edges": Vec<f64>, |o| flat(o.proximity_sensor()?.volume.edges());
+    "volume_closeEdges": Vec<f64>, |o| flat(o.proximity_sensor()?.volume.close_edges());
 };
 
 type Edges = Vec<[[f64; 3]; 2]>;
 
 fn detection(sensor: &ProximitySensor) -> Option<&Detection> {
     sensor.detection.as_ref()
-}
-
-fn edges(sensor: &ProximitySensor, of: fn(&Volume, i64) -> Edges) -> Edges {
-    of(&sensor.volume, sensor.volume_type)
 }
 
 fn flat(edges: Edges) -> Vec<f64> {

@@ -2,8 +2,8 @@
 
 use super::access::{Accessor, subject_properties};
 use super::{Color, Vector3};
-use crate::scene::parameters::engine::ENGINES;
-use crate::scene::{Counters, Handle, SceneError};
+use crate::scene::parameters::engine::{Engine, SelectedEngine};
+use crate::scene::{Counters, Handle, Layers, SceneError};
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::random::Random;
 use crate::script::sim::Sim;
@@ -33,12 +33,10 @@ impl Sim {
     ///
     /// # Errors
     /// When there is no such engine.
-    pub(crate) fn set_engine(&self, engine: [i64; 2]) -> ApiResult<()> {
-        if !(0..ENGINES.len() as i64).contains(&engine[0]) {
-            return Err(SceneError::InvalidArgument.into());
-        }
+    pub(crate) fn set_engine(&self, number: i64, version: i64) -> ApiResult<()> {
+        let engine = Engine::from_number(number).ok_or(SceneError::InvalidArgument)?;
         if self.clock.is_stopped() {
-            self.scene.borrow_mut().modify_settings(|settings| settings.dynamics.engine = engine);
+            self.scene.borrow_mut().modify_settings(|s| s.dynamics.engine = SelectedEngine { engine, version });
         }
         Ok(())
     }
@@ -102,7 +100,8 @@ pub(in crate::script::property) const SIMULATION_SETTINGS: &[Accessor] = setting
 };
 
 pub(in crate::script::property) const ENVIRONMENT: &[Accessor] = settings! {
-    "visibilityLayers": i64, |s| s.visibility_layers, |s, layers| s.visibility_layers = layers & 0xffff;
+    "visibilityLayers": i64, |s| s.visibility_layers.number(),
+        |s, layers| s.visibility_layers = Layers::from_number(layers);
     "scenePath": String, |s| s.path.clone(), |s, path| s.path = path;
     "acknowledgment": String, |s| s.acknowledgment.clone(), |s, text| s.acknowledgment = text;
 };
@@ -115,9 +114,9 @@ pub(in crate::script::property) const IDENTITY: &[Accessor] = subject_properties
 
 /// Settings of the physics that change only while the simulation is stopped.
 pub(in crate::script::property) const PHYSICS: &[Accessor] = subject_properties! {
-    "dynamicsEngine": Vec<i64>, |s| s.sim.scene.borrow().settings().dynamics.engine.to_vec(), |s, engine| {
+    "dynamicsEngine": Vec<i64>, |s| s.sim.scene.borrow().settings().dynamics.engine.numbers().to_vec(), |s, engine| {
         let [kind, version, ..] = engine[..] else { return Err(ApiError::PropertyNotWritable) };
-        s.sim.set_engine([kind, version])?;
+        s.sim.set_engine(kind, version)?;
     };
     "dynamicsStepSize": f64, |s| s.sim.scene.borrow().settings().dynamics.step, |s, step| s.sim.set_physics_step(step);
 };

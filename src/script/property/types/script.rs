@@ -1,7 +1,7 @@
 //! Properties of script objects and detached scripts.
 
 use super::access::{Accessor, Subject, object_properties, subject_properties};
-use crate::scene::object::script_object::ScriptObject;
+use crate::scene::object::script_object::{ExecutionPriority, ScriptObject};
 use crate::scene::{Field, SceneResult};
 use crate::script::error::ApiResult;
 use crate::script::lifecycle::instance::Detached;
@@ -40,7 +40,7 @@ impl Subject<'_> {
         Ok(())
     }
 
-    fn priority(&self) -> ApiResult<i64> {
+    fn priority(&self) -> ApiResult<ExecutionPriority> {
         let script = self.script()?;
         match script.object {
             Some(handle) => Ok(self.sim.scene.borrow().object(handle)?.priority),
@@ -48,7 +48,7 @@ impl Subject<'_> {
         }
     }
 
-    fn set_priority(&self, priority: i64) -> ApiResult<()> {
+    fn set_priority(&self, priority: ExecutionPriority) -> ApiResult<()> {
         let script = self.script()?;
         match script.object {
             Some(handle) => {
@@ -76,7 +76,8 @@ pub(in crate::script::property) const SCRIPT: &[Accessor] = subject_properties! 
         |s, on| s.write_script(|o| o.disabled = on, |d| d.disabled = on)?;
     "restartOnError": bool, |s| s.read_script(|o| o.restart_on_error, |d| d.restart_on_error)?,
         |s, on| s.write_script(|o| o.restart_on_error = on, |d| d.restart_on_error = on)?;
-    "execPriority": i64, |s| s.priority()?, |s, priority| s.set_priority(priority.clamp(0, 2))?;
+    "execPriority": i64, |s| s.priority()?.number(),
+        |s, priority| s.set_priority(ExecutionPriority::from_number(priority))?;
     "scriptType": i64, |s| s.script()?.script_type as i64;
     "executionDepth": i64, |s| s.script()?.depth() as i64;
     "scriptState": i64, |s| s.script()?.state();

@@ -6,11 +6,12 @@ use geometry::pose::quaternion_to_array;
 use super::access::{Accessor, object_properties, refused};
 use super::{Color, Quaternion, Vector3};
 use crate::scene::Field;
+use crate::scene::shape::RespondableMask;
 use crate::script::error::ApiError;
 
 pub(in crate::script::property) const SHAPE: &[Accessor] = object_properties! {
-    "respondableMask": i64, |o| o.shape()?.dynamics.respondable_mask,
-        Dynamics |o, mask| o.shape_mut()?.dynamics.respondable_mask = mask;
+    "respondableMask": i64, |o| o.shape()?.dynamics.respondable_mask.0,
+        Dynamics |o, mask| o.shape_mut()?.dynamics.respondable_mask = RespondableMask(mask);
     "startInDynSleepMode": bool, |o| o.shape()?.dynamics.start_asleep,
         Dynamics |o, on| o.shape_mut()?.dynamics.start_asleep = on;
     "dynamic": bool, |o| !o.shape()?.dynamics.is_static, Dynamics |o, on| o.shape_mut()?.dynamics.is_static = !on;

@@ -4,7 +4,7 @@ use geometry::Finite;
 
 use super::access::{Accessor, length, object_properties, pair, placed_properties, refused};
 use super::{Color, IntPair, Vector3};
-use crate::scene::sensor::View;
+use crate::scene::sensor::{RenderMode, View};
 use crate::scene::{Handle, Kind, Object, SceneError, SceneResult};
 use crate::script::Bytes;
 
@@ -32,8 +32,8 @@ pub(in crate::script::property) const VISION_SENSOR: &[Accessor] = object_proper
     "sensorSize": f64, |o| o.vision_sensor()?.size, Appearance |o, size| o.vision_sensor_mut()?.size = length(size)?;
     "backgroundColor": Color, |o| Color::from_f32(o.vision_sensor()?.background),
         Sensor |o, colour| o.vision_sensor_mut()?.background = colour.to_f32();
-    "renderMode": i64, |o| o.vision_sensor()?.render_mode,
-        Sensor |o, mode| o.vision_sensor_mut()?.render_mode = mode;
+    "renderMode": i64, |o| o.vision_sensor()?.render_mode.0,
+        Sensor |o, mode| o.vision_sensor_mut()?.render_mode = RenderMode(mode);
     "backgroundColorFromEnvironment": bool, |o| o.vision_sensor()?.background_from_environment,
         Sensor |o, on| o.vision_sensor_mut()?.background_from_environment = on;
     "explicitHandling": bool, |o| o.vision_sensor()?.explicit, Sensor |o, on| o.vision_sensor_mut()?.explicit = on;

@@ -1,0 +1,71 @@
+//! Option bits of the functions that create shapes.
+
+use bitflags::bitflags;
+
+bitflags! {
+    /// Options of `sim.createPrimitiveShape`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub struct PrimitiveOptions: i64 {
+        const CULLING = 0x1;
+        const SHARP_EDGES = 0x2;
+        /// Cylinders only.
+        const OPEN_ENDS = 0x4;
+        /// Only the mesh: for the physics it is no primitive.
+        const PLAIN_MESH = 0x8;
+        const _ = !0;
+    }
+}
+
+bitflags! {
+    /// Options of `sim.createPureShape`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct PureShapeOptions: i64 {
+        const CULLING = 0x1;
+        const SMOOTH = 0x4;
+        const RESPONDABLE = 0x8;
+        const STATIC = 0x10;
+        const OPEN_ENDS = 0x20;
+        const _ = !0;
+    }
+}
+
+impl PureShapeOptions {
+    /// The options of the primitive behind it.
+    pub fn primitive(self) -> PrimitiveOptions {
+        let mut options = PrimitiveOptions::empty();
+        options.set(PrimitiveOptions::CULLING, self.contains(Self::CULLING));
+        options.set(PrimitiveOptions::SHARP_EDGES, !self.contains(Self::SMOOTH));
+        options.set(PrimitiveOptions::OPEN_ENDS, self.contains(Self::OPEN_ENDS));
+        options
+    }
+}
+
+bitflags! {
+    /// Options of `sim.createShape`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct MeshOptions: i64 {
+        const CULLING = 0x1;
+        const EDGES = 0x2;
+        const TEXTURE_NOT_INTERPOLATED = 0x4;
+        const TEXTURE_AS_DECAL = 0x8;
+        const TEXTURE_HAS_ALPHA = 0x10;
+        const FLIP_TEXTURE_X = 0x20;
+        /// The rows of the image begin at the bottom.
+        const TEXTURE_FROM_BOTTOM = 0x40;
+        const KEEP_DUPLICATE_VERTICES = 0x80;
+        const _ = !0;
+    }
+}
+
+bitflags! {
+    /// Options of `sim.createHeightfieldShape`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct HeightfieldOptions: i64 {
+        const CULLING = 0x1;
+        const EDGES = 0x2;
+        /// Only the mesh: for the physics it is no height field.
+        const PLAIN_MESH = 0x4;
+        const NOT_RESPONDABLE = 0x8;
+        const _ = !0;
+    }
+}
