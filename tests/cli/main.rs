@@ -1,9 +1,13 @@
 //! The command line as its users meet it: exit codes, streams, formats.
 #![allow(clippy::disallowed_methods, reason = "every wait of a test is bounded by the clock")]
 
+mod commands;
+#[cfg(unix)]
+mod interrupts;
+
 use std::fs;
 use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
@@ -243,130 +247,6 @@ fn real_time_takes_its_time() {
     assert!(begun.elapsed() > Duration::from_millis(200));
 }
 
-#[cfg(unix)]
-#[test]
-fn interrupted_runs_clean_up() {
-    let scene = Scene::new(
-        "sim = require 'sim' print('ready') function sysCall_cleanup() print('cleanup') end
-        function sysCall_afterSimulation() print('stopped') end",
-    );
-    let output = interrupt(&scene, &["--empty", "--quiet"], 1);
-    assert_eq!(output.status.code(), Some(130));
-    assert_eq!(stdout(&output), "ready\nstopped\ncleanup\n");
-}
-
-#[cfg(unix)]
-#[test]
-fn a_second_interrupt_ends_a_hanging_script() {
-    let scene = Scene::new("print('ready') while true do end");
-    assert_eq!(interrupt(&scene, &["--empty"], 2).status.code(), Some(130));
-}
-
-/// Runs a scene, sends ctrl-c so many times once it has printed a line, and waits for the end.
-#[cfg(unix)]
-fn interrupt(scene: &Scene, args: &[&str], times: u32) -> Output {
-    use std::io::{BufRead, BufReader, Read};
-    let mut command = swanilda();
-    command.arg("run").arg(scene.path()).args(args).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let mut child = command.spawn().expect("the command starts");
-    let mut out = BufReader::new(child.stdout.take().expect("piped"));
-    let mut line = String::new();
-    out.read_line(&mut line).expect("the scene prints");
-    for _ in 0..times {
-        let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-        assert!(killed.expect("kill is there").success());
-        std::thread::sleep(Duration::from_millis(100));
-    }
-    let mut rest = Vec::new();
-    out.read_to_end(&mut rest).expect("the pipe is readable");
-    let mut output = child.wait_with_output().expect("the child is ours");
-    output.stdout = [line.into_bytes(), rest].concat();
-    output
-}
-
-#[test]
-fn api_prints_the_reference() {
-    let run = |args: &[&str]| swanilda().arg("api").args(args).output().expect("the command starts");
-    let output = run(&["getSimulationTime"]);
-    assert_eq!(output.status.code(), Some(0));
-    assert!(stdout(&output).contains("float time = sim.getSimulationTime()"), "{}", stdout(&output));
-    assert!(stdout(&run(&[])).contains("sim.getSimulationTime"));
-    let near = run(&["sim.getSimulationTim"]);
-    assert_eq!(near.status.code(), Some(2));
-    assert!(stderr(&near).contains("did you mean sim.getSimulationTime"), "{}", stderr(&near));
-    let send = stdout(&run(&["simZMQ.send"]));
-    assert!(send.contains("int result = simZMQ.send(string socket, buffer data, int flags)"), "{send}");
-    let module = stdout(&run(&["simWS"]));
-    assert!(module.contains("simWS.connect") && !module.contains("sim.getObject"), "{module}");
-}
-
-#[test]
-fn compat_brings_old_code_up_to_date() {
-    let old = "function sysCall_threadmain()
-        while simGetSimulationState()~=sim_simulation_advancing_abouttostop do
-            simSetThreadAutomaticSwitch(false) print('step') simSwitchThread()
-        end
-    end";
-    let args = ["--steps", "2", "--as", "simulation", "--empty"];
-    let output = Scene::new(old).run(&[&args[..], &["--compat"]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stdout(&output).lines().count() >= 2, "{}", stdout(&output));
-    assert_eq!(stdout(&Scene::new(old).run(&args)), "", "nobody calls sysCall_threadmain today");
-}
-
-#[test]
-fn texts_that_ask_for_the_call_are_called_by_number() {
-    let old = "if sim_call_type==sim.syscb_init then count=0 end
-        if sim_call_type==sim.syscb_actuation then count=count+1 end
-        if sim_call_type==sim.syscb_cleanup then print(count) end";
-    let output = Scene::new(old).run(&["--steps", "2", "--as", "simulation", "--empty"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(stdout(&output), "5\n");
-    assert!(stderr(&output).contains("compatibility mode"), "{}", stderr(&output));
-}
-
-#[test]
-fn doctor_tells_what_works() {
-    let scene = Scene::new(
-        "sim = require 'sim'\nsim.getObject('/a') -- sim.nothing()\nsim.frobnicate()\nsimGetSimulationTime()",
-    );
-    let doctor = |args: &[&str]| swanilda().arg("doctor").args(args).output().expect("the command starts");
-    let folder = scene.folder.path().display().to_string();
-    let output = doctor(&[&folder]);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(stdout(&output).contains("missing      sim.frobnicate: line 3\n"), "{}", stdout(&output));
-    assert!(stdout(&output).ends_with("1 scripts call 3 functions: 2 work, 0 are approximated, 1 are missing.\n"));
-    let json: serde_json::Value = serde_json::from_slice(&doctor(&[&folder, "--json"]).stdout).expect("JSON");
-    assert_eq!(json["summary"]["missing"], 1);
-    assert_eq!(json["scripts"][0]["uses"][2]["written"], "simGetSimulationTime");
-    let fine = Scene::new("sim.getObject('/a')");
-    assert_eq!(doctor(&[&fine.path().display().to_string()]).status.code(), Some(0));
-    assert_eq!(doctor(&["no such file"]).status.code(), Some(2));
-}
-
-#[test]
-fn init_does_not_overwrite() {
-    let folder = tempfile::tempdir().expect("a temporary folder can be made");
-    let run = |args: &[&str]| {
-        swanilda().arg("init").args(args).current_dir(folder.path()).status().expect("the command starts").code()
-    };
-    assert_eq!(run(&[]), Some(0));
-    let settings = fs::read_to_string(folder.path().join(".luarc.json")).expect("it was written");
-    let settings: Value = serde_json::from_str(&settings).expect("it is JSON");
-    let library = settings["workspace.library"][0].as_str().expect("a folder");
-    assert!(folder.path().join(library).join("sim.lua").exists());
-    assert_eq!(run(&[]), Some(2));
-    assert_eq!(run(&["--force"]), Some(0));
-}
-
-#[test]
-fn completions_and_version() {
-    let completions = swanilda().args(["completions", "bash"]).output().expect("the command starts");
-    assert!(stdout(&completions).contains("swanilda"));
-    let version = swanilda().arg("--version").output().expect("the command starts");
-    assert_eq!(stdout(&version), format!("swanilda {}\n", env!("CARGO_PKG_VERSION")));
-}
-
 #[test]
 fn no_unsafe_takes_programs_from_scripts() {
     let tells = "sim = require 'sim'
@@ -398,4 +278,29 @@ fn listening_at_other_addresses_switches_programs_off() {
         );
     }
     assert_eq!(scene.run(&["--unsafe", "--no-unsafe"]).status.code(), Some(2));
+}
+
+#[test]
+fn compat_brings_old_code_up_to_date() {
+    let old = "function sysCall_threadmain()
+        while simGetSimulationState()~=sim_simulation_advancing_abouttostop do
+            simSetThreadAutomaticSwitch(false) print('step') simSwitchThread()
+        end
+    end";
+    let args = ["--steps", "2", "--as", "simulation", "--empty"];
+    let output = Scene::new(old).run(&[&args[..], &["--compat"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stdout(&output).lines().count() >= 2, "{}", stdout(&output));
+    assert_eq!(stdout(&Scene::new(old).run(&args)), "", "nobody calls sysCall_threadmain today");
+}
+
+#[test]
+fn texts_that_ask_for_the_call_are_called_by_number() {
+    let old = "if sim_call_type==sim.syscb_init then count=0 end
+        if sim_call_type==sim.syscb_actuation then count=count+1 end
+        if sim_call_type==sim.syscb_cleanup then print(count) end";
+    let output = Scene::new(old).run(&["--steps", "2", "--as", "simulation", "--empty"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stdout(&output), "5\n");
+    assert!(stderr(&output).contains("compatibility mode"), "{}", stderr(&output));
 }
