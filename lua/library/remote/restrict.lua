@@ -44,7 +44,7 @@ local callScriptFunction = sim.callScriptFunction
 
 local function allowed(value)
     local name = isbuffer(value) and tostring(value) or value
-    return type(name) == 'string' and FORBIDDEN[name:match('^[^.@]*')] and 'FORBIDDEN' or value
+    return type(name) == 'string' and FORBIDDEN[name:match('^[^.]*')] and 'FORBIDDEN' or value
 end
 
 -- The name may come first or second.
