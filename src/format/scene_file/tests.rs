@@ -11,6 +11,7 @@ use super::{Loaded, SceneFile, save};
 use crate::format::ttt::File;
 use crate::scene::parameters::engine::Engine;
 use crate::scene::parameters::engine_blocks::EngineValues;
+use crate::scene::pose::check_cached_poses;
 use crate::scene::shape::Shape;
 use crate::scene::{DynamicsSettings, Handle, InertValues, Kind, Object, Pose, Scene, Settings};
 
@@ -86,6 +87,31 @@ fn description(scene: &Scene, object: &Object) -> String {
         rest = after;
     }
     text + rest
+}
+
+/// Models are saved and loaded again; now and then the whole scene is replaced by what its file contains.
+#[test]
+fn cached_poses_are_right_after_loading() {
+    let (mut models, mut scenes) = (0, 0);
+    check_cached_poses(4_000, |scene, random| {
+        let all: Vec<Handle> = scene.objects().map(Object::handle).collect();
+        let file = match random.below(40) {
+            0 if all.len() < 60 => save::model(scene, random.of(&all), &[]).unwrap(),
+            1 => save::scene(scene, &[]).unwrap(),
+            _ => return,
+        };
+        let file = SceneFile::read(&file.write()).unwrap();
+        if file.is_model() {
+            models += 1;
+            file.add_to(scene, false).unwrap();
+        } else {
+            scenes += 1;
+            let mut loaded = Scene::new();
+            file.add_to(&mut loaded, true).unwrap();
+            *scene = loaded;
+        }
+    });
+    assert!(models > 20 && scenes > 20, "{models} models, {scenes} scenes");
 }
 
 fn descriptions(scene: &Scene) -> BTreeMap<String, String> {

@@ -2,3 +2,6 @@
 
 pub mod placement;
 pub(in crate::scene) mod world;
+
+#[cfg(test)]
+pub(crate) use world::tests::check_cached_poses;

@@ -5,7 +5,7 @@
 //! that was looked at since the last change, so that reading all poses after a change looks at each object once.
 
 #[cfg(test)]
-mod tests;
+pub(in crate::scene) mod tests;
 
 use std::cell::{Cell, RefCell};
 
