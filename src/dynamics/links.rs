@@ -6,8 +6,9 @@
 
 use std::collections::BTreeMap;
 
-use articulation::{JointLoad, wrap_angle};
+use articulation::JointLoad;
 use geometry::Finite;
+use geometry::pose::euler::wrap_angle;
 use nalgebra::{Vector3, Vector6};
 use rapier3d_f64::prelude::{
     GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, RigidBodyHandle, SpringCoefficients,

@@ -1,5 +1,6 @@
 //! Results for the scene: after a sub-step and at the end of a call.
 
+use geometry::pose::euler::wrap_angle;
 use nalgebra::UnitQuaternion;
 use rapier3d_f64::prelude::RigidBody;
 
@@ -11,7 +12,6 @@ use super::plan::LinkKind;
 use super::world::World;
 use super::{Dynamics, SubStep};
 use crate::scene::joint::Joint;
-use crate::scene::joint::control::wrap_angle;
 use crate::scene::pose::placement::is_place;
 use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
 use crate::scene::shape::Velocity;

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use geometry::Pose;
+use geometry::pose::euler::wrap_angle;
 use nalgebra::{Matrix6, Vector3};
 
 use crate::block_cholesky::Segment;
@@ -89,11 +90,6 @@ impl JointKind {
         let near = before + wrap_angle(now - before);
         near + TAU * ((before + turned - near) / TAU).round()
     }
-}
-
-/// The same angle in [-pi, pi].
-pub fn wrap_angle(angle: f64) -> f64 {
-    angle - TAU * (angle / TAU).round()
 }
 
 /// A joint in the system.

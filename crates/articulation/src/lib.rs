@@ -81,7 +81,7 @@ mod position_correction;
 
 use nalgebra::{Vector3, Vector6};
 
-pub use joint::{JointKind, JointLoad, JointProperties, JointState, Motor, wrap_angle};
+pub use joint::{JointKind, JointLoad, JointProperties, JointState, Motor};
 pub use linked_body::{BodyMotion, BodyProperties, BodyState};
 pub use mechanism::Mechanism;
 

@@ -1,8 +1,15 @@
-//! Euler angles: pure maths. Angles are in radians.
+//! Angles: pure maths, in radians.
+
+use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use super::{orthonormal_block, quaternion_from_array, rotation_matrix, to_matrix};
+
+/// The same angle within -pi to pi; both ends stay as they are.
+pub fn wrap_angle(angle: f64) -> f64 {
+    if angle.abs() <= PI { angle } else { angle - TAU * ((angle + PI) / TAU).floor() }
+}
 
 /// Rotation from Euler angles: `Rx(alpha) Ry(beta) Rz(gamma)`.
 pub fn rotation_from_euler(e: &[f64; 3]) -> UnitQuaternion<f64> {
@@ -46,6 +53,13 @@ mod tests {
 
     use super::*;
     use crate::pose::tests::close;
+
+    #[test]
+    fn both_ends_of_a_turn_stay() {
+        assert_eq!((wrap_angle(PI), wrap_angle(-PI)), (PI, -PI));
+        assert!((wrap_angle(4.0) - (4.0 - TAU)).abs() < 1e-12);
+        assert!((wrap_angle(-4.0) - (TAU - 4.0)).abs() < 1e-12);
+    }
 
     #[test]
     fn euler_angles_p1_to_p3() {
