@@ -3,6 +3,8 @@
 mod builder;
 #[cfg(test)]
 mod journal_tests;
+#[cfg(test)]
+mod language_tests;
 mod run;
 
 use std::cell::{Ref, RefMut};

@@ -1655,7 +1655,7 @@ function sim.getSimulationTimeStep() end
 ---@return any auxiliaryData2 empty
 function sim.getSimulatorMessage() end
 
---- Lua's stack traceback of a script that is running now.
+--- The stack traceback of a script that is running now.
 ---@param scriptHandle? integer the script
 ---@return string stackTraceback
 function sim.getStackTraceback(scriptHandle) end

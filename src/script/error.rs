@@ -1,6 +1,5 @@
-//! Errors of API calls and of the host, and the one place where they become text for scripts.
+//! Errors of API calls and of the host.
 
-use super::lua::{LuaError, Stack};
 use crate::scene::SceneError;
 
 pub type ApiResult<T> = std::result::Result<T, ApiError>;
@@ -70,22 +69,4 @@ pub enum ApiError {
 
 fn article(word: &str) -> &'static str {
     if word.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" }
-}
-
-impl ApiError {
-    /// The string a script catches: the line of its call, the function and the reason.
-    pub(crate) fn text(&self, stack: Stack<'_>, function: &str) -> String {
-        let line = stack.current_line(1);
-        match self {
-            Self::NotImplemented(_) => format!("{line}: {self}"),
-            Self::BadArgument { position, reason } => stack.argument_error(*position, reason),
-            _ => format!("{line}: in {function}: {self}"),
-        }
-    }
-}
-
-impl From<LuaError> for ApiError {
-    fn from(error: LuaError) -> Self {
-        Self::Other(error.text)
-    }
 }

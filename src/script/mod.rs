@@ -1,4 +1,4 @@
-//! The script host: Lua states, lifecycle, order of calls, threads, values between states, the step loop.
+//! The script host: lifecycle, order of calls, threads, values between scripts, the step loop; and scripts in Lua.
 //!
 //! What scripts can call stands in `crate::api`; this module knows how functions are bound, not which there are.
 
@@ -12,14 +12,15 @@ pub(crate) mod files;
 mod lifecycle;
 pub mod log;
 mod lua;
+mod lua_runtime;
 mod property;
+mod runtime;
 mod sim;
 pub(crate) mod step;
 pub mod test_bench;
 
 pub use binding::args::{
-    Args, Bytes, FromScript, Handles, KeptFunction, LuaNumber, LuaString, Number, ObjectRef, Rest, ScriptFunction,
-    Table,
+    Args, Bytes, FromScript, Handles, LuaNumber, LuaString, Number, ObjectRef, Rest, ScriptFunction, Table,
 };
 pub use binding::cx::Cx;
 pub use binding::module::Module;
@@ -29,11 +30,13 @@ pub use binding::sink::Sink;
 pub use binding::source::{Source, Values};
 pub use binding::{ApiFn, Param};
 pub use calls::callback::SysCall;
-pub use calls::threads::LevelChange;
 pub use error::{ApiError, ApiResult};
 pub use lifecycle::instance::Script;
+pub use lifecycle::yields::LevelChange;
 pub use log::console::{Console, LogLine, Silent, Stream};
+pub use lua_runtime::coverage::executable;
 pub use property::{Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2, Vector3};
+pub use runtime::FunctionRef;
 pub use sim::{Limits, Options};
 pub use step::clock::SimulationState;
 pub use test_bench::TestBench;
@@ -45,17 +48,25 @@ pub(crate) use binding::registry::{Member, Registry};
 pub(crate) use binding::states::States;
 pub(crate) use binding::{functions, needs_lua};
 pub(crate) use calls::handler::Handler;
-pub(crate) use calls::threads::{auto_level, changed_level, end_time_slice, set_auto_level};
+#[cfg(test)]
+pub(crate) use calls::handler::HeldFunction;
 pub(crate) use events::Filters;
 pub(crate) use files::app_storage::Section;
 pub(crate) use files::scene_save::write_named;
 pub(crate) use files::scene_switch::SceneSource;
-pub(crate) use lifecycle::embedded::FILES;
+#[cfg(test)]
+pub(crate) use lifecycle::env::Env;
 pub(crate) use lifecycle::env::Hook;
 pub(crate) use lifecycle::instance::Detached;
 pub(crate) use lifecycle::order::Group;
-pub(crate) use lifecycle::user_modules::UserModule;
+pub(crate) use lifecycle::yields::changed_level;
 pub(crate) use log::auxiliary_consoles::AuxiliaryConsole;
-pub(crate) use lua::{FileLock, Object, Stack, Type as LuaType, compile};
+pub(crate) use lua::{FileLock, Object, Stack, Type as LuaType};
+pub(crate) use lua_runtime::LuaLanguage;
+pub(crate) use lua_runtime::embedded::FILES;
+pub(crate) use lua_runtime::user_modules::UserModule;
 pub(crate) use property::{Target, table as property_table};
+pub(crate) use runtime::Languages;
+#[cfg(test)]
+pub(crate) use runtime::{CallError, CallbackResult, Callee, Interpreter, Language, Runtime, ScriptError, SourceText};
 pub(crate) use sim::Sim;

@@ -16,11 +16,11 @@ use super::lifecycle::instance::Script;
 use super::lifecycle::random::Random;
 use super::lifecycle::removal::Removals;
 use super::lifecycle::script_set::ScriptSet;
-use super::lifecycle::user_modules::UserModule;
 use super::log::Log;
 use super::log::console::{Console, LogLine};
 use super::log::verbosity;
 use super::property::{AppData, SignalOwners};
+use super::runtime::Languages;
 use super::step::clock::Clock;
 use super::test_bench::TestBench;
 use crate::dynamics::Dynamics;
@@ -90,8 +90,7 @@ pub(crate) struct Sim {
     pub options: Options,
     /// What scripts can reach, and what modules keep.
     pub modules: Modules,
-    /// What scripts can require besides, written by the embedding program.
-    pub user_modules: Vec<UserModule>,
+    pub languages: Languages,
     pub scene: RefCell<Scene>,
     pub clock: Clock,
     pub scripts: ScriptSet,
@@ -114,10 +113,10 @@ impl Sim {
         options: Options,
         registry: Arc<Registry>,
         console: Box<dyn Console>,
-        user_modules: Vec<UserModule>,
+        languages: Languages,
     ) -> Rc<Self> {
         Rc::new(Self {
-            user_modules,
+            languages,
             log: Log::new(console, options.verbosity),
             app: RefCell::new(AppData::new(&options)),
             scripts: ScriptSet::new(options.limits.map_or(usize::MAX, |limits| limits.memory)),

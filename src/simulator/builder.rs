@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::Simulator;
 use crate::modules;
-use crate::script::{Console, Options, Silent, Sim, UserModule};
+use crate::script::{Console, Languages, LuaLanguage, Options, Silent, Sim, UserModule};
 
 /// Collects what a [`Simulator`] is made of; see [`Simulator::builder`].
 #[must_use = "nothing is made before `build`"]
@@ -62,6 +62,7 @@ impl Builder {
 
     /// A simulator with an empty scene.
     pub fn build(self) -> Simulator {
-        Simulator::with_main_and_sandbox(Sim::new(self.options, modules::registry(), self.console, self.modules))
+        let languages = Languages::new(vec![Box::new(LuaLanguage::new(self.modules))]);
+        Simulator::with_main_and_sandbox(Sim::new(self.options, modules::registry(), self.console, languages))
     }
 }

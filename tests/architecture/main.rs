@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use imports::{
     code_lines, crate_paths, dependencies, has_word, is_test, module_of, module_path, names_crate, read, relative,
-    rooms_used, root, sources, sources_of_crates, without_tests,
+    rooms_used, root, sources, sources_of_crates, without_tests, without_texts,
 };
-use rules::{FUNCTIONS_FOR_SCRIPTS, LAYERS, OWNERS, ROOMS, Rooms, UNSAFE};
+use rules::{FUNCTIONS_FOR_SCRIPTS, LAYERS, LUA_NAMES, LUA_ROOMS, OWNERS, ROOMS, Rooms, UNSAFE};
 
 #[test]
 fn imports_point_inwards() {
@@ -54,6 +54,23 @@ fn forbidden_rooms(file: &Path) -> Vec<String> {
 
 fn is_room(rooms: Rooms, name: &str) -> bool {
     rooms.iter().any(|(room, _)| *room == name)
+}
+
+/// The host of scripts speaks to the trait `Interpreter`; names of languages may stand in texts.
+#[test]
+fn the_script_host_knows_no_language() {
+    let mut wrong = Vec::new();
+    for file in sources().into_iter().filter(|file| !is_test(file)) {
+        let path = module_path(&file);
+        let [layer, room, ..] = path.as_slice() else { continue };
+        if layer != "script" || LUA_ROOMS.contains(&room.as_str()) {
+            continue;
+        }
+        let names_lua = |line: &&str| LUA_NAMES.iter().any(|name| has_word(&without_texts(line), name));
+        let text = without_tests(&read(&file));
+        wrong.extend(code_lines(&text).filter(names_lua).map(|line| format!("{}: {}", file.display(), line.trim())));
+    }
+    assert!(wrong.is_empty(), "let the trait `Interpreter` do it:\n{}", wrong.join("\n"));
 }
 
 #[test]

@@ -48,7 +48,8 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("memchr", "src/io/socket"),
     ("memchr", "src/wire/mime"),
     ("mlua", "src/lib.rs"),
-    ("mlua", "src/script"),
+    ("mlua", "src/script/lua"),
+    ("mlua", "src/script/lua_runtime"),
     ("mlua", "src/simulator/builder.rs"),
     ("motion", "src/api"),
     ("motion", "src/dynamics"),
@@ -138,12 +139,14 @@ const FORMAT: Rooms = &[
     ("scene_input", &["scene_file", "scene_folder", "ttt"]),
 ];
 
-/// `sim` is the simulator that consists of all, `error` and `log` are for all.
+/// `sim` is the simulator that consists of all, `error` and `log` are for all. The host speaks to `runtime`; the languages are behind it.
 const SCRIPT: Rooms = &[
-    ("error", &["lua"]),
+    ("error", &[]),
     ("log", &[]),
+    ("runtime", &["calls", "coverage", "error", "lifecycle", "sim"]),
     // A state carries the environment of its script.
-    ("lua", &["lifecycle"]),
+    ("lua", &["lifecycle", "runtime"]),
+    ("lua_runtime", &["binding", "calls", "coverage", "lifecycle", "log", "lua", "runtime", "sim"]),
     (
         "binding",
         &[
@@ -156,19 +159,21 @@ const SCRIPT: Rooms = &[
             "lifecycle",
             "log",
             "lua",
+            "lua_runtime",
             "property",
+            "runtime",
             "sim",
             "step",
             "test_bench",
         ],
     ),
-    ("calls", &["binding", "error", "lifecycle", "log", "lua", "sim"]),
+    ("calls", &["binding", "error", "lifecycle", "log", "runtime", "sim"]),
     ("channels", &["binding", "calls", "error", "lifecycle", "log", "sim", "step"]),
-    ("coverage", &["error", "lifecycle", "log", "lua", "sim"]),
+    ("coverage", &["error", "lifecycle", "log", "runtime", "sim"]),
     ("events", &["calls", "error", "lifecycle", "log", "property", "sim", "step"]),
     ("files", &["calls", "error", "lifecycle", "log", "sim", "step"]),
-    ("lifecycle", &["binding", "calls", "coverage", "error", "events", "log", "lua", "sim"]),
-    ("property", &["binding", "error", "events", "files", "lifecycle", "log", "lua", "sim"]),
+    ("lifecycle", &["binding", "calls", "coverage", "error", "events", "log", "runtime", "sim"]),
+    ("property", &["binding", "error", "events", "files", "lifecycle", "log", "sim"]),
     (
         "sim",
         &[
@@ -182,6 +187,7 @@ const SCRIPT: Rooms = &[
             "lifecycle",
             "log",
             "property",
+            "runtime",
             "step",
             "test_bench",
         ],
@@ -189,6 +195,14 @@ const SCRIPT: Rooms = &[
     ("step", &["calls", "error", "lifecycle", "log", "sim"]),
     ("test_bench", &["coverage", "error", "log"]),
 ];
+
+/// The rooms of `script` that know Lua; the others only know that scripts have a language.
+pub const LUA_ROOMS: &[&str] = &["binding", "lua", "lua_runtime"];
+
+/// What belongs to Lua: names that code in the other rooms must not use.
+pub const LUA_NAMES: &[&str] =
+    &["mlua", "lua", "lua_runtime", "Stack", "LuaType", "LuaError", "LuaLanguage", "LuaInterpreter", "UserModule"];
+
 /// Where functions for scripts stand. What they may touch is in their signature: `&Cx` reads, `&mut Cx` changes something or calls scripts.
 pub const FUNCTIONS_FOR_SCRIPTS: &[&str] = &["src/api", "src/modules"];
 

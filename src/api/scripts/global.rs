@@ -6,10 +6,7 @@ use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::Data;
 use crate::script::Source;
 use crate::script::log::verbosity;
-use crate::script::{
-    Args, FromScript, Hook, LevelChange, Rest, Results, ScriptFunction, SysCall, auto_level, changed_level,
-    set_auto_level,
-};
+use crate::script::{Args, FromScript, Hook, LevelChange, Rest, Results, ScriptFunction, SysCall, changed_level};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     register_script_func_hook,
@@ -55,8 +52,8 @@ fn register_script_func_hook(
     match user_function {
         ScriptFunction::Name(name) if name.is_empty() => release(cx, std::mem::take(entries)),
         ScriptFunction::Name(name) => return Ok(toggle(entries, name)),
-        ScriptFunction::Value(kept) => {
-            entries.push(Hook { name: String::new(), function: Some(kept.0) });
+        ScriptFunction::Value(function) => {
+            entries.push(Hook { name: String::new(), function: Some(function) });
             return Ok(1);
         }
     }
@@ -79,11 +76,7 @@ fn toggle(entries: &mut Vec<Hook>, name: String) -> i64 {
 
 /// Lets go of the functions of hooks that are gone.
 fn release(cx: &Cx, entries: Vec<Hook>) {
-    let Some(runtime) = cx.script().current_runtime() else { return };
-    entries
-        .into_iter()
-        .filter_map(|hook| hook.function)
-        .for_each(|function| runtime.stack().release_function(function));
+    entries.into_iter().filter_map(|hook| hook.function).for_each(|function| cx.release_function(function));
 }
 
 impl FromScript for LevelChange {
@@ -105,8 +98,8 @@ impl FromScript for LevelChange {
 /// @return level the previous level
 #[api("setAutoYield")]
 fn set_auto_yield(cx: &mut Cx, allow: LevelChange) -> Result<i64> {
-    let level = auto_level(cx.stack()?);
-    set_auto_level(cx.stack()?, changed_level(level, allow));
+    let level = cx.auto_level()?;
+    cx.set_auto_level(changed_level(level, allow))?;
     Ok(level)
 }
 
@@ -115,7 +108,7 @@ fn set_auto_yield(cx: &mut Cx, allow: LevelChange) -> Result<i64> {
 /// @return allowed, level
 #[api("getAutoYield")]
 fn get_auto_yield(cx: &Cx) -> Result<(bool, i64)> {
-    let level = auto_level(cx.stack()?);
+    let level = cx.auto_level()?;
     Ok((level == 0, level))
 }
 

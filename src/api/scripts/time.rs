@@ -3,7 +3,7 @@
 use api_macro::api;
 
 use super::script::script_of;
-use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::special;
 use crate::script::Number;
 
@@ -41,16 +41,12 @@ fn get_random(cx: &mut Cx, #[default(None)] seed: Option<Number>) -> Result<f64>
     Ok(random.next())
 }
 
-/// Lua's stack traceback of a script that is running now.
+/// The stack traceback of a script that is running now.
 ///
 /// @param scriptHandle the script
 /// @return stackTraceback
 #[api("sim.getStackTraceback")]
 fn get_stack_traceback(cx: &Cx, #[default(special::SELF)] script_handle: Number) -> Result<String> {
     let script = script_of(cx, script_handle.0)?;
-    if script.id == cx.script().id {
-        return Ok(cx.stack()?.traceback());
-    }
-    let runtime = script.current_runtime().ok_or(ApiError::ScriptNotInitialized)?;
-    Ok(runtime.stack().traceback())
+    cx.traceback(&script)
 }

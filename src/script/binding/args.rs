@@ -12,7 +12,8 @@ use super::returns::IntoScript;
 use super::source::Source;
 use crate::scene::{Data, Frame, Handle};
 use crate::script::error::{ApiError, ApiResult};
-use crate::script::lua::{FunctionRef, Object, Stack, Type};
+use crate::script::lua::{Object, Stack, Type};
+use crate::script::runtime::FunctionRef;
 
 /// Reads the arguments of one call in order.
 pub struct Args<'a, S: Source<'a> = Stack<'a>> {
@@ -307,12 +308,8 @@ impl ObjectRef {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ScriptFunction {
     Name(String),
-    Value(#[doc(hidden)] KeptFunction),
+    Value(#[doc(hidden)] FunctionRef),
 }
-
-/// A Lua function held in the registry of the state it came from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct KeptFunction(pub(crate) FunctionRef);
 
 /// All remaining arguments.
 #[derive(Debug, Clone, PartialEq)]

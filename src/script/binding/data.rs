@@ -2,9 +2,9 @@
 
 use std::ffi::{CStr, c_int, c_void};
 
-use super::args::KeptFunction;
 use crate::scene::{Data, Key};
 use crate::script::lua::{Stack, Type};
+use crate::script::runtime::FunctionRef;
 
 /// Where a state keeps the metatable all its buffers share.
 pub(crate) const BUFFER_METATABLE: &CStr = c"swanilda.buffer";
@@ -28,9 +28,9 @@ pub(crate) fn read_data(stack: Stack<'_>, index: c_int) -> Data {
 }
 
 /// Keeps the function at `index` alive.
-pub(crate) fn read_function(stack: Stack<'_>, index: c_int) -> KeptFunction {
+pub(crate) fn read_function(stack: Stack<'_>, index: c_int) -> FunctionRef {
     stack.push_value(index);
-    KeptFunction(stack.keep_function())
+    stack.keep_function()
 }
 
 fn read(stack: Stack<'_>, index: c_int, above: &mut Vec<*const c_void>) -> Data {

@@ -14,7 +14,6 @@ pub(in crate::script) mod states;
 use std::ffi::c_int;
 
 use super::error::{ApiError, ApiResult};
-use super::lifecycle::env::Env;
 use super::lua::{Stack, push_callback};
 use crate::scene::Data;
 use args::Args;
@@ -61,16 +60,26 @@ pub(crate) fn push_function(stack: Stack<'_>, id: FunctionId) {
 }
 
 fn call_function(stack: Stack<'_>, number: usize) -> Result<c_int, String> {
-    let env = Env::of(stack);
+    let env = stack.owner();
     let bound = env.registry.function(number).ok_or("there is no such function.")?;
     if let Some(replacement) = bound.replacement {
         env.warn_deprecated(number, || deprecation_notice(&bound.name, replacement));
     }
-    let result = (bound.function.call)(&mut Args::new(stack)).map_err(|error| error.text(stack, &bound.name));
+    let result = (bound.function.call)(&mut Args::new(stack)).map_err(|error| error_text(&error, stack, &bound.name));
     if bound.function.mutates {
         env.collect_events();
     }
     result
+}
+
+/// The string a Lua script catches: the line of its call, the function and the reason.
+pub(crate) fn error_text(error: &ApiError, stack: Stack<'_>, function: &str) -> String {
+    let line = stack.current_line(1);
+    match error {
+        ApiError::NotImplemented(_) => format!("{line}: {error}"),
+        ApiError::BadArgument { position, reason } => stack.argument_error(*position, reason),
+        _ => format!("{line}: in {function}: {error}"),
+    }
 }
 
 /// The line logged at the first call of a deprecated function.

@@ -8,7 +8,7 @@ use super::ApiFn;
 use super::module::{Module, pairs};
 use super::states::States;
 use crate::script::error::ApiError;
-use crate::script::lifecycle::embedded::Embedded;
+use crate::script::lua_runtime::embedded::Embedded;
 
 /// A native function, by its place in the registry of a simulator. Lua code holds it as a number, so that no pointer can be forged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -5,13 +5,13 @@
 
 use std::ffi::c_int;
 
-use super::args::KeptFunction;
 use super::cx::Cx;
 use super::data::{read_data, read_function};
 use crate::scene::{Data, Key};
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::env::Env;
 use crate::script::lua::{Object, Stack, Type};
+use crate::script::runtime::FunctionRef;
 
 /// Where arguments come from, by position from 1.
 #[doc(hidden)]
@@ -34,7 +34,7 @@ pub trait Source<'a>: Copy {
     fn data(self, position: c_int) -> Data;
     /// # Errors
     /// Where there are no functions.
-    fn function(self, position: c_int) -> ApiResult<KeptFunction>;
+    fn function(self, position: c_int) -> ApiResult<FunctionRef>;
     fn object(self, position: c_int) -> Option<Object>;
     /// # Errors
     /// When the simulator is gone.
@@ -86,7 +86,7 @@ impl<'a> Source<'a> for Stack<'a> {
         read_data(self, position)
     }
 
-    fn function(self, position: c_int) -> ApiResult<KeptFunction> {
+    fn function(self, position: c_int) -> ApiResult<FunctionRef> {
         Ok(read_function(self, position))
     }
 
@@ -190,7 +190,7 @@ impl<'a> Source<'a> for Values<'a> {
         self.get(position).cloned().unwrap_or(Data::Nil)
     }
 
-    fn function(self, _: c_int) -> ApiResult<KeptFunction> {
+    fn function(self, _: c_int) -> ApiResult<FunctionRef> {
         Err(ApiError::NeedsLua)
     }
 

@@ -1,21 +1,16 @@
-//! Calls of API functions from outside of Lua: by name, with plain values.
+//! Calls of API functions by name, with plain values.
 
 use std::rc::Rc;
 
-use super::collect;
 use crate::scene::Data;
 use crate::script::binding::args::Args;
 use crate::script::binding::registry::{Bound, Member};
 use crate::script::binding::source::Values;
 use crate::script::error::{ApiError, ApiResult};
-use crate::script::lifecycle::env::Runtime;
 use crate::script::lifecycle::instance::Script;
 use crate::script::lifecycle::level::Level;
-use crate::script::lifecycle::push_args;
+use crate::script::runtime::Runtime;
 use crate::script::sim::Sim;
-
-/// Calls a function of a module, both by name, with all that follows.
-const CALL: &[u8] = b"local module, member = ... return require(module)[member](select(3, ...))";
 
 impl Sim {
     /// Calls `module.function`, or a global function, in the name of a script. A native function is called directly; one that is written
@@ -30,23 +25,14 @@ impl Sim {
             Some(Member::Native(id)) => call_native(&runtime, registry.bound(id), args),
             Some(Member::Missing(id)) => Err(registry.missing_function(id).error()),
             Some(Member::Constant(_)) => Err(ApiError::CallFailed),
-            Some(Member::Lua { .. }) | None => self.call_in_lua(&runtime, name, args),
+            Some(Member::Lua { .. }) | None => self.call_library(&runtime, name, args),
         }
     }
 
-    fn call_in_lua(&self, runtime: &Rc<Runtime>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+    fn call_library(&self, runtime: &Rc<Runtime>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
         let (module, member) = name.rsplit_once('.').ok_or(ApiError::CallFailed)?;
         let _level = Level::enter(&self.scripts, &runtime.env);
-        let stack = runtime.stack();
-        let base = stack.top();
-        let call = || {
-            stack.load(CALL, "call", false)?;
-            stack.push_bytes(module.as_bytes());
-            stack.push_bytes(member.as_bytes());
-            collect(stack, base, push_args(stack, args)? + 2)
-        };
-        let results = call();
-        stack.set_top(base.min(stack.top()));
+        let results = runtime.interpreter.call_library(module, member, args);
         results.map_err(|error| ApiError::Other(error.text.lines().next().unwrap_or_default().to_owned()))
     }
 }

@@ -77,8 +77,8 @@ impl SysCall {
         self as u8 <= Self::Sensing as u8
     }
 
-    /// Whether the built-in thread hook makes this callback reach scripts that define it late.
-    pub(crate) const fn always_delivered(self) -> bool {
+    /// Whether threads are resumed before this callback. It is delivered to all scripts, also to those that define it late.
+    pub(crate) const fn resumes_threads(self) -> bool {
         matches!(self, Self::Actuation | Self::NonSimulation)
     }
 

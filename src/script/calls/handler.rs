@@ -3,17 +3,16 @@
 use std::rc::{Rc, Weak};
 
 use super::callback::SysCall;
-use super::{collect, push_callee};
 use crate::scene::Data;
-use crate::script::binding::args::{KeptFunction, ScriptFunction};
+use crate::script::binding::args::ScriptFunction;
 use crate::script::binding::cx::Cx;
 use crate::script::error::{ApiError, ApiResult};
-use crate::script::lifecycle::env::Runtime;
+use crate::script::lifecycle::env::Env;
 use crate::script::lifecycle::instance::Script;
 use crate::script::lifecycle::level::Level;
-use crate::script::lifecycle::push_args;
 use crate::script::lifecycle::script_set::MAX_DEPTH;
 use crate::script::log::verbosity;
+use crate::script::runtime::{CallError, Callee, FunctionRef, Runtime};
 use crate::script::sim::Sim;
 
 /// A function by name, looked up at each call in a script of the caller's choice, or by value.
@@ -22,17 +21,28 @@ pub(crate) enum Handler {
     Function(HeldFunction),
 }
 
-/// A function held in the state it belongs to.
+/// A function of an interpreter, released when this is dropped.
 pub(crate) struct HeldFunction {
-    runtime: Weak<Runtime>,
-    function: KeptFunction,
+    runtime: Option<Weak<Runtime>>,
+    function: FunctionRef,
 }
 
 impl Drop for HeldFunction {
     fn drop(&mut self) {
-        if let Some(runtime) = self.runtime.upgrade() {
-            runtime.stack().release_function(self.function.0);
+        if let Some(runtime) = self.runtime() {
+            runtime.interpreter.release(self.function);
         }
+    }
+}
+
+impl HeldFunction {
+    /// A function that the script with that environment has passed to the host.
+    pub(crate) fn new(env: &Env, function: FunctionRef) -> Self {
+        Self { runtime: env.runtime().as_ref().map(Rc::downgrade), function }
+    }
+
+    fn runtime(&self) -> Option<Rc<Runtime>> {
+        self.runtime.as_ref()?.upgrade()
     }
 }
 
@@ -41,10 +51,7 @@ impl Handler {
     pub(crate) fn new(cx: &Cx, given: ScriptFunction) -> Self {
         match given {
             ScriptFunction::Name(name) => Self::Name(name),
-            ScriptFunction::Value(function) => {
-                let runtime = cx.script().current_runtime().map(|runtime| Rc::downgrade(&runtime)).unwrap_or_default();
-                Self::Function(HeldFunction { runtime, function })
-            }
+            ScriptFunction::Value(function) => Self::Function(HeldFunction::new(cx.env(), function)),
         }
     }
 
@@ -83,7 +90,7 @@ impl Sim {
     fn try_handler(self: &Rc<Self>, script: &Rc<Script>, handler: &Handler, args: &[Data]) -> ApiResult<Vec<Data>> {
         let runtime = match handler {
             Handler::Name(_) => script.current_runtime(),
-            Handler::Function(held) => held.runtime.upgrade(),
+            Handler::Function(held) => held.runtime(),
         };
         let runtime =
             runtime.filter(|runtime| runtime.env.script.is_running()).ok_or(ApiError::ScriptNotInitialized)?;
@@ -99,17 +106,13 @@ impl Sim {
         if level.too_deep {
             return Err(ApiError::TooDeep(MAX_DEPTH));
         }
-        let stack = runtime.stack();
-        let base = stack.top();
-        let pushed = match handler {
-            Handler::Name(_) => push_callee(stack, handler.name().unwrap_or_default(), args),
-            Handler::Function(held) => {
-                stack.push_function(held.function.0);
-                Ok(push_args(stack, args)?)
-            }
+        let function = match handler {
+            Handler::Name(_) => Callee::Named(handler.name().unwrap_or_default()),
+            Handler::Function(held) => Callee::Function(held.function),
         };
-        let results = pushed.and_then(|count| Ok(collect(stack, base, count)?));
-        stack.set_top(base.min(stack.top()));
-        results
+        runtime.interpreter.call(function, args).map_err(|error| match error {
+            CallError::NoSuchFunction => ApiError::CallFailed,
+            CallError::Script(error) => ApiError::Other(error.text),
+        })
     }
 }

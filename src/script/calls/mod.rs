@@ -5,19 +5,14 @@ pub(in crate::script) mod callback;
 pub(in crate::script) mod data_changes;
 pub(in crate::script) mod dispatch;
 pub(in crate::script) mod handler;
-pub(in crate::script) mod threads;
 
 use std::rc::Rc;
 
-use super::binding::data;
 use super::error::{ApiError, ApiResult};
-use super::lifecycle::env::Runtime;
 use super::lifecycle::instance::{Script, state};
 use super::lifecycle::level::Level;
 use super::lifecycle::script_set::MAX_DEPTH;
-use super::lifecycle::startup;
-use super::lifecycle::{push_args, push_dotted};
-use super::lua::{LuaError, MULTIPLE, Stack, Type};
+use super::runtime::{CallError, CallbackResult, Callee, Runtime, ScriptError};
 use super::sim::Sim;
 use crate::scene::Data;
 use crate::scene::object::script_object::ScriptType;
@@ -38,7 +33,7 @@ impl Sim {
         if !script.is_running() {
             return Err(ApiError::CallFailed);
         }
-        let results = self.call_in_state(&runtime, name, args)?.map_err(|error| {
+        let results = self.call_named(&runtime, name, args)?.map_err(|error| {
             self.fail(script, &error.text);
             ApiError::ErrorInCallee
         });
@@ -49,16 +44,16 @@ impl Sim {
     }
 
     /// The inner result is the callee's own.
-    fn call_in_state(&self, runtime: &Runtime, name: &str, args: &[Data]) -> ApiResult<Result<Vec<Data>, LuaError>> {
+    fn call_named(&self, runtime: &Runtime, name: &str, args: &[Data]) -> ApiResult<Result<Vec<Data>, ScriptError>> {
         let level = Level::enter_from_script(&self.scripts, &runtime.env);
         if level.too_deep {
             return Err(ApiError::TooDeep(MAX_DEPTH));
         }
-        let stack = runtime.stack();
-        let base = stack.top();
-        let outcome = push_callee(stack, name, args).map(|count| collect(stack, base, count));
-        stack.set_top(base.min(stack.top()));
-        outcome
+        match runtime.interpreter.call(Callee::Named(name), args) {
+            Ok(results) => Ok(Ok(results)),
+            Err(CallError::Script(error)) => Ok(Err(error)),
+            Err(CallError::NoSuchFunction) => Err(ApiError::CallFailed),
+        }
     }
 
     /// Runs a string in a script: as an expression if it is one, else as a chunk. The script is not marked when it fails.
@@ -68,11 +63,7 @@ impl Sim {
         if level.too_deep {
             return Err(ApiError::TooDeep(MAX_DEPTH));
         }
-        let stack = runtime.stack();
-        let base = stack.top();
-        let outcome = load_expression_or_chunk(stack, code).and_then(|()| collect(stack, base, 0));
-        stack.set_top(base.min(stack.top()));
-        outcome.map_err(|_| crate::scene::SceneError::OperationFailed.into())
+        runtime.interpreter.evaluate(code).map_err(|_| crate::scene::SceneError::OperationFailed.into())
     }
 
     /// Runs a file's text as a chunk in a script that lives already, as the sandbox does.
@@ -83,8 +74,7 @@ impl Sim {
         let Some(runtime) = script.current_runtime() else { return Err(ApiError::ScriptNotInitialized.to_string()) };
         let outcome = {
             let _level = Level::enter(&self.scripts, &runtime.env);
-            let stack = runtime.stack();
-            stack.load(code, chunk_name, false).and_then(|()| stack.protected_call(0, 0))
+            runtime.interpreter.run(code, chunk_name)
         };
         outcome.map_err(|error| {
             self.fail(script, &error.text);
@@ -125,22 +115,20 @@ impl Sim {
 
     /// The value of an add-on's `sysCall_info`, for which it is loaded once more.
     fn add_on_info(self: &Rc<Self>, script: &Rc<Script>) -> Option<Data> {
-        let runtime = Rc::new(Runtime::new(self, script));
-        let stack = runtime.stack();
+        // What is wrong with it is reported when it is loaded to run.
+        let language = script.language(&self.scene.borrow());
+        let runtime = self.create_runtime(script, &language).ok()?;
         let (code, name) = {
             let detached = script.detached.borrow();
             (detached.code.clone(), detached.chunk_name.clone())
         };
         let _level = Level::enter(&self.scripts, &runtime.env);
-        let loaded = startup::fill(self, &runtime)
-            .and_then(|()| stack.load(&code, &name, false))
-            .and_then(|()| stack.protected_call(0, 0));
-        // What is wrong with it is reported when it is loaded to run.
-        if loaded.is_err() || stack.push_global(SysCall::Info.name()) != Type::Function {
-            return None;
+        runtime.interpreter.start().ok()?;
+        runtime.interpreter.run(&code, &name).ok()?;
+        match runtime.interpreter.call_callback(SysCall::Info, &[]) {
+            Ok(CallbackResult::Returned(value)) => value,
+            Ok(CallbackResult::NotDefined) | Err(_) => None,
         }
-        let base = stack.top() - 1;
-        collect(stack, base, 0).ok()?.pop()
     }
 
     /// Closes every interpreter. A script and its interpreter know each other: without this neither would ever go.
@@ -158,33 +146,4 @@ impl Sim {
             }
         }
     }
-}
-
-/// Pushes the function and its arguments; the script's `sysCall_ext`, if there is one, stands in for every function.
-pub(crate) fn push_callee(stack: Stack<'_>, name: &str, args: &[Data]) -> ApiResult<i32> {
-    let mut extra = 0;
-    if stack.push_global(SysCall::Ext.name()) == Type::Function {
-        stack.push_bytes(name.as_bytes());
-        extra = 1;
-    } else {
-        stack.pop(1);
-        push_dotted(stack, name);
-        if stack.kind(-1) != Type::Function {
-            stack.pop(1);
-            return Err(ApiError::CallFailed);
-        }
-    }
-    Ok(push_args(stack, args)? + extra)
-}
-
-/// Calls what is on the stack and reads its results.
-pub(crate) fn collect(stack: Stack<'_>, base: i32, arguments: i32) -> Result<Vec<Data>, LuaError> {
-    stack.protected_call(arguments, MULTIPLE)?;
-    Ok((base + 1..=stack.top()).map(|index| data::read_data(stack, index)).collect())
-}
-
-fn load_expression_or_chunk(stack: Stack<'_>, code: &[u8]) -> Result<(), LuaError> {
-    let name = String::from_utf8_lossy(code);
-    let expression = [b"return ", code].concat();
-    stack.load(&expression, &name, false).or_else(|_| stack.load(code, &name, false))
 }

@@ -65,11 +65,11 @@ mod tests {
     use std::sync::atomic::Ordering;
     use std::time::Duration;
 
-    use crate::script::{ApiError, Options, Registry, Silent, Sim};
+    use crate::script::{ApiError, Languages, Options, Registry, Silent, Sim};
 
     /// Runs with a simulator of its own.
     fn with_sim<R>(options: Options, test: impl FnOnce(&Sim) -> R) -> R {
-        test(&Sim::new(options, Registry::without_functions(), Box::new(Silent), Vec::new()))
+        test(&Sim::new(options, Registry::without_functions(), Box::new(Silent), Languages::default()))
     }
 
     #[test]

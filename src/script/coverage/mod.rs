@@ -1,26 +1,19 @@
 //! Line coverage of scripts.
 //!
 //! A state counts the lines of its script's own text and of Lua files that were loaded by name (`@file`); what comes with the simulator is
-//! not counted. Which lines there are to run says `executable`. Texts get `probes` when they are loaded, which note the lines that run; a line
-//! counts once for each state that has run it. Here is what one state counts, and what a simulator collects from its states. Reports
+//! not counted. A line counts once for each state that has run it. Interpreters count, here is what a simulator collects from them. Reports
 //! are made elsewhere.
 
-mod bytecode;
-mod executable;
-mod probes;
-mod state;
 mod text;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-pub use executable::{Function, executable};
-pub(crate) use state::Coverage;
 pub use text::read_text;
 
-use super::lifecycle::env::Runtime;
 use super::lifecycle::instance::Script;
+use super::runtime::Interpreter;
 use super::sim::Sim;
 use crate::scene::Kind;
 use crate::scene::object::script_object::ScriptType;
@@ -40,6 +33,17 @@ pub enum CountedText {
     },
 }
 
+/// A function of a text.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Function {
+    /// Where it begins; 0 for the text as a whole.
+    pub line: u32,
+    /// The lines of its body that can run, in the order of the text.
+    pub lines: Vec<u32>,
+    /// As the text calls it, if it does.
+    pub name: Option<String>,
+}
+
 /// In how many states lines ran: the first entry is that of line 1. Lines after the last entry never did.
 pub type Counts = Vec<u64>;
 
@@ -55,7 +59,7 @@ impl LineCounts {
         other.texts.into_iter().for_each(|(text, counts)| self.add(text, &counts));
     }
 
-    fn add(&mut self, text: CountedText, counts: &[u64]) {
+    pub(crate) fn add(&mut self, text: CountedText, counts: &[u64]) {
         let sums = self.texts.entry(text).or_default();
         if sums.len() < counts.len() {
             sums.resize(counts.len(), 0);
@@ -65,19 +69,19 @@ impl LineCounts {
 }
 
 impl Sim {
-    /// Takes over what a state has counted that is going to end.
-    pub(crate) fn collect_line_counts(&self, runtime: &Runtime) {
-        if let Some(coverage) = &runtime.env.coverage
-            && let Ok(mut kept) = self.line_counts.try_borrow_mut()
+    /// Takes over what an interpreter has counted so far.
+    pub(crate) fn collect_line_counts(&self, interpreter: &(impl Interpreter + ?Sized)) {
+        if self.options.count_lines
+            && let Ok(mut counts) = self.line_counts.try_borrow_mut()
         {
-            kept.merge(coverage.take(self, &runtime.env.script, runtime.stack()));
+            counts.merge(interpreter.take_line_counts(self));
         }
     }
 
     /// Hands over what all states have counted since the last time. Scripts of the scene that have not run are there without counts.
     pub(crate) fn take_line_counts(&self) -> LineCounts {
         let running: Vec<_> = self.scripts.all().iter().filter_map(|script| script.current_runtime()).collect();
-        running.iter().for_each(|runtime| self.collect_line_counts(runtime));
+        running.iter().for_each(|runtime| self.collect_line_counts(&runtime.interpreter));
         let mut counts = self.line_counts.take();
         let idle = self.countable_objects();
         idle.into_iter().for_each(|text| counts.add(text, &[]));
@@ -87,7 +91,7 @@ impl Sim {
     fn countable_objects(&self) -> Vec<CountedText> {
         let scene = self.scene.borrow();
         let scripts = scene.objects().filter_map(|object| match &object.kind {
-            Kind::Script(script) if script.language == "lua" => {
+            Kind::Script(script) if self.languages.contains(&script.language) => {
                 let path = scene.short_path(object.handle()).ok()?;
                 let text = script.code.as_slice().into();
                 Some(CountedText::Script { scene: scene.settings().path.clone(), path, text })
@@ -97,14 +101,10 @@ impl Sim {
         scripts.collect()
     }
 
-    /// A script's text is going to run in its state; its function is on top of the stack.
-    pub(crate) fn begin_coverage(&self, script: &Script, runtime: &Runtime, chunk_name: &str, text: &[u8]) {
-        if let Some(coverage) = &runtime.env.coverage
-            && self.counts_text_of(script, text)
-        {
-            coverage.begin(chunk_name, self.path_of_script(script).unwrap_or_default(), text);
-            coverage.count_function(runtime.stack());
-        }
+    /// What reports call a script's text; None when its lines are not to be counted.
+    pub(crate) fn counted_as(&self, script: &Script, text: &[u8]) -> Option<String> {
+        let counts = self.options.count_lines && self.counts_text_of(script, text);
+        counts.then(|| self.path_of_script(script).unwrap_or_default())
     }
 
     /// Whether lines of that script's own text count: those of the scene do, unless they came with the simulator.
@@ -117,7 +117,7 @@ impl Sim {
     }
 
     /// What a script is called in reports; None when it is no longer in the scene.
-    fn path_of_script(&self, script: &Script) -> Option<String> {
+    pub(crate) fn path_of_script(&self, script: &Script) -> Option<String> {
         let scene = self.scene.try_borrow().ok()?;
         match (script.object, script.owner()) {
             (Some(object), _) => scene.short_path(object).ok(),
@@ -128,7 +128,7 @@ impl Sim {
         }
     }
 
-    fn scene_path(&self) -> String {
+    pub(crate) fn scene_path(&self) -> String {
         self.scene.try_borrow().map(|scene| scene.settings().path.clone()).unwrap_or_default()
     }
 }

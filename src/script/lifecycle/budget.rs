@@ -20,17 +20,17 @@ impl Budget {
     }
 
     /// Whether anything can be refused.
-    pub(super) fn is_limited(&self) -> bool {
+    pub(in crate::script) fn is_limited(&self) -> bool {
         self.limit != usize::MAX
     }
 
     #[cfg(test)]
-    pub(super) fn used(&self) -> usize {
+    pub(in crate::script) fn used(&self) -> usize {
         self.used.get()
     }
 
     /// Accounts for a block that changes its size; false when that is refused.
-    pub(super) fn resize(&self, old_size: usize, size: usize) -> bool {
+    pub(in crate::script) fn resize(&self, old_size: usize, size: usize) -> bool {
         let used = self.used.get() - old_size + size;
         if used > self.limit && size > old_size && !self.in_host.get() {
             return false;
@@ -40,11 +40,11 @@ impl Budget {
     }
 
     /// Marks the beginning of host code, or of Lua code; returns what ran before, to be restored by [`leave`](Self::leave).
-    pub(super) fn enter(&self, host: bool) -> bool {
+    pub(in crate::script) fn enter(&self, host: bool) -> bool {
         self.in_host.replace(host)
     }
 
-    pub(super) fn leave(&self, before: bool) {
+    pub(in crate::script) fn leave(&self, before: bool) {
         self.in_host.set(before);
     }
 }

@@ -1,25 +1,28 @@
-//! What the host knows about one Lua state: whose it is, its yield levels, hooks, random numbers.
+//! What the host knows about one running script: whose it is, its yield levels, hooks, random numbers.
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::{BTreeMap, HashSet};
 use std::rc::{Rc, Weak};
 use std::sync::Arc;
 
+use super::budget::Budget;
 use super::instance::Script;
 use super::random::Random;
+use super::yields::Yields;
 use crate::script::binding::registry::Registry;
 use crate::script::binding::states::States;
 use crate::script::calls::callback::SysCall;
-use crate::script::coverage::Coverage;
 use crate::script::events::Filters;
 use crate::script::log::verbosity;
-use crate::script::lua::{Budget, FunctionRef, Stack, State};
+use crate::script::runtime::{FunctionRef, Runtime};
 use crate::script::sim::Sim;
 
-/// The host's side of one Lua state.
+/// The host's side of one interpreter.
 pub(crate) struct Env {
     pub(in crate::script) sim: Weak<Sim>,
     pub script: Rc<Script>,
+    /// The interpreter this belongs to; there from its creation on.
+    pub(in crate::script) runtime: OnceCell<Weak<Runtime>>,
     /// What the script can reach.
     pub registry: Arc<Registry>,
     /// Callbacks whose function was there when the chunk had run.
@@ -40,23 +43,6 @@ pub(crate) struct Env {
     warned: RefCell<HashSet<&'static str>>,
     warned_deprecated: RefCell<HashSet<usize>>,
     watched: bool,
-    /// What counts the lines that run, if they are counted.
-    pub coverage: Option<Coverage>,
-}
-
-/// May code of this state yield, and when is it made to?
-#[derive(Default)]
-pub(crate) struct Yields {
-    /// 0: pre-emption is allowed in code outside of coroutines that have a level of their own.
-    pub auto: Cell<i64>,
-    /// 0: yielding is allowed at all.
-    pub overall: Cell<i64>,
-    /// Whole milliseconds, as scripts set it.
-    pub delay_ms: Cell<u32>,
-    /// Instructions run by coroutines since the slice began.
-    pub used: Cell<u64>,
-    /// The count hook comes early, to end a slice.
-    pub hastened: Cell<bool>,
 }
 
 /// Functions that run before and after callbacks.
@@ -74,10 +60,11 @@ pub(crate) struct Hook {
 }
 
 impl Env {
-    fn new(sim: &Rc<Sim>, script: &Rc<Script>) -> Self {
+    pub(in crate::script) fn new(sim: &Rc<Sim>, script: &Rc<Script>) -> Self {
         Self {
             sim: Rc::downgrade(sim),
             script: script.clone(),
+            runtime: OnceCell::new(),
             registry: sim.modules.registry.clone(),
             defined: Cell::new(0),
             hooks: RefCell::default(),
@@ -91,13 +78,7 @@ impl Env {
             warned: RefCell::default(),
             warned_deprecated: RefCell::default(),
             watched: sim.options.limits.is_some(),
-            coverage: sim.options.count_lines.then(Coverage::default),
         }
-    }
-
-    /// The environment of the state `stack` belongs to.
-    pub(crate) fn of<'a>(stack: Stack<'a>) -> &'a Self {
-        stack.owner()
     }
 
     /// Logs a warning at the first call of `name` in this state.
@@ -126,16 +107,25 @@ impl Env {
         self.watched
     }
 
-    /// Whether the user wants the program to end.
-    pub(crate) fn is_interrupted(&self) -> bool {
-        self.sim.upgrade().is_none_or(|sim| sim.is_interrupted())
+    /// The error that has to end the running code, if it has to end. An interpreter asks this while a script runs: the thread that could
+    /// interrupt it is waiting for it. The runner of a test learns where the code was.
+    pub(crate) fn interruption(&self, traceback: impl FnOnce() -> String) -> Option<&'static str> {
+        if !self.watched {
+            return None;
+        }
+        let sim = self.sim.upgrade();
+        if !sim.as_ref().is_none_or(|sim| sim.is_interrupted()) {
+            return None;
+        }
+        if let Some(bench) = sim.as_ref().and_then(|sim| sim.test_bench.get()) {
+            bench.note_interruption(traceback);
+        }
+        Some("interrupted.")
     }
 
-    /// Lets the runner of a test know where code is that has to stop.
-    pub(crate) fn note_interruption(&self, stack: Stack<'_>) {
-        if let Some(bench) = self.sim.upgrade().as_ref().and_then(|sim| sim.test_bench.get()) {
-            bench.note_interruption(|| stack.traceback_from(0));
-        }
+    /// The interpreter this belongs to, until it is closed.
+    pub(crate) fn runtime(&self) -> Option<Rc<Runtime>> {
+        self.runtime.get()?.upgrade()
     }
 
     /// Turns the changes of a call into events, if there are listeners.
@@ -155,32 +145,5 @@ impl Env {
     pub(crate) fn has_hooks(&self, call: SysCall) -> bool {
         let hooks = self.hooks.borrow();
         [&hooks.before, &hooks.after].iter().any(|list| list.get(&call).is_some_and(|hooks| !hooks.is_empty()))
-    }
-}
-
-/// A Lua state with its environment.
-pub(crate) struct Runtime {
-    // Dropped first: finalizers may still call API functions, which look at the environment.
-    pub lua: State,
-    pub env: Rc<Env>,
-}
-
-impl Runtime {
-    /// A state with the standard libraries only; `startup` fills it.
-    pub(crate) fn new(sim: &Rc<Sim>, script: &Rc<Script>) -> Self {
-        let env = Rc::new(Env::new(sim, script));
-        Self { lua: State::new(Rc::clone(&env)), env }
-    }
-
-    pub(crate) fn stack(&self) -> Stack<'_> {
-        self.lua.stack()
-    }
-}
-
-impl Drop for Runtime {
-    fn drop(&mut self) {
-        if let Some(sim) = self.env.sim.upgrade() {
-            sim.collect_line_counts(self);
-        }
     }
 }

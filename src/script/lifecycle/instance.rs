@@ -1,11 +1,11 @@
-//! A script as seen by the host: identity, state, Lua state.
+//! A script as seen by the host: identity, state, runtime.
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use super::env::Runtime;
 use crate::scene::Handle;
 use crate::scene::object::script_object::{ExecutionPriority, ScriptType};
+use crate::script::runtime::Runtime;
 
 /// Base states and bits of a script's state (spec: scripts 3).
 pub(crate) mod state {
@@ -79,12 +79,12 @@ impl Script {
         }
     }
 
-    /// `scriptState`: base state, error bit, suspended bit.
     /// The object an old script is attached to, instead of being one itself.
     pub(crate) fn owner(&self) -> Option<Handle> {
         self.detached.borrow().owner
     }
 
+    /// `scriptState`: base state, error bit, suspended bit.
     pub fn state(&self) -> i64 {
         self.state.get()
     }

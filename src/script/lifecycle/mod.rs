@@ -1,32 +1,28 @@
 //! The life of a script: loading, initialization, callbacks, cleanup (spec: scripts 3, scripts 4, scripts 5).
 
 pub(in crate::script) mod attached;
-pub(in crate::script) mod embedded;
+pub(in crate::script) mod budget;
 pub(in crate::script) mod env;
 pub(in crate::script) mod instance;
 pub(in crate::script) mod level;
 pub(in crate::script) mod lookup;
-pub(in crate::script) mod old_calls;
 pub(in crate::script) mod order;
 pub(in crate::script) mod random;
 pub(in crate::script) mod removal;
 pub(in crate::script) mod script_set;
-pub(in crate::script) mod shared_process;
 pub(in crate::script) mod source;
-pub(in crate::script) mod startup;
-pub(in crate::script) mod user_modules;
+pub(in crate::script) mod yields;
 
 use std::rc::Rc;
 
-use super::binding::data;
 use super::calls::callback::SysCall;
 use super::error::ApiError;
 use super::log::verbosity;
-use super::lua::{LuaError, MULTIPLE, Stack, Type};
+use super::runtime::{CallbackResult, Runtime, ScriptError, SourceText};
 use super::sim::Sim;
 use crate::scene::Data;
 use crate::scene::object::script_object::ScriptType;
-use env::{Hook, Runtime};
+use env::{Env, Hook};
 use instance::{Script, state};
 use level::Level;
 use script_set::MAX_DEPTH;
@@ -64,19 +60,19 @@ impl Sim {
         self.run_callback(script, call, args)
     }
 
-    /// Runs the chunk in a fresh interpreter, then `sysCall_info`.
+    /// Runs the text in a fresh interpreter, then `sysCall_info`.
     fn load(self: &Rc<Self>, script: &Rc<Script>) {
-        let runtime = Rc::new(Runtime::new(self, script));
         script.set_state(state::UNINITIALIZED);
-        script.runtime.replace(Some(runtime.clone()));
-        if let Err(error) = self.run_chunk(script, &runtime) {
-            self.report_error(script, &error.text);
-            script.set_state(state::ENDED | state::ERROR);
-            self.close(script);
-            self.restart_if_requested(script);
-            return;
-        }
-        let defined = defined_callbacks(runtime.stack());
+        let runtime = match self.run_text(script) {
+            Ok(runtime) => runtime,
+            Err(error) => {
+                self.report_error(script, &error.text);
+                script.set_state(state::ENDED | state::ERROR);
+                self.close(script);
+                return self.restart_if_requested(script);
+            }
+        };
+        let defined = defined_callbacks(&runtime);
         runtime.env.defined.set(defined);
         self.note_callbacks(defined);
         // Add-ons have been asked before they were started.
@@ -85,20 +81,32 @@ impl Sim {
         }
     }
 
-    fn run_chunk(self: &Rc<Self>, script: &Rc<Script>, runtime: &Rc<Runtime>) -> Result<(), LuaError> {
-        let stack = runtime.stack();
-        startup::fill(self, runtime)?;
-        if script.language(&self.scene.borrow()) == "python" {
-            return Err(LuaError { text: "scripts in Python are not implemented in Swanilda.".into() });
-        }
-        let (code, name) = script.code(&self.scene.borrow());
+    /// A new interpreter for a script.
+    ///
+    /// # Errors
+    /// When there is no such language.
+    pub(crate) fn create_runtime(
+        self: &Rc<Self>,
+        script: &Rc<Script>,
+        language: &str,
+    ) -> Result<Rc<Runtime>, ScriptError> {
+        self.languages.create(language, Rc::new(Env::new(self, script)))
+    }
+
+    fn run_text(self: &Rc<Self>, script: &Rc<Script>) -> Result<Rc<Runtime>, ScriptError> {
+        let language = script.language(&self.scene.borrow());
+        let runtime = self.create_runtime(script, &language)?;
+        script.runtime.replace(Some(runtime.clone()));
+        runtime.interpreter.start()?;
+        let (text, chunk_name) = script.code(&self.scene.borrow());
         let level = Level::enter(&self.scripts, &runtime.env);
         if level.too_deep {
-            return Err(LuaError { text: ApiError::TooDeep(MAX_DEPTH).to_string() });
+            return Err(ScriptError { text: ApiError::TooDeep(MAX_DEPTH).to_string() });
         }
-        stack.load(&code, &name, false)?;
-        self.begin_coverage(script, runtime, &name, &code);
-        if old_calls::are_expected_by(&code) { old_calls::begin(stack, self) } else { stack.protected_call(0, 0) }
+        let counted_as = self.counted_as(script, &text);
+        runtime.interpreter.load(&SourceText { text: &text, chunk_name: &chunk_name, counted_as })?;
+        drop(level);
+        Ok(runtime)
     }
 
     fn initialize(self: &Rc<Self>, script: &Rc<Script>) {
@@ -113,7 +121,7 @@ impl Sim {
     /// Runs hooks and function of a callback in an interpreter that is ready for it.
     fn run_callback(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, args: &[Data]) -> Reply {
         let Some(runtime) = script.current_runtime() else { return Reply::default() };
-        if !runtime.env.responds_to(call) && !call.always_delivered() && !has_late_cleanup(&runtime, call) {
+        if !runtime.env.responds_to(call) && !call.resumes_threads() && !has_late_cleanup(&runtime, call) {
             return Reply::default();
         }
         if call == SysCall::Cleanup {
@@ -133,25 +141,23 @@ impl Sim {
 
     fn call_with_hooks(self: &Rc<Self>, runtime: &Rc<Runtime>, call: SysCall, args: &[Data]) -> Outcome {
         let env = &runtime.env;
-        let stack = runtime.stack();
         let level = Level::enter(&self.scripts, env);
         let mut outcome = Outcome::default();
         if level.too_deep {
             outcome.errors.push(ApiError::TooDeep(MAX_DEPTH).to_string());
             return outcome;
         }
+        if call.resumes_threads() {
+            outcome.resume_thread(runtime);
+        }
         let before = hooks_of(&env.hooks.borrow().before, call);
         for hook in before.into_iter().rev() {
-            outcome.run_hook(stack, &hook, args);
+            outcome.call_hook(runtime, &hook, args);
         }
-        if stack.push_global(call.name()) == Type::Function {
-            outcome.run_function(stack, args);
-        } else {
-            stack.pop(1);
-        }
+        outcome.call_function(runtime, call, args);
         let after = hooks_of(&env.hooks.borrow().after, call);
         for hook in after {
-            outcome.run_hook(stack, &hook, args);
+            outcome.call_hook(runtime, &hook, args);
         }
         outcome
     }
@@ -277,62 +283,31 @@ struct Outcome {
 }
 
 impl Outcome {
-    fn run_hook(&mut self, stack: Stack<'_>, hook: &Hook, args: &[Data]) {
-        let base = stack.top();
-        push_hook(stack, hook);
-        if stack.kind(-1) == Type::Function {
-            self.ran = true;
-            if let Err(error) = push_args(stack, args).and_then(|n| stack.protected_call(n, 0)) {
-                self.errors.push(error.text);
-            }
+    fn resume_thread(&mut self, runtime: &Runtime) {
+        if let Err(error) = runtime.interpreter.resume_thread() {
+            self.errors.push(error.text);
         }
-        stack.set_top(base.min(stack.top()));
     }
 
-    /// Calls the function on top of the stack.
-    fn run_function(&mut self, stack: Stack<'_>, args: &[Data]) {
-        let base = stack.top() - 1;
-        (self.ran, self.function_ran) = (true, true);
-        match push_args(stack, args).and_then(|n| stack.protected_call(n, MULTIPLE)) {
-            Ok(()) if stack.top() > base => self.value = Some(data::read_data(stack, -1)),
-            Ok(()) => {}
+    fn call_hook(&mut self, runtime: &Runtime, hook: &Hook, args: &[Data]) {
+        match runtime.interpreter.call_hook(hook, args) {
+            Ok(ran) => self.ran |= ran,
             Err(error) => {
-                self.function_ran = false;
+                self.ran = true;
                 self.errors.push(error.text);
             }
         }
-        stack.set_top(base.min(stack.top()));
     }
-}
 
-/// Pushes arguments for a call; returns their number.
-pub(crate) fn push_args(stack: Stack<'_>, args: &[Data]) -> Result<i32, LuaError> {
-    if !stack.reserve(args.len() + 8) {
-        return Err(LuaError { text: "stack overflow: too many arguments.".into() });
-    }
-    args.iter().for_each(|arg| data::push_data(stack, arg));
-    Ok(args.len() as i32)
-}
-
-fn push_hook(stack: Stack<'_>, hook: &Hook) {
-    match hook.function {
-        Some(function) => {
-            stack.push_function(function);
+    fn call_function(&mut self, runtime: &Runtime, call: SysCall, args: &[Data]) {
+        match runtime.interpreter.call_callback(call, args) {
+            Ok(CallbackResult::NotDefined) => {}
+            Ok(CallbackResult::Returned(value)) => (self.ran, self.function_ran, self.value) = (true, true, value),
+            Err(error) => {
+                self.ran = true;
+                self.errors.push(error.text);
+            }
         }
-        None => push_dotted(stack, &hook.name),
-    }
-}
-
-/// Pushes the global `a.b.c`, walking through plain tables; nil when it is not there.
-pub(crate) fn push_dotted(stack: Stack<'_>, name: &str) {
-    stack.push_globals();
-    for part in name.split('.') {
-        if stack.kind(-1) != Type::Table {
-            stack.pop(1);
-            return stack.push_nil();
-        }
-        stack.raw_get_field(-1, part);
-        stack.remove(-2);
     }
 }
 
@@ -340,23 +315,13 @@ fn hooks_of(hooks: &std::collections::BTreeMap<SysCall, Vec<Hook>>, call: SysCal
     hooks.get(&call).cloned().unwrap_or_default()
 }
 
-/// The callbacks that are there now that the chunk has run, as bits.
-fn defined_callbacks(stack: Stack<'_>) -> u64 {
-    let defined = SysCall::ALL.iter().filter(|call| {
-        let kind = stack.push_global(call.name());
-        stack.pop(1);
-        kind == Type::Function
-    });
+/// The callbacks that are there now that the text has run, as bits.
+fn defined_callbacks(runtime: &Runtime) -> u64 {
+    let defined = SysCall::ALL.iter().filter(|&&call| runtime.interpreter.defines(call));
     defined.fold(0, |bits, call| bits | call.bit())
 }
 
-/// Whether a cleanup was defined after the chunk had run.
+/// Whether a cleanup was defined after the text had run.
 fn has_late_cleanup(runtime: &Runtime, call: SysCall) -> bool {
-    if call != SysCall::Cleanup {
-        return false;
-    }
-    let stack = runtime.stack();
-    let kind = stack.push_global(call.name());
-    stack.pop(1);
-    kind == Type::Function
+    call == SysCall::Cleanup && runtime.interpreter.defines(call)
 }

@@ -4,12 +4,12 @@ use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
+use super::budget::Budget;
 use super::instance::{Detached, Script};
 use super::order::OrderCache;
 use crate::scene::Handle;
 use crate::scene::object::script_object::ScriptType;
 use crate::script::calls::callback::SysCall;
-use crate::script::lua::Budget;
 
 /// The first handle of scripts that are no scene objects.
 const FIRST_DETACHED: i64 = 1_010_000;

@@ -13,7 +13,6 @@
 //!   ([`LONGEST_LIST`], `Data::MAX_ITEMS`).
 
 mod api;
-mod budget;
 mod callback;
 mod calls;
 mod coroutine;
@@ -29,7 +28,6 @@ mod state;
 mod tables;
 mod text_only;
 
-pub(crate) use budget::Budget;
 pub(crate) use callback::{Callback, push_callback};
 pub(crate) use calls::{LuaError, MULTIPLE, compile};
 pub(crate) use coroutine::{HOOK_INTERVAL, Verdict, hasten_count_hook, install_coroutine_hooks, set_count_hook};
@@ -39,21 +37,25 @@ pub(crate) use object::Object;
 pub(crate) use seal::seal_argument;
 pub(crate) use stack::{Stack, Type};
 pub(crate) use state::State;
-pub(crate) use tables::{FunctionRef, LONGEST_LIST};
+pub(crate) use tables::LONGEST_LIST;
 pub(crate) use text_only::refuse_bytecode;
+
+use super::lifecycle::budget::Budget;
 
 #[cfg(test)]
 mod tests {
+    use std::rc::Rc;
+
     use super::State;
     use crate::scene::object::script_object::ScriptType;
-    use crate::script::lifecycle::env::Runtime;
-    use crate::script::{Detached, Options, Registry, Silent, Sim};
+    use crate::script::lifecycle::env::Env;
+    use crate::script::{Detached, Languages, Options, Registry, Silent, Sim};
 
     /// Calls `test` with a state that has the standard libraries only.
     pub(super) fn with_state<T>(test: impl FnOnce(&State) -> T) -> T {
         let registry = Registry::without_functions();
-        let sim = Sim::new(Options::default(), registry, Box::new(Silent), Vec::new());
+        let sim = Sim::new(Options::default(), registry, Box::new(Silent), Languages::default());
         let script = sim.scripts.add_detached(ScriptType::Sandbox, Detached::default());
-        test(&Runtime::new(&sim, &script).lua)
+        test(&State::new(Rc::new(Env::new(&sim, &script))))
     }
 }

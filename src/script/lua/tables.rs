@@ -6,10 +6,7 @@ use mlua::ffi;
 
 use super::api;
 use super::stack::{Stack, Type};
-
-/// A Lua function kept alive in the registry of its state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct FunctionRef(c_int);
+use crate::script::runtime::FunctionRef;
 
 /// Size hints beyond this are not worth their memory: tables grow by themselves.
 const MAX_HINT: usize = 1 << 16;
@@ -191,17 +188,17 @@ impl Stack<'_> {
     /// Pops a function and keeps it.
     pub(crate) fn keep_function(self) -> FunctionRef {
         // SAFETY: pops the top into the registry.
-        FunctionRef(unsafe { ffi::luaL_ref(self.raw(), ffi::LUA_REGISTRYINDEX) })
+        FunctionRef::new(unsafe { ffi::luaL_ref(self.raw(), ffi::LUA_REGISTRYINDEX) })
     }
 
     pub(crate) fn push_function(self, function: FunctionRef) -> Type {
         // SAFETY: reads the registry.
-        unsafe { ffi::lua_rawgeti(self.raw(), ffi::LUA_REGISTRYINDEX, i64::from(function.0)) };
+        unsafe { ffi::lua_rawgeti(self.raw(), ffi::LUA_REGISTRYINDEX, i64::from(function.number())) };
         self.kind(-1)
     }
 
     pub(crate) fn release_function(self, function: FunctionRef) {
         // SAFETY: a reference from `keep_function`, released once.
-        unsafe { ffi::luaL_unref(self.raw(), ffi::LUA_REGISTRYINDEX, function.0) }
+        unsafe { ffi::luaL_unref(self.raw(), ffi::LUA_REGISTRYINDEX, function.number()) }
     }
 }

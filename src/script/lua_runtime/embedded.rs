@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use crate::script::compile;
+use crate::script::lua::compile;
 
 /// `(module, text)` of every file below `lua/`.
 pub(crate) const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/lua_files.rs"));

@@ -1,7 +1,5 @@
 //! Scripts from before callbacks existed. `lua/library/old_calls.lua` runs them.
 
-use std::rc::Rc;
-
 use super::startup;
 use crate::script::calls::callback::SysCall;
 use crate::script::lua::{LuaError, Stack};
@@ -29,7 +27,7 @@ const CALLS: &[SysCall] = &[
 ];
 
 /// Whether a text is of that kind.
-pub(in crate::script) fn are_expected_by(code: &[u8]) -> bool {
+pub(super) fn are_expected_by(code: &[u8]) -> bool {
     SIGNS.iter().all(|sign| contains(code, sign)) && !contains(code, SysCall::Init.name().as_bytes())
 }
 
@@ -38,7 +36,7 @@ fn contains(code: &[u8], part: &[u8]) -> bool {
 }
 
 /// Runs the loaded text on top of the stack, which it takes, as its initialization, and defines its callbacks.
-pub(in crate::script) fn begin(stack: Stack<'_>, sim: &Rc<Sim>) -> Result<(), LuaError> {
+pub(super) fn begin(stack: Stack<'_>, sim: &Sim) -> Result<(), LuaError> {
     startup::load_module(stack, sim, "old_calls")?;
     stack.insert(-2);
     stack.push_int(SysCall::Init as i64);

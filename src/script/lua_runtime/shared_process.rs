@@ -2,14 +2,13 @@
 
 use std::ffi::c_int;
 
-use super::env::Env;
 use super::startup::load_module;
 use crate::script::log::console::Stream;
 use crate::script::lua::{LuaError, Stack, push_callback};
 use crate::script::sim::Sim;
 
 /// Keeps a state from ending the process, and from writing between the lines of the others.
-pub(in crate::script) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
+pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
     load_module(stack, sim, "shared_process")?;
     push_callback(stack, write, 0);
     stack.protected_call(1, 0)
@@ -17,7 +16,7 @@ pub(in crate::script) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaE
 
 /// Gets the name of a stream, and what a script has written there.
 fn write(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
+    let sim = stack.owner().sim.upgrade().ok_or("the simulator is gone.")?;
     let stream = if stack.bytes(1) == Some(b"stderr") { Stream::Error } else { Stream::Output };
     let time = sim.clock.time();
     sim.log.write(stack.bytes(2).unwrap_or_default(), stream, time);

@@ -5,13 +5,12 @@ use std::rc::Rc;
 
 use mlua::{Function, Lua, Table};
 
-use super::env::{Env, Runtime};
-use super::{shared_process, user_modules};
+use super::user_modules::UserModule;
+use super::{coverage, shared_process, threads, user_modules};
 use crate::script::binding::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE};
 use crate::script::binding::registry::{Member, MissingId, Namespace};
-use crate::script::binding::{deprecation_notice, push_function};
-use crate::script::calls::threads;
-use crate::script::lua::{self, LuaError, Stack, Type, push_callback};
+use crate::script::binding::{deprecation_notice, error_text, push_function};
+use crate::script::lua::{self, LuaError, Stack, State, Type, push_callback};
 use crate::script::sim::Sim;
 
 /// The `sim` table of a state.
@@ -20,41 +19,30 @@ const SIM: &CStr = c"swanilda.sim";
 const LUA_MODULES: &CStr = c"swanilda.modules";
 
 /// Makes a state ready for a script's text.
-pub(crate) fn fill(sim: &Rc<Sim>, runtime: &Runtime) -> Result<(), LuaError> {
-    let stack = runtime.stack();
+pub(super) fn fill(sim: &Rc<Sim>, state: &State, user_modules: &[UserModule]) -> Result<(), LuaError> {
+    let stack = state.stack();
     threads::install(stack);
     lua::install_coroutine_hooks(stack, threads::on_count);
-    lua::restrict_debug(stack, runtime.lua.lua())?;
-    user_modules::install(sim, stack)?;
+    lua::restrict_debug(stack, state.lua())?;
+    user_modules::install(user_modules, sim, stack)?;
     install_package(sim, stack);
     install_globals(sim, stack);
     install_sim(stack);
-    seed_random(runtime.lua.lua(), sim.options.seed)?;
-    stack.push_int(runtime.env.script.id);
+    seed_random(state.lua(), sim.options.seed)?;
+    stack.push_int(stack.owner().script.id);
     stack.set_global("sim_script_handle");
     load_module(stack, sim, "base").and_then(|()| stack.protected_call(0, 0))?;
     if !sim.options.exec_unsafe {
         lua::refuse_bytecode(stack);
         load_module(stack, sim, "no_unsafe").and_then(|()| stack.protected_call(0, 0))?;
     }
-    if runtime.env.coverage.is_some() {
-        load_module(stack, sim, "coverage_loaders")?;
-        push_callback(stack, count, 0);
-        stack.protected_call(1, 0)?;
+    if sim.options.count_lines {
+        coverage::install(sim, stack)?;
     }
     if sim.options.limits.is_some() {
         shared_process::install(sim, stack)?;
     }
     Ok(())
-}
-
-/// Instruments a function that was just loaded for coverage.
-fn count(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    stack.set_top(1);
-    if let Some(coverage) = &Env::of(stack).coverage {
-        coverage.count_function(stack);
-    }
-    Ok(1)
 }
 
 /// `math.random` starts from the simulator's seed: Lua's own start is different in every state. From seeds that follow each other its generator
@@ -139,7 +127,7 @@ fn search_last(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 
 /// Pushes the loader of a module, and the native functions for its file; or why there is none.
 fn find_module(stack: Stack<'_>, name: &str) -> Result<c_int, String> {
-    let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
+    let sim = stack.owner().sim.upgrade().ok_or("the simulator is gone.")?;
     let registry = &sim.modules.registry;
     let file = name.replace('.', "/");
     let namespace = registry.module(name);
@@ -207,7 +195,7 @@ fn return_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 }
 
 /// Pushes the chunk of an embedded module.
-pub(in crate::script) fn load_module(stack: Stack<'_>, sim: &Sim, name: &str) -> Result<(), LuaError> {
+pub(super) fn load_module(stack: Stack<'_>, sim: &Sim, name: &str) -> Result<(), LuaError> {
     match sim.modules.registry.files.get(name) {
         Some(module) => stack.load(module.bytecode(name), name, true),
         None => Err(LuaError { text: format!("no module '{name}' in Swanilda's library") }),
@@ -271,7 +259,7 @@ fn index_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 fn pairs_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     stack.push_global("next");
     stack.push_registry(SIM);
-    for name in Env::of(stack).registry.members_of_sim().names() {
+    for name in stack.owner().registry.members_of_sim().names() {
         let is_known = stack.raw_get_field(-1, name) != Type::Nil;
         stack.pop(1);
         if !is_known {
@@ -286,7 +274,7 @@ fn pairs_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let Some(name) = stack.bytes(2).and_then(|name| std::str::from_utf8(name).ok()) else { return Ok(0) };
     let Some(rest) = name.strip_prefix("sim") else { return Ok(0) };
-    let members = Env::of(stack).registry.members_of_sim();
+    let members = stack.owner().registry.members_of_sim();
     let member = match members.of_old_name(name) {
         Some(member) => member.to_owned(),
         None => match (rest.strip_prefix('_'), rest.chars().next()) {
@@ -304,13 +292,13 @@ fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 
 /// Pushes `sim.<name>`, or nil.
 fn push_member(stack: Stack<'_>, name: &str) -> Result<(), String> {
-    match Env::of(stack).registry.members_of_sim().get(name) {
+    match stack.owner().registry.members_of_sim().get(name) {
         None => stack.push_nil(),
         Some(Member::Constant(value)) => stack.push_int(value),
         Some(Member::Native(id)) => push_function(stack, id),
         Some(Member::Missing(id)) => push_missing(stack, id),
         Some(Member::Lua { file, function, replacement }) => {
-            let sim = Env::of(stack).sim.upgrade().ok_or("the simulator is gone.")?;
+            let sim = stack.owner().sim.upgrade().ok_or("the simulator is gone.")?;
             push_lua_member(stack, &sim, file, function)?;
             if let Some(replacement) = replacement {
                 wrap_deprecated(stack, &sim, &deprecation_notice(&format!("sim.{name}"), replacement))?;
@@ -325,8 +313,8 @@ fn push_missing(stack: Stack<'_>, id: MissingId) {
 }
 
 fn raise_missing(stack: Stack<'_>, number: usize) -> Result<c_int, String> {
-    let missing = Env::of(stack).registry.missing(number).ok_or("there is no such function.")?;
-    Err(missing.error().text(stack, ""))
+    let missing = stack.owner().registry.missing(number).ok_or("there is no such function.")?;
+    Err(error_text(&missing.error(), stack, ""))
 }
 
 /// Pushes a function of an embedded Lua file, loading the file if this state has not yet.

@@ -14,10 +14,9 @@ const LEVELS: &CStr = c"swanilda.levels";
 
 /// Asked by the count hook every `HOOK_INTERVAL` instructions: may the code go on, and is the slice used up?
 pub(crate) fn on_count(stack: Stack<'_>, can_yield: bool) -> Verdict {
-    let env = Env::of(stack);
-    if env.is_interruptible() && env.is_interrupted() {
-        env.note_interruption(stack);
-        return Verdict::Fail("interrupted.");
+    let env = stack.owner();
+    if let Some(error) = env.interruption(|| stack.traceback_from(0)) {
+        return Verdict::Fail(error);
     }
     if can_yield && slice_is_used_up(stack, env) { Verdict::Yield } else { Verdict::GoOn }
 }
@@ -44,7 +43,7 @@ pub(crate) fn end_time_slice(stack: Stack<'_>) {
     if stack.is_main_coroutine() || auto_level(stack) != 0 {
         return;
     }
-    let yields = &Env::of(stack).yields;
+    let yields = &stack.owner().yields;
     yields.used.set(u64::MAX);
     yields.hastened.set(true);
     hasten_count_hook(stack);
@@ -69,7 +68,7 @@ pub(crate) fn install(stack: Stack<'_>) {
 /// Level of the running coroutine: 0 means it may be pre-empted.
 pub(crate) fn auto_level(stack: Stack<'_>) -> i64 {
     let own = own_level(stack);
-    own.unwrap_or_else(|| Env::of(stack).yields.auto.get())
+    own.unwrap_or_else(|| stack.owner().yields.auto.get())
 }
 
 fn own_level(stack: Stack<'_>) -> Option<i64> {
@@ -87,7 +86,7 @@ fn own_level(stack: Stack<'_>) -> Option<i64> {
 /// Sets the level of the running coroutine. Outside of coroutines it is the one new coroutines begin with.
 pub(crate) fn set_auto_level(stack: Stack<'_>, level: i64) {
     if stack.is_main_coroutine() {
-        return Env::of(stack).yields.auto.set(level);
+        return stack.owner().yields.auto.set(level);
     }
     stack.push_registry(LEVELS);
     stack.push_running_coroutine();
@@ -95,21 +94,4 @@ pub(crate) fn set_auto_level(stack: Stack<'_>, level: i64) {
     stack.raw_set(-3);
     stack.pop(1);
     set_count_hook(stack, level == 0);
-}
-
-/// The level after `change`: false raises it, true lowers it (not below 0), a number sets it.
-pub(crate) fn changed_level(level: i64, change: LevelChange) -> i64 {
-    match change {
-        LevelChange::Forbid => level + 1,
-        LevelChange::Allow => (level - 1).max(0),
-        LevelChange::Set(level) => level.max(0),
-    }
-}
-
-/// Arguments of `setAutoYield` and `setYieldAllowed`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LevelChange {
-    Forbid,
-    Allow,
-    Set(i64),
 }

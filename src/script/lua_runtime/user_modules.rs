@@ -19,14 +19,14 @@ pub(crate) struct UserModule {
 }
 
 /// Lets `require` find the modules, before any file and any module of the library.
-pub(in crate::script) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
-    if sim.user_modules.is_empty() {
+pub(super) fn install(modules: &[UserModule], sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
+    if modules.is_empty() {
         return Ok(());
     }
     load_module(stack, sim, "seal")?;
     push_callback(stack, seal_argument, 0);
     stack.protected_call(1, 0)?;
-    Ok(preload(stack.lua(), &sim.user_modules)?)
+    Ok(preload(stack.lua(), modules)?)
 }
 
 fn preload(lua: &Lua, modules: &[UserModule]) -> mlua::Result<()> {

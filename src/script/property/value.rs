@@ -6,7 +6,6 @@ use crate::script::binding::returns::IntoScript;
 use crate::script::binding::sink::Sink;
 use crate::script::binding::source::Source;
 use crate::script::error::{ApiError, ApiResult};
-use crate::script::lua::Type;
 
 /// A Rust type that properties have.
 pub trait PropertyValue: Sized {
@@ -221,7 +220,7 @@ fn array_part(table: Data) -> Data {
 }
 
 fn check_table<'a>(args: &Args<'a, impl Source<'a>>) -> ApiResult<()> {
-    if args.kind() == Type::Table { Ok(()) } else { Err(ApiError::ArgumentType) }
+    if args.is_table(args.position()) { Ok(()) } else { Err(ApiError::ArgumentType) }
 }
 
 impl FromScript for Text {

@@ -51,7 +51,7 @@ fn names(record: &Record) -> Vec<String> {
 mod tests {
     use super::super::Record;
     use super::text;
-    use crate::script::coverage::executable;
+    use crate::script::executable;
 
     #[test]
     fn the_format_is_that_of_lcov() {

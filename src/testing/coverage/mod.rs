@@ -14,7 +14,8 @@ use std::path::{Path, PathBuf};
 
 pub use record::Record;
 
-use crate::script::coverage::{CountedText, LineCounts, executable};
+use crate::script::coverage::{CountedText, LineCounts};
+use crate::script::executable;
 use place::Places;
 
 /// What the lines of all texts did.

@@ -21,6 +21,7 @@ use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::env::Env;
 use crate::script::lifecycle::instance::Script;
 use crate::script::lua::Stack;
+use crate::script::lua_runtime::threads;
 use crate::script::sim::{Options, Sim};
 
 /// What an API function gets: `&Cx` to read, `&mut Cx` to write the scene or call scripts. A function cannot hold a borrow of the
@@ -34,7 +35,7 @@ pub struct Cx<'a> {
 
 impl<'a> Cx<'a> {
     pub(crate) fn of(stack: Stack<'a>) -> ApiResult<Self> {
-        Self::new(Env::of(stack), Some(stack))
+        Self::new(stack.owner(), Some(stack))
     }
 
     /// The context of a call with plain values, in the name of the script whose environment it is.
@@ -54,14 +55,6 @@ impl<'a> Cx<'a> {
 
     pub(crate) fn env(&self) -> &'a Env {
         self.env
-    }
-
-    /// The coroutine that is calling.
-    ///
-    /// # Errors
-    /// When the call does not come from Lua.
-    pub(crate) fn stack(&self) -> ApiResult<Stack<'a>> {
-        self.stack.ok_or(ApiError::NeedsLua)
     }
 
     /// How the simulator was set up.
@@ -109,10 +102,26 @@ impl<'a> Cx<'a> {
         self.env().yields.overall.get() == 0 && self.stack.is_some_and(|stack| !stack.is_main_coroutine())
     }
 
+    /// Level of the calling coroutine: 0 means it may be pre-empted.
+    ///
+    /// # Errors
+    /// When the call does not come from Lua.
+    pub(crate) fn auto_level(&self) -> ApiResult<i64> {
+        self.stack.map(threads::auto_level).ok_or(ApiError::NeedsLua)
+    }
+
+    /// Sets the level of the calling coroutine.
+    ///
+    /// # Errors
+    /// When the call does not come from Lua.
+    pub(crate) fn set_auto_level(&mut self, level: i64) -> ApiResult<()> {
+        self.stack.map(|stack| threads::set_auto_level(stack, level)).ok_or(ApiError::NeedsLua)
+    }
+
     /// Ends the time slice of the calling thread, as work does that takes longer in the original.
     pub(crate) fn end_time_slice(&self) {
         if let Some(stack) = self.stack {
-            crate::script::end_time_slice(stack);
+            threads::end_time_slice(stack);
         }
     }
 

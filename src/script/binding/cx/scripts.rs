@@ -6,9 +6,10 @@ use super::Cx;
 use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Data, Handle};
 use crate::script::calls::callback::SysCall;
-use crate::script::error::ApiResult;
+use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::instance::Script;
 use crate::script::lifecycle::order::Group;
+use crate::script::runtime::FunctionRef;
 
 impl Cx<'_> {
     /// The script with that handle.
@@ -63,6 +64,27 @@ impl Cx<'_> {
     /// Resets a script and, where 4.10 does, initialises it at once.
     pub(crate) fn init_script(&mut self, script: &Rc<Script>) {
         self.sim.init_script(script);
+    }
+
+    /// The calls in progress of a script, as its language shows them.
+    ///
+    /// # Errors
+    /// When the script does not run.
+    pub(crate) fn traceback(&self, script: &Script) -> ApiResult<String> {
+        match self.stack.filter(|_| script.id == self.script().id) {
+            Some(stack) => Ok(stack.traceback()),
+            None => {
+                let runtime = script.current_runtime().ok_or(ApiError::ScriptNotInitialized)?;
+                Ok(runtime.interpreter.traceback())
+            }
+        }
+    }
+
+    /// Releases a function that the calling script has passed to the host.
+    pub(crate) fn release_function(&self, function: FunctionRef) {
+        if let Some(runtime) = self.env.runtime() {
+            runtime.interpreter.release(function);
+        }
     }
 
     /// Ends a script as a crash would: without its cleanup.

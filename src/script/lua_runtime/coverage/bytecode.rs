@@ -291,7 +291,7 @@ mod tests {
             + &"\n".repeat(500)
             + &"b = b .. 'y' for i = 1, 3 do b = b .. i end\n".repeat(200)
             + "return function(...) local t <close> = nil return b, a, nil, true, ... end\n";
-        let bytes = crate::script::compile(text.as_bytes(), "=text").expect("it compiles");
+        let bytes = crate::script::lua::compile(text.as_bytes(), "=text").expect("it compiles");
         assert_eq!(Chunk::read(&bytes).expect("it is read").write(), bytes);
         assert!((0..bytes.len()).all(|end| Chunk::read(&bytes[..end]).is_none()));
     }

@@ -6,17 +6,8 @@
 use std::collections::BTreeSet;
 
 use super::bytecode::{Chunk, Prototype};
-
-/// A function of a text.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Function {
-    /// Where it begins; 0 for the text as a whole.
-    pub line: u32,
-    /// The lines of its body that can run, in the order of the text.
-    pub lines: Vec<u32>,
-    /// As the text calls it, if it does.
-    pub name: Option<String>,
-}
+use crate::script::coverage::Function;
+use crate::script::lua::compile;
 
 /// What of a text can run: all functions that can run something, by their first lines. None when it does not compile.
 pub fn executable(text: &[u8]) -> Option<Vec<Function>> {
@@ -25,7 +16,7 @@ pub fn executable(text: &[u8]) -> Option<Vec<Function>> {
         // As `lua` does for the first line of a file.
         text.splice(0..0, *b"--");
     }
-    let bytecode = super::super::compile(&text, "=").ok()?;
+    let bytecode = compile(&text, "=").ok()?;
     let mut found = Vec::new();
     let source: Vec<&[u8]> = text.split(|&byte| byte == b'\n').collect();
     add(&Chunk::read(&bytecode)?.main, &mut found, &source)?;

@@ -1,26 +1,35 @@
 //! Coverage of one Lua state: instrumented texts, and the lines that ran.
+//!
+//! Which lines there are to run says `executable`. Texts get `probes` when they are loaded, which note the lines that run; a line counts
+//! once for each state that has run it.
+
+mod bytecode;
+mod executable;
+mod probes;
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
-use std::ffi::CStr;
+use std::ffi::{CStr, c_int};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::probes::with_probes;
-use super::text::read_text;
-use super::{CountedText, Counts, LineCounts, executable};
+use super::startup::load_module;
+use crate::script::coverage::{CountedText, Counts, LineCounts, read_text};
 use crate::script::lifecycle::instance::Script;
-use crate::script::lua::{Stack, Type};
+use crate::script::lua::{LuaError, Stack, Type, push_callback};
+use crate::script::runtime::SourceText;
 use crate::script::sim::Sim;
+pub use executable::executable;
+use probes::with_probes;
 
 /// Texts of one state beyond which nothing is counted: Lua code can name any text.
 const MAX_TEXTS: usize = 1000;
 /// The tables the probes write to, by chunk name.
 const NOTES: &CStr = c"swanilda.coverage";
 
-/// What one state counts.
+/// What one state counts. It is application data of the state.
 #[derive(Default)]
-pub(crate) struct Coverage {
+pub(super) struct Coverage {
     texts: RefCell<Vec<Text>>,
     own: RefCell<Option<Own>>,
 }
@@ -39,14 +48,35 @@ struct Own {
     text: Arc<[u8]>,
 }
 
-impl Coverage {
-    /// The script's text is going to run under that name.
-    pub(super) fn begin(&self, chunk_name: &str, path: String, text: &[u8]) {
-        self.own.replace(Some(Own { chunk_name: chunk_name.into(), path, text: text.into() }));
-    }
+/// Makes a state count the lines of what it loads from now on.
+pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
+    stack.lua().set_app_data(Coverage::default());
+    load_module(stack, sim, "coverage_loaders")?;
+    push_callback(stack, count, 0);
+    stack.protected_call(1, 0)
+}
 
+/// Instruments a function that was just loaded.
+fn count(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
+    stack.set_top(1);
+    if let Some(coverage) = stack.lua().app_data_ref::<Coverage>() {
+        coverage.count_function(stack);
+    }
+    Ok(1)
+}
+
+/// The script's text, whose function is on top of the stack, is going to run; reports call it `path`.
+pub(super) fn begin(stack: Stack<'_>, source: &SourceText<'_>, path: &str) {
+    if let Some(coverage) = stack.lua().app_data_ref::<Coverage>() {
+        let (chunk_name, text) = (source.chunk_name.into(), source.text.into());
+        coverage.own.replace(Some(Own { chunk_name, path: path.to_owned(), text }));
+        coverage.count_function(stack);
+    }
+}
+
+impl Coverage {
     /// Inserts probes into the function on top, which was just compiled, if its text is counted.
-    pub(crate) fn count_function(&self, stack: Stack<'_>) {
+    fn count_function(&self, stack: Stack<'_>) {
         let Some(chunk_name) = stack.chunk_name_of_function() else { return };
         let Some(lines) = self.lines_of(&chunk_name) else { return };
         stack.push_value(-1);
@@ -76,12 +106,12 @@ impl Coverage {
     }
 
     /// Returns the recorded lines and starts over.
-    pub(super) fn take(&self, sim: &Sim, script: &Script, stack: Stack<'_>) -> LineCounts {
+    pub(super) fn take(&self, sim: &Sim, stack: Stack<'_>) -> LineCounts {
         let mut all = LineCounts::default();
         let own = self.own.borrow();
         for text in self.texts.borrow().iter() {
             let counted = match own.as_ref().filter(|own| *own.chunk_name == *text.chunk_name) {
-                Some(own) => own.counted(sim, script),
+                Some(own) => own.counted(sim, &stack.owner().script),
                 None => CountedText::File(PathBuf::from(String::from_utf8_lossy(&text.chunk_name[1..]).into_owned())),
             };
             all.add(counted, &text.take_notes(stack));

@@ -1,0 +1,35 @@
+//! Whether a script may yield.
+
+use std::cell::Cell;
+
+/// May code of a script yield, and when is it made to?
+#[derive(Default)]
+pub(crate) struct Yields {
+    /// 0: pre-emption is allowed in code outside of coroutines that have a level of their own.
+    pub auto: Cell<i64>,
+    /// 0: yielding is allowed at all.
+    pub overall: Cell<i64>,
+    /// Whole milliseconds, as scripts set it.
+    pub delay_ms: Cell<u32>,
+    /// Instructions run by coroutines since the slice began.
+    pub used: Cell<u64>,
+    /// The count hook comes early, to end a slice.
+    pub hastened: Cell<bool>,
+}
+
+/// The level after `change`: false raises it, true lowers it (not below 0), a number sets it.
+pub(crate) fn changed_level(level: i64, change: LevelChange) -> i64 {
+    match change {
+        LevelChange::Forbid => level + 1,
+        LevelChange::Allow => (level - 1).max(0),
+        LevelChange::Set(level) => level.max(0),
+    }
+}
+
+/// Arguments of `setAutoYield` and `setYieldAllowed`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LevelChange {
+    Forbid,
+    Allow,
+    Set(i64),
+}

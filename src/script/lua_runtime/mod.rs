@@ -1,0 +1,236 @@
+//! Scripts in Lua: the implementation of [`Language`] and [`Interpreter`] above the virtual machine of `script::lua`.
+
+pub(in crate::script) mod coverage;
+pub(in crate::script) mod embedded;
+mod old_calls;
+mod shared_process;
+mod startup;
+pub(in crate::script) mod threads;
+pub(in crate::script) mod user_modules;
+
+use std::rc::Rc;
+
+use super::binding::data;
+use super::calls::callback::SysCall;
+use super::coverage::LineCounts;
+use super::lifecycle::env::{Env, Hook};
+use super::lua::{LuaError, MULTIPLE, Stack, State, Type};
+use super::runtime::{
+    CallError, CallbackResult, Callee, FunctionRef, Interpreter, Language, Runtime, ScriptError, SourceText,
+};
+use super::sim::Sim;
+use crate::scene::Data;
+use coverage::Coverage;
+use user_modules::UserModule;
+
+/// Calls a function of a module, both by name, with all that follows.
+const CALL: &[u8] = b"local module, member = ... return require(module)[member](select(3, ...))";
+
+/// The language Lua.
+pub(crate) struct LuaLanguage {
+    user_modules: Rc<[UserModule]>,
+}
+
+impl LuaLanguage {
+    /// With modules that the embedding program has written.
+    pub(crate) fn new(user_modules: Vec<UserModule>) -> Self {
+        Self { user_modules: user_modules.into() }
+    }
+}
+
+impl Language for LuaLanguage {
+    fn name(&self) -> &'static str {
+        "lua"
+    }
+
+    fn create(&self, env: Rc<Env>) -> Rc<Runtime> {
+        let state = State::new(Rc::clone(&env));
+        Runtime::new(env, LuaInterpreter { state, user_modules: Rc::clone(&self.user_modules) })
+    }
+}
+
+/// A Lua state of its own for one script.
+struct LuaInterpreter {
+    state: State,
+    user_modules: Rc<[UserModule]>,
+}
+
+impl LuaInterpreter {
+    fn stack(&self) -> Stack<'_> {
+        self.state.stack()
+    }
+
+    fn sim(&self) -> Result<Rc<Sim>, ScriptError> {
+        self.stack().owner().sim.upgrade().ok_or_else(|| ScriptError { text: "the simulator is gone.".into() })
+    }
+
+    /// Runs `work` on the stack, which is then as high as before.
+    fn on_stack<T>(&self, work: impl FnOnce(Stack<'_>) -> T) -> T {
+        let stack = self.stack();
+        let base = stack.top();
+        let result = work(stack);
+        stack.set_top(base.min(stack.top()));
+        result
+    }
+}
+
+impl Interpreter for LuaInterpreter {
+    fn start(&self) -> Result<(), ScriptError> {
+        Ok(startup::fill(&self.sim()?, &self.state, &self.user_modules)?)
+    }
+
+    fn load(&self, source: &SourceText<'_>) -> Result<(), ScriptError> {
+        let stack = self.stack();
+        stack.load(source.text, source.chunk_name, false)?;
+        if let Some(path) = &source.counted_as {
+            coverage::begin(stack, source, path);
+        }
+        if old_calls::are_expected_by(source.text) {
+            Ok(old_calls::begin(stack, &*self.sim()?)?)
+        } else {
+            Ok(stack.protected_call(0, 0)?)
+        }
+    }
+
+    fn defines(&self, call: SysCall) -> bool {
+        let stack = self.stack();
+        let kind = stack.push_global(call.name());
+        stack.pop(1);
+        kind == Type::Function
+    }
+
+    fn call_callback(&self, call: SysCall, args: &[Data]) -> Result<CallbackResult, ScriptError> {
+        self.on_stack(|stack| {
+            let base = stack.top();
+            if stack.push_global(call.name()) != Type::Function {
+                return Ok(CallbackResult::NotDefined);
+            }
+            stack.protected_call(push_args(stack, args)?, MULTIPLE)?;
+            Ok(CallbackResult::Returned((stack.top() > base).then(|| data::read_data(stack, -1))))
+        })
+    }
+
+    fn call_hook(&self, hook: &Hook, args: &[Data]) -> Result<bool, ScriptError> {
+        self.on_stack(|stack| {
+            push_hook(stack, hook);
+            if stack.kind(-1) != Type::Function {
+                return Ok(false);
+            }
+            stack.protected_call(push_args(stack, args)?, 0)?;
+            Ok(true)
+        })
+    }
+
+    fn call(&self, function: Callee<'_>, args: &[Data]) -> Result<Vec<Data>, CallError> {
+        self.on_stack(|stack| {
+            let base = stack.top();
+            let name_count = match function {
+                Callee::Named(name) => push_named(stack, name).ok_or(CallError::NoSuchFunction)?,
+                Callee::Function(function) => {
+                    stack.push_function(function);
+                    0
+                }
+            };
+            let count = push_args(stack, args).map_err(ScriptError::from)?;
+            Ok(collect(stack, base, name_count + count).map_err(ScriptError::from)?)
+        })
+    }
+
+    fn run(&self, text: &[u8], chunk_name: &str) -> Result<(), ScriptError> {
+        let stack = self.stack();
+        stack.load(text, chunk_name, false)?;
+        Ok(stack.protected_call(0, 0)?)
+    }
+
+    fn evaluate(&self, text: &[u8]) -> Result<Vec<Data>, ScriptError> {
+        self.on_stack(|stack| {
+            let base = stack.top();
+            load_expression_or_chunk(stack, text)?;
+            Ok(collect(stack, base, 0)?)
+        })
+    }
+
+    fn call_library(&self, module: &str, function: &str, args: &[Data]) -> Result<Vec<Data>, ScriptError> {
+        self.on_stack(|stack| {
+            let base = stack.top();
+            stack.load(CALL, "call", false)?;
+            stack.push_bytes(module.as_bytes());
+            stack.push_bytes(function.as_bytes());
+            Ok(collect(stack, base, push_args(stack, args)? + 2)?)
+        })
+    }
+
+    fn release(&self, function: FunctionRef) {
+        self.stack().release_function(function);
+    }
+
+    fn traceback(&self) -> String {
+        self.stack().traceback()
+    }
+
+    fn take_line_counts(&self, sim: &Sim) -> LineCounts {
+        let coverage = self.state.lua().app_data_ref::<Coverage>();
+        coverage.map(|coverage| coverage.take(sim, self.stack())).unwrap_or_default()
+    }
+}
+
+impl From<LuaError> for ScriptError {
+    fn from(error: LuaError) -> Self {
+        Self { text: error.text }
+    }
+}
+
+/// Pushes arguments for a call; returns their number.
+fn push_args(stack: Stack<'_>, args: &[Data]) -> Result<i32, LuaError> {
+    if !stack.reserve(args.len() + 8) {
+        return Err(LuaError { text: "stack overflow: too many arguments.".into() });
+    }
+    args.iter().for_each(|arg| data::push_data(stack, arg));
+    Ok(args.len() as i32)
+}
+
+fn push_hook(stack: Stack<'_>, hook: &Hook) {
+    match hook.function {
+        Some(function) => {
+            stack.push_function(function);
+        }
+        None => push_dotted(stack, &hook.name),
+    }
+}
+
+/// Pushes the global `a.b.c`, walking through plain tables; nil when it is not there.
+fn push_dotted(stack: Stack<'_>, name: &str) {
+    stack.push_globals();
+    for part in name.split('.') {
+        if stack.kind(-1) != Type::Table {
+            stack.pop(1);
+            return stack.push_nil();
+        }
+        stack.raw_get_field(-1, part);
+        stack.remove(-2);
+    }
+}
+
+/// Pushes the function of that name, or the script's `sysCall_ext` with the name as its first argument; returns the number of arguments
+/// pushed. None when there is no such function.
+fn push_named(stack: Stack<'_>, name: &str) -> Option<i32> {
+    if stack.push_global(SysCall::Ext.name()) == Type::Function {
+        stack.push_bytes(name.as_bytes());
+        return Some(1);
+    }
+    stack.pop(1);
+    push_dotted(stack, name);
+    (stack.kind(-1) == Type::Function).then_some(0)
+}
+
+/// Calls what is on the stack above `base` and reads its results.
+fn collect(stack: Stack<'_>, base: i32, arguments: i32) -> Result<Vec<Data>, LuaError> {
+    stack.protected_call(arguments, MULTIPLE)?;
+    Ok((base + 1..=stack.top()).map(|index| data::read_data(stack, index)).collect())
+}
+
+fn load_expression_or_chunk(stack: Stack<'_>, code: &[u8]) -> Result<(), LuaError> {
+    let name = String::from_utf8_lossy(code);
+    let expression = [b"return ", code].concat();
+    stack.load(&expression, &name, false).or_else(|_| stack.load(code, &name, false))
+}

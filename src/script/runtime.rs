@@ -1,0 +1,214 @@
+//! What the host knows of the languages scripts are written in.
+//!
+//! A [`Language`] makes an [`Interpreter`] for each script; the rest of the host only speaks to that trait. Values that pass it are plain
+//! [`Data`], functions of scripts are numbers. `script::lua_runtime` is the implementation for Lua.
+
+use std::rc::Rc;
+
+use super::calls::callback::SysCall;
+use super::coverage::LineCounts;
+use super::lifecycle::env::{Env, Hook};
+use super::sim::Sim;
+use crate::scene::Data;
+
+/// A language scripts can be written in.
+pub(crate) trait Language {
+    /// Its name in the property `language` of scripts.
+    fn name(&self) -> &'static str;
+
+    /// A new interpreter for the script that `env` belongs to.
+    fn create(&self, env: Rc<Env>) -> Rc<Runtime>;
+}
+
+/// The interpreter of one script. It is closed by being dropped, when the script has ended and its last call has returned.
+///
+/// Calls nest: while one is in progress, the script may call API functions, and these may call the same interpreter again. The
+/// simulator waits for each call, so an interpreter has to ask [`Env::interruption`] again and again while a script runs.
+pub(crate) trait Interpreter {
+    /// Prepares the interpreter for a text: library, globals, processes. Called once, first.
+    ///
+    /// # Errors
+    /// When no script can run.
+    fn start(&self) -> Result<(), ScriptError>;
+
+    /// Runs the script's own text, which defines its functions.
+    ///
+    /// # Errors
+    /// The script's.
+    fn load(&self, source: &SourceText<'_>) -> Result<(), ScriptError>;
+
+    /// Whether the script has the function of a callback at this moment.
+    fn defines(&self, call: SysCall) -> bool;
+
+    /// Calls a callback, if the script defines it.
+    ///
+    /// # Errors
+    /// The script's.
+    fn call_callback(&self, call: SysCall, args: &[Data]) -> Result<CallbackResult, ScriptError>;
+
+    /// Calls a hook of the script; false when there is no such function.
+    ///
+    /// # Errors
+    /// The script's.
+    fn call_hook(&self, hook: &Hook, args: &[Data]) -> Result<bool, ScriptError>;
+
+    /// Resumes the thread of the script: before actuation, and in each loop iteration outside of the simulation. An interpreter whose
+    /// library does that in hooks has nothing to do here.
+    ///
+    /// # Errors
+    /// The script's.
+    fn resume_thread(&self) -> Result<(), ScriptError> {
+        Ok(())
+    }
+
+    /// Calls a function of the script.
+    ///
+    /// # Errors
+    /// When there is no such function, or the script's.
+    fn call(&self, function: Callee<'_>, args: &[Data]) -> Result<Vec<Data>, CallError>;
+
+    /// Runs another text in the script, such as a file in the sandbox.
+    ///
+    /// # Errors
+    /// The script's.
+    fn run(&self, text: &[u8], chunk_name: &str) -> Result<(), ScriptError>;
+
+    /// The values of an expression, or what a text returns.
+    ///
+    /// # Errors
+    /// The script's.
+    fn evaluate(&self, text: &[u8]) -> Result<Vec<Data>, ScriptError>;
+
+    /// Calls a function of the library that is written in Lua. An interpreter of another language passes this to one of Lua, which it
+    /// makes for the same script ([`Sim::create_runtime`]).
+    ///
+    /// # Errors
+    /// The function's.
+    fn call_library(&self, module: &str, function: &str, args: &[Data]) -> Result<Vec<Data>, ScriptError>;
+
+    /// Releases a function that was passed to the host.
+    fn release(&self, function: FunctionRef);
+
+    /// The calls in progress, as the language shows them.
+    fn traceback(&self) -> String;
+
+    /// Returns the counts of lines that ran since the last time. Only called where lines are counted.
+    fn take_line_counts(&self, _sim: &Sim) -> LineCounts {
+        LineCounts::default()
+    }
+}
+
+/// A running script: its interpreter, and what the host knows about it.
+pub(crate) struct Runtime<I: Interpreter + ?Sized = dyn Interpreter> {
+    pub env: Rc<Env>,
+    pub interpreter: I,
+}
+
+impl Runtime {
+    pub(crate) fn new<I: Interpreter + 'static>(env: Rc<Env>, interpreter: I) -> Rc<Self> {
+        let runtime: Rc<Self> = Rc::new(Runtime { env, interpreter });
+        // An environment is made for one interpreter.
+        let _ = runtime.env.runtime.set(Rc::downgrade(&runtime));
+        runtime
+    }
+}
+
+impl<I: Interpreter + ?Sized> Drop for Runtime<I> {
+    fn drop(&mut self) {
+        if let Some(sim) = self.env.sim.upgrade() {
+            sim.collect_line_counts(&self.interpreter);
+        }
+    }
+}
+
+/// A script's own text.
+pub(crate) struct SourceText<'a> {
+    pub text: &'a [u8],
+    /// What error positions call it.
+    pub chunk_name: &'a str,
+    /// What coverage reports call it, if its lines are to be counted.
+    pub counted_as: Option<String>,
+}
+
+/// What a script is asked to call.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Callee<'a> {
+    /// The global function of that name; dots walk through tables. The script's `sysCall_ext`, if there is one, stands in for all of them.
+    Named(&'a str),
+    /// A function the script has passed to the host.
+    Function(FunctionRef),
+}
+
+/// What a callback did.
+#[derive(Debug, PartialEq)]
+pub(crate) enum CallbackResult {
+    NotDefined,
+    /// The last value it returned; None when it returned nothing.
+    Returned(Option<Data>),
+}
+
+/// A function of a script, by the number its interpreter knows it by until it is released.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FunctionRef(i32);
+
+impl FunctionRef {
+    pub(crate) fn new(number: i32) -> Self {
+        Self(number)
+    }
+
+    pub(crate) fn number(self) -> i32 {
+        self.0
+    }
+}
+
+/// An error of a script.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ScriptError {
+    /// The message, and the traceback where there is one.
+    pub text: String,
+}
+
+/// Why a call of a function failed.
+#[derive(Debug, PartialEq)]
+pub(crate) enum CallError {
+    NoSuchFunction,
+    Script(ScriptError),
+}
+
+impl From<ScriptError> for CallError {
+    fn from(error: ScriptError) -> Self {
+        Self::Script(error)
+    }
+}
+
+/// The languages of a simulator. The first one is for scripts of an unknown language.
+#[derive(Default)]
+pub(crate) struct Languages(Vec<Box<dyn Language>>);
+
+impl Languages {
+    pub(crate) fn new(languages: Vec<Box<dyn Language>>) -> Self {
+        Self(languages)
+    }
+
+    pub(crate) fn contains(&self, name: &str) -> bool {
+        self.0.iter().any(|language| language.name() == name)
+    }
+
+    /// The language with that name.
+    fn find(&self, name: &str) -> Result<&dyn Language, ScriptError> {
+        let named = self.0.iter().find(|language| language.name() == name);
+        if named.is_none() && name == "python" {
+            return Err(ScriptError { text: "scripts in Python are not implemented in Swanilda.".into() });
+        }
+        let none = || ScriptError { text: format!("scripts in {name} are not implemented in Swanilda.") };
+        named.or(self.0.first()).map(Box::as_ref).ok_or_else(none)
+    }
+
+    /// A new interpreter of that language.
+    ///
+    /// # Errors
+    /// When there is no such language.
+    pub(crate) fn create(&self, name: &str, env: Rc<Env>) -> Result<Rc<Runtime>, ScriptError> {
+        Ok(self.find(name)?.create(env))
+    }
+}
