@@ -7,7 +7,9 @@ use rand_mt::Mt;
 
 /// The Mersenne twister behind `sim.getRandom`: 32 bits per number, so that the sequences are those scripts know.
 pub(crate) struct Random {
-    generator: Mt,
+    seed: u32,
+    /// Made with the first number: it has 2.5 kB, and most scripts want none.
+    generator: Option<Box<Mt>>,
 }
 
 impl Default for Random {
@@ -21,7 +23,7 @@ impl Random {
     pub const DEFAULT_SEED: u32 = 123_456;
 
     pub(crate) fn new(seed: u32) -> Self {
-        Self { generator: Mt::new(seed) }
+        Self { seed, generator: None }
     }
 
     /// Begins another sequence.
@@ -31,7 +33,8 @@ impl Random {
 
     /// The next number in [0, 1).
     pub(crate) fn next(&mut self) -> f64 {
-        f64::from(self.generator.next_u32()) / 4_294_967_296.0
+        let generator = self.generator.get_or_insert_with(|| Box::new(Mt::new(self.seed)));
+        f64::from(generator.next_u32()) / 4_294_967_296.0
     }
 
     /// A word of letters and digits.
