@@ -2,8 +2,8 @@
 //!
 //! The steps themselves come from scripts (`sysCall_joint`).
 
-use super::{JointMode, Motion};
-use crate::scene::{Field, Handle, Object, Scene, SceneResult};
+use super::{Joint, JointMode, Motion};
+use crate::scene::{Field, Handle, Scene, SceneResult};
 
 /// One step of a joint, as a script asks for it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -21,12 +21,11 @@ impl Scene {
     pub fn joints_in_motion(&mut self) -> Vec<Handle> {
         let mut moving = Vec::new();
         let mut resting = Vec::new();
-        for object in self.objects() {
-            let Ok(joint) = object.joint() else { continue };
+        for (handle, joint) in self.objects.joints() {
             if joint.motion.is_some() {
-                moving.push(object.handle());
+                moving.push(handle);
             } else if joint.mode == JointMode::Kinematic && joint.velocity != 0.0 {
-                resting.push(object.handle());
+                resting.push(handle);
             }
         }
         for handle in resting {
@@ -57,17 +56,15 @@ impl Scene {
 
     /// Ends all kinematic motions.
     pub fn stop_joint_motions(&mut self) {
-        let joints: Vec<Handle> = self.objects().filter(|o| o.joint().is_ok()).map(Object::handle).collect();
+        let in_motion = |joint: &Joint| joint.motion.is_some() || joint.velocity != 0.0;
+        let joints: Vec<Handle> =
+            self.objects.joints().filter_map(|(handle, joint)| in_motion(joint).then_some(handle)).collect();
         for handle in joints {
-            let moves =
-                self.object(handle).and_then(Object::joint).is_ok_and(|j| j.motion.is_some() || j.velocity != 0.0);
-            if moves {
-                // The handle was just read.
-                let _ = self.modify_joint(handle, |joint| {
-                    joint.motion = None;
-                    (joint.velocity, joint.accel) = (0.0, 0.0);
-                });
-            }
+            // The handle was just read.
+            let _ = self.modify_joint(handle, |joint| {
+                joint.motion = None;
+                (joint.velocity, joint.accel) = (0.0, 0.0);
+            });
         }
     }
 }

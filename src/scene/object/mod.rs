@@ -86,7 +86,7 @@ pub struct Object {
 }
 
 /// The result of `sim.getObjectVelocity`.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Measured {
     pub previous: Option<Pose>,
     pub linear: [f64; 3],

@@ -6,7 +6,8 @@
 use std::collections::BTreeMap;
 
 use super::{Kind, Object};
-use crate::scene::pose::world::Moves;
+use crate::scene::joint::Joint;
+use crate::scene::pose::world::{Moves, PlaceInWorld};
 use crate::scene::{Handle, SceneError, SceneResult, Uid};
 
 #[derive(Debug, Default)]
@@ -15,6 +16,7 @@ pub(in crate::scene) struct Objects {
     live: usize,
     next_handle: u32,
     by_uid: BTreeMap<Uid, Handle>,
+    joints: BTreeMap<Uid, Handle>,
     moves: Moves,
     /// Proximity and vision sensors.
     sensors: usize,
@@ -44,10 +46,14 @@ impl Objects {
         if index >= self.slots.len() {
             self.slots.resize_with(index + 1, || None);
         }
+        object.place = PlaceInWorld::default();
         self.moves.note(&mut object);
         self.live += 1;
         self.sensors += usize::from(is_sensor(&object.kind));
         self.by_uid.insert(object.uid, handle);
+        if object.joint().is_ok() {
+            self.joints.insert(object.uid, handle);
+        }
         self.slots[index] = Some(Box::new(object));
     }
 
@@ -56,6 +62,7 @@ impl Objects {
         self.live -= 1;
         self.sensors -= usize::from(is_sensor(&object.kind));
         self.by_uid.remove(&object.uid);
+        self.joints.remove(&object.uid);
         Some(object)
     }
 
@@ -80,6 +87,11 @@ impl Objects {
         self.by_uid.values().filter_map(|&handle| self.get(handle).ok())
     }
 
+    /// All joints in the order of their creation.
+    pub(in crate::scene) fn joints(&self) -> impl Iterator<Item = (Handle, &Joint)> {
+        self.joints.values().filter_map(|&handle| Some((handle, self.get(handle).ok()?.joint().ok()?)))
+    }
+
     pub(in crate::scene) fn by_uid(&self, uid: Uid) -> Option<Handle> {
         self.by_uid.get(&uid).copied()
     }
@@ -90,6 +102,16 @@ impl Objects {
 
     pub(in crate::scene) fn has_sensors(&self) -> bool {
         self.sensors > 0
+    }
+
+    /// The object, unless the measurement of velocities in progress has met it before.
+    pub(in crate::scene) fn not_yet_measured(&mut self, handle: Handle) -> Option<&Object> {
+        let object = slot_mut(&mut self.slots, handle).ok()?;
+        self.moves.measurements.is_first(object).then_some(object)
+    }
+
+    pub(in crate::scene) fn moves_mut(&mut self) -> &mut Moves {
+        &mut self.moves
     }
 
     /// The changes of place so far.

@@ -1,12 +1,9 @@
 //! Poses of objects: local poses, relative frames, setting poses. World poses are in `world`.
 
-use geometry::pose::velocity;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use crate::scene::joint::JointType;
-use crate::scene::{
-    Change, DynamicFlags, Field, Handle, Kind, Measured, Pose, Scene, SceneError, SceneResult, Topic, special,
-};
+use crate::scene::{DynamicFlags, Field, Handle, Kind, Pose, Scene, SceneError, SceneResult, special};
 
 /// The frame a pose is expressed in, as scripts name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -162,23 +159,6 @@ impl Scene {
             Ok(true)
         })
     }
-
-    /// Measures how fast every object moved since the last call, `dt` seconds ago. Without `dt` measuring begins.
-    pub fn measure_velocities(&mut self, dt: Option<f64>) {
-        let poses: Vec<(Handle, Pose)> = self
-            .objects()
-            .filter_map(|object| Some((object.handle(), self.world_pose(object.handle()).ok()?)))
-            .collect();
-        let followed = self.journal().is_followed(Topic::Field(Field::Measured));
-        for (handle, now) in poses {
-            let Ok(object) = self.object_in_place(handle) else { continue };
-            let now = measured(object.measured.previous, now, dt);
-            let before = std::mem::replace(&mut object.measured, now);
-            if followed && !object.measured.same_velocity(&before) {
-                self.note(Change::Modified(handle, Field::Measured));
-            }
-        }
-    }
 }
 
 /// Further away, metres, is nowhere: there poses of objects below others could no longer be composed of numbers.
@@ -199,17 +179,4 @@ pub fn normalized(pose: Pose) -> Pose {
         rotation.renormalize();
     }
     Pose::from_parts(pose.translation, rotation)
-}
-
-/// Velocity over one step (spec: poses 4).
-fn measured(previous: Option<Pose>, now: Pose, dt: Option<f64>) -> Measured {
-    match (previous, dt) {
-        (Some(before), Some(dt)) if before != now => Measured {
-            previous: Some(now),
-            linear: velocity::linear_velocity(&before, &now, dt),
-            euler_rate: velocity::angular_velocity_euler(&before, &now, dt),
-            angular: velocity::angular_velocity_axis(&before, &now, dt),
-        },
-        _ => Measured { previous: Some(now), ..Measured::default() },
-    }
 }

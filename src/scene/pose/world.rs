@@ -11,6 +11,7 @@ use std::cell::{Cell, RefCell};
 
 use geometry::pose::pose_to_array;
 
+use super::measure::Measurements;
 use crate::scene::{Handle, Object, Pose, Scene, SceneResult};
 
 /// The changes of place of a scene.
@@ -20,13 +21,20 @@ pub(in crate::scene) struct Moves {
     last: u64,
     /// Reused by each walk.
     walk: RefCell<Vec<Handle>>,
+    pub(in crate::scene) measurements: Measurements,
 }
 
 impl Moves {
     /// Notes that `object` may have moved in its parent's frame, or its children in its own.
     pub(in crate::scene) fn note(&mut self, object: &mut Object) {
+        self.measurements.note_move(object.handle, object.place.moved);
         self.last += 1;
         object.place.moved = self.last;
+    }
+
+    /// Ends a measurement of velocities, which found these objects in motion.
+    pub(in crate::scene) fn end_measurement(&mut self, in_motion: Vec<Handle>) {
+        self.measurements.end(self.last, in_motion);
     }
 }
 
@@ -41,6 +49,8 @@ pub(in crate::scene) struct PlaceInWorld {
     /// The pose after change `posed`.
     pose: Cell<Pose>,
     posed: Cell<u64>,
+    /// The last measurement of velocities that concerned it.
+    pub(in crate::scene::pose) measurement: u64,
 }
 
 impl Default for PlaceInWorld {
@@ -52,6 +62,7 @@ impl Default for PlaceInWorld {
             checked: Cell::new(0),
             pose: Cell::new(Pose::identity()),
             posed: Cell::new(0),
+            measurement: 0,
         }
     }
 }

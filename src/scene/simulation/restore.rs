@@ -90,6 +90,7 @@ impl Scene {
         self.in_run = false;
         let objects = self.all_breadth_first();
         let kept = self.not_reset(&objects);
+        self.objects.moves_mut().measurements.forget();
         let mut restored = Vec::with_capacity(objects.len());
         for handle in objects {
             let Ok(object) = self.object_in_place(handle) else { continue };

@@ -6,9 +6,10 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::bits;
 use crate::scene::joint::{Joint, JointMode, JointType};
 use crate::scene::object::dummy::Dummy;
+use crate::scene::pose::measure::measured;
 use crate::scene::shape::{Shape, Velocity};
 use crate::scene::simulation::dynamics_report::JointReport;
-use crate::scene::{CopyOptions, DynamicFlags, Field, Handle, Kind, Pose, Scene};
+use crate::scene::{CopyOptions, DynamicFlags, Field, Handle, Kind, Measured, Pose, Scene};
 
 /// A generator of numbers, the same in every run.
 pub(crate) struct Random(u64);
@@ -134,12 +135,26 @@ impl Play {
             0 => drop(scene.report_joint(handle, &report)),
             1 => drop(scene.report_sensor(handle, pose)),
             2 => drop(scene.report_body(handle, Some(pose), Velocity::default())),
-            3 => scene.measure_velocities(Some(0.05)),
+            3 => self.measure(Some(0.05).filter(|_| report.position > -0.9)),
             4 => scene.store_initial_state(),
             5 => scene.restore_initial_state(),
             _ => {
                 scene.modify(handle, Field::Measured, |object| object.dynamic_flag = DynamicFlags::RESPONDABLE).unwrap()
             }
+        }
+    }
+
+    /// Velocities are those that looking at every object finds.
+    fn measure(&mut self, dt: Option<f64>) {
+        let expected: Vec<(Handle, Measured)> = (self.scene.objects())
+            .map(|object| {
+                let now = self.scene.world_pose(object.handle()).unwrap();
+                (object.handle(), measured(object.measured.previous, now, dt))
+            })
+            .collect();
+        self.scene.measure_velocities(dt);
+        for (handle, expected) in expected {
+            assert_eq!(self.scene.object(handle).unwrap().measured, expected, "{handle:?}");
         }
     }
 
