@@ -24,7 +24,7 @@ pub struct Script {
     /// The scene object that holds text and flags; None for main, sandbox and add-ons.
     pub object: Option<Handle>,
     /// What a detached script holds itself.
-    pub(crate) detached: RefCell<Detached>,
+    pub(crate) detached: Box<RefCell<Detached>>,
     state: Cell<i64>,
     pub(crate) runtime: RefCell<Option<Rc<Runtime>>>,
     pub(crate) removed: Cell<bool>,
@@ -71,7 +71,7 @@ impl Script {
             id,
             script_type,
             object,
-            detached: RefCell::new(detached),
+            detached: Box::new(RefCell::new(detached)),
             state: Cell::new(state::UNLOADED),
             runtime: RefCell::new(None),
             removed: Cell::new(false),
