@@ -103,12 +103,18 @@ impl Scene {
 /// Velocity over one step (spec: poses 4).
 pub(super) fn measured(previous: Option<Pose>, now: Pose, dt: Option<f64>) -> Measured {
     match (previous, dt) {
-        (Some(before), Some(dt)) if before != now => Measured {
-            previous: Some(now),
-            linear: velocity::linear_velocity(&before, &now, dt),
-            euler_rate: velocity::angular_velocity_euler(&before, &now, dt),
-            angular: velocity::angular_velocity_axis(&before, &now, dt),
-        },
+        (Some(before), Some(dt)) if before != now => {
+            let turns = before.rotation != now.rotation;
+            let angular = |velocity: fn(&Pose, &Pose, f64) -> [f64; 3]| {
+                if turns { velocity(&before, &now, dt) } else { [0.0; 3] }
+            };
+            Measured {
+                previous: Some(now),
+                linear: velocity::linear_velocity(&before, &now, dt),
+                euler_rate: angular(velocity::angular_velocity_euler),
+                angular: angular(velocity::angular_velocity_axis),
+            }
+        }
         _ => Measured { previous: Some(now), ..Measured::default() },
     }
 }
