@@ -124,7 +124,7 @@ impl<I: Interpreter + ?Sized> Drop for Runtime<I> {
 /// A script's own text.
 pub(crate) struct SourceText<'a> {
     pub text: &'a [u8],
-    /// What error positions call it.
+    /// What error positions call it; a file after `@`.
     pub chunk_name: &'a str,
     /// What coverage reports call it, if its lines are to be counted.
     pub counted_as: Option<String>,
@@ -166,6 +166,21 @@ impl FunctionRef {
 pub(crate) struct ScriptError {
     /// The message, and the traceback where there is one.
     pub text: String,
+    /// The error ends the script without a line in the log, as some do in the original.
+    pub is_silent: bool,
+}
+
+impl ScriptError {
+    pub(crate) fn new(text: impl Into<String>) -> Self {
+        Self { text: text.into(), is_silent: false }
+    }
+
+    /// Several errors of one callback as one; None when there are none.
+    pub(crate) fn joined(errors: &[Self]) -> Option<Self> {
+        let texts: Vec<&str> = errors.iter().map(|error| error.text.as_str()).collect();
+        let is_silent = errors.iter().any(|error| error.is_silent);
+        (!errors.is_empty()).then(|| Self { text: texts.join("\n\n"), is_silent })
+    }
 }
 
 /// Why a call of a function failed.
@@ -198,9 +213,9 @@ impl Languages {
     fn find(&self, name: &str) -> Result<&dyn Language, ScriptError> {
         let named = self.0.iter().find(|language| language.name() == name);
         if named.is_none() && name == "python" {
-            return Err(ScriptError { text: "scripts in Python are not implemented in Swanilda.".into() });
+            return Err(ScriptError::new("scripts in Python are not implemented in Swanilda."));
         }
-        let none = || ScriptError { text: format!("scripts in {name} are not implemented in Swanilda.") };
+        let none = || ScriptError::new(format!("scripts in {name} are not implemented in Swanilda."));
         named.or(self.0.first()).map(Box::as_ref).ok_or_else(none)
     }
 

@@ -43,7 +43,7 @@ const BROKEN: &[(&str, Function)] = &[
 ];
 
 fn error(text: &str) -> ScriptError {
-    ScriptError { text: text.into() }
+    ScriptError::new(text)
 }
 
 /// What the language shares with its scripts.

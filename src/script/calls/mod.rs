@@ -34,7 +34,7 @@ impl Sim {
             return Err(ApiError::CallFailed);
         }
         let results = self.call_named(&runtime, name, args)?.map_err(|error| {
-            self.fail(script, &error.text);
+            self.fail(script, &error);
             ApiError::ErrorInCallee
         });
         if runtime.env.depth.get() == 0 {
@@ -77,7 +77,7 @@ impl Sim {
             runtime.interpreter.run(code, chunk_name)
         };
         outcome.map_err(|error| {
-            self.fail(script, &error.text);
+            self.fail(script, &error);
             self.complete_call(script, SysCall::Ext, None);
             error.text
         })

@@ -60,7 +60,7 @@ impl Channels {
         }
     }
 
-    /// Closes the tubes that end with the Lua state of a script.
+    /// Closes the tubes that end with the interpreter of a script.
     pub(in crate::script) fn end_script(&self, script: i64) {
         self.tubes.borrow_mut().close_those_of(script);
     }

@@ -1,6 +1,6 @@
 //! Tubes of old scripts (`sim.tube*`): two ends with the same name, each with a queue of packets.
 //!
-//! A tube ends with the Lua state of the script that opened it.
+//! A tube ends with the interpreter of the script that opened it.
 
 use std::collections::{BTreeMap, VecDeque};
 

@@ -108,7 +108,7 @@ pub(crate) fn handle_number(handle: &str, kind: &str) -> Option<u64> {
     u64::from_str_radix(digits, 16).ok().filter(|number| format!("{number:x}") == digits)
 }
 
-/// The endpoints of a Lua state: they are stopped when it ends.
+/// The endpoints of a script: they are stopped when it ends.
 #[derive(Default)]
 struct Owned(RefCell<Vec<Ownership>>);
 

@@ -34,7 +34,7 @@ const MERGEABLE: i64 = 1;
 
 /// The stream of one simulator.
 pub(crate) struct EventStream {
-    /// Shared with every Lua state, which looks at it after each call that may have changed something.
+    /// Shared with every environment, which looks at it after each call that may have changed something.
     pub listening: Rc<Cell<bool>>,
     queue: RefCell<Queue>,
     watch: RefCell<Option<Watch>>,

@@ -101,7 +101,7 @@ impl Sim {
         let (text, chunk_name) = script.code(&self.scene.borrow());
         let level = Level::enter(&self.scripts, &runtime.env);
         if level.too_deep {
-            return Err(ScriptError { text: ApiError::TooDeep(MAX_DEPTH).to_string() });
+            return Err(ScriptError::new(ApiError::TooDeep(MAX_DEPTH).to_string()));
         }
         let counted_as = self.counted_as(script, &text);
         runtime.interpreter.load(&SourceText { text: &text, chunk_name: &chunk_name, counted_as })?;
@@ -128,8 +128,8 @@ impl Sim {
             script.set_base_state(state::ENDED);
         }
         let outcome = self.call_with_hooks(&runtime, call, args);
-        if !outcome.errors.is_empty() {
-            self.fail(script, &outcome.errors.join("\n\n"));
+        if let Some(error) = ScriptError::joined(&outcome.errors) {
+            self.fail(script, &error);
         } else if call.is_announced() && outcome.function_ran {
             self.broadcast_system_call(script, call);
         }
@@ -144,7 +144,7 @@ impl Sim {
         let level = Level::enter(&self.scripts, env);
         let mut outcome = Outcome::default();
         if level.too_deep {
-            outcome.errors.push(ApiError::TooDeep(MAX_DEPTH).to_string());
+            outcome.errors.push(ScriptError::new(ApiError::TooDeep(MAX_DEPTH).to_string()));
             return outcome;
         }
         if call.resumes_threads() {
@@ -163,15 +163,13 @@ impl Sim {
     }
 
     /// Logs an error of a script and marks it; it ends when its last call has returned.
-    pub(crate) fn fail(self: &Rc<Self>, script: &Rc<Script>, text: &str) {
-        let from_yield = text.contains("attempt to yield across a C-call boundary")
-            || text.contains("attempt to yield from outside a coroutine");
+    pub(crate) fn fail(self: &Rc<Self>, script: &Rc<Script>, error: &ScriptError) {
         // An error does not end the sandbox.
         if script.script_type != ScriptType::Sandbox {
             script.mark_error();
         }
-        if !from_yield {
-            self.report_error(script, text);
+        if !error.is_silent {
+            self.report_error(script, &error.text);
         }
     }
 
@@ -238,9 +236,9 @@ impl Sim {
             return;
         }
         let outcome = self.call_with_hooks(&runtime, SysCall::Cleanup, &[]);
-        if !outcome.errors.is_empty() {
+        if let Some(error) = ScriptError::joined(&outcome.errors) {
             script.mark_error();
-            self.report_error(script, &outcome.errors.join("\n\n"));
+            self.report_error(script, &error.text);
         } else if outcome.function_ran {
             self.broadcast_system_call(script, SysCall::Cleanup);
         }
@@ -279,13 +277,13 @@ struct Outcome {
     ran: bool,
     function_ran: bool,
     value: Option<Data>,
-    errors: Vec<String>,
+    errors: Vec<ScriptError>,
 }
 
 impl Outcome {
     fn resume_thread(&mut self, runtime: &Runtime) {
         if let Err(error) = runtime.interpreter.resume_thread() {
-            self.errors.push(error.text);
+            self.errors.push(error);
         }
     }
 
@@ -294,7 +292,7 @@ impl Outcome {
             Ok(ran) => self.ran |= ran,
             Err(error) => {
                 self.ran = true;
-                self.errors.push(error.text);
+                self.errors.push(error);
             }
         }
     }
@@ -305,7 +303,7 @@ impl Outcome {
             Ok(CallbackResult::Returned(value)) => (self.ran, self.function_ran, self.value) = (true, true, value),
             Err(error) => {
                 self.ran = true;
-                self.errors.push(error.text);
+                self.errors.push(error);
             }
         }
     }

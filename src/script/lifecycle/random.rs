@@ -1,4 +1,4 @@
-//! Random numbers of scripts: one generator per Lua state, with the same seed at each start.
+//! Random numbers of scripts: one generator per interpreter, with the same seed at each start.
 
 use std::f64::consts::TAU;
 

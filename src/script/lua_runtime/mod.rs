@@ -26,6 +26,10 @@ use user_modules::UserModule;
 /// Calls a function of a module, both by name, with all that follows.
 const CALL: &[u8] = b"local module, member = ... return require(module)[member](select(3, ...))";
 
+/// Errors of Lua for code that yields where it cannot.
+const YIELD_ERRORS: [&str; 2] =
+    ["attempt to yield across a C-call boundary", "attempt to yield from outside a coroutine"];
+
 /// The language Lua.
 pub(crate) struct LuaLanguage {
     user_modules: Rc<[UserModule]>,
@@ -61,7 +65,7 @@ impl LuaInterpreter {
     }
 
     fn sim(&self) -> Result<Rc<Sim>, ScriptError> {
-        self.stack().owner().sim.upgrade().ok_or_else(|| ScriptError { text: "the simulator is gone.".into() })
+        self.stack().owner().sim.upgrade().ok_or_else(|| ScriptError::new("the simulator is gone."))
     }
 
     /// Runs `work` on the stack, which is then as high as before.
@@ -176,7 +180,9 @@ impl Interpreter for LuaInterpreter {
 
 impl From<LuaError> for ScriptError {
     fn from(error: LuaError) -> Self {
-        Self { text: error.text }
+        // The original does not log a thread that yields where it cannot.
+        let is_silent = YIELD_ERRORS.iter().any(|text| error.text.contains(text));
+        Self { text: error.text, is_silent }
     }
 }
 

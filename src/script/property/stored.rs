@@ -8,7 +8,7 @@ use crate::scene::{CustomData, Data, Edit, Handle, Holder, Namespace, ValueType}
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::instance::Script;
 
-/// The script that last wrote each signal. A signal is removed with the Lua state of that script.
+/// The script that last wrote each signal. A signal is removed with the interpreter of that script.
 #[derive(Default)]
 pub(crate) struct SignalOwners(BTreeMap<Holder, BTreeMap<String, i64>>);
 
@@ -191,7 +191,7 @@ impl Sim {
         names
     }
 
-    /// Removes the signals whose last writer's Lua state ends.
+    /// Removes the signals whose last writer's interpreter ends.
     pub(crate) fn drop_signals_of(&self, script: &Script) {
         let owned = self.signal_owners.borrow_mut().take(script.id);
         for (holder, name) in owned {
