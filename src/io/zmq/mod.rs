@@ -1,19 +1,25 @@
 //! libzmq in safe Rust: contexts, sockets, messages, and waiting for them.
 //!
-//! The only place that calls libzmq. It keeps what libzmq answers with the end of the program, where it finds it misused, from
-//! happening: a message is always initialised, an address has no NUL, and numbers that abort it are refused here (`Context::set`,
-//! `Socket::set`). Every call that could wait is told not to, except `poll` and `Termination::wait`, which have a limit.
+//! libzmq aborts the program when it finds itself misused. That cannot happen through this module: a message is always initialised, an
+//! address has no NUL, and values that abort libzmq are errors (`Context::set`, `Socket::set`). No call blocks,
+//! except `poll` and `Termination::wait`, which have a time limit.
 
+#[forbid(unsafe_code)]
 mod context;
+mod libzmq;
+#[forbid(unsafe_code)]
 mod message;
+#[forbid(unsafe_code)]
 mod monitor;
+#[forbid(unsafe_code)]
 mod socket;
 
-use std::ffi::{CStr, CString, c_int};
+use std::ffi::{CString, c_int};
 
 use zmq_sys as ffi;
 
 pub(crate) use context::{Context, Termination};
+pub(crate) use libzmq::{has, strerror, version, z85_decode, z85_encode};
 pub(crate) use message::Message;
 pub(crate) use socket::{Socket, poll};
 
@@ -29,15 +35,9 @@ impl Errno {
     const NO_MEMORY: Self = Self(ffi::errno::ENOMEM);
     const NO_PROTOCOL: Self = Self(ffi::errno::EPROTONOSUPPORT);
     const NO_MESSAGE: Self = Self(ffi::errno::EFAULT);
-
-    /// What went wrong in the call of libzmq this thread made last.
-    fn last() -> Self {
-        // SAFETY: reads a number of this thread.
-        Self(unsafe { ffi::zmq_errno() })
-    }
 }
 
-/// The errors that have names, as this system numbers them.
+/// The errors with names, and their numbers on this system.
 pub(crate) const ERRORS: &[(&str, c_int)] = &[
     ("EADDRINUSE", ffi::errno::EADDRINUSE),
     ("EADDRNOTAVAIL", ffi::errno::EADDRNOTAVAIL),
@@ -58,56 +58,6 @@ pub(crate) const ERRORS: &[(&str, c_int)] = &[
     ("EPROTONOSUPPORT", ffi::errno::EPROTONOSUPPORT),
     ("ETERM", ffi::errno::ETERM),
 ];
-
-/// The text of an error.
-pub(crate) fn strerror(errno: c_int) -> String {
-    // SAFETY: libzmq knows a text for every number; it is copied before the next call.
-    let text = unsafe { CStr::from_ptr(ffi::zmq_strerror(errno)) };
-    text.to_string_lossy().into_owned()
-}
-
-/// Major, minor and patch number of libzmq.
-pub(crate) fn version() -> (c_int, c_int, c_int) {
-    let (mut major, mut minor, mut patch) = (0, 0, 0);
-    // SAFETY: writes three numbers.
-    unsafe { ffi::zmq_version(&raw mut major, &raw mut minor, &raw mut patch) };
-    (major, minor, patch)
-}
-
-/// Whether libzmq was built with a capability.
-pub(crate) fn has(capability: &str) -> bool {
-    // SAFETY: the text ends with NUL.
-    CString::new(capability).is_ok_and(|capability| unsafe { ffi::zmq_has(capability.as_ptr()) } != 0)
-}
-
-/// Bytes as printable text, five characters for four bytes (ZeroMQ RFC 32). None unless their number is divisible by 4.
-pub(crate) fn z85_encode(bytes: &[u8]) -> Option<Vec<u8>> {
-    if bytes.is_empty() || !bytes.len().is_multiple_of(4) {
-        return None;
-    }
-    let mut text = vec![0; bytes.len() / 4 * 5 + 1];
-    // SAFETY: libzmq writes five characters for four bytes, and NUL.
-    let done = unsafe { ffi::zmq_z85_encode(text.as_mut_ptr().cast(), bytes.as_ptr(), bytes.len()) };
-    text.pop();
-    (!done.is_null()).then_some(text)
-}
-
-/// The bytes `z85_encode` made text of. None when it is no such text.
-pub(crate) fn z85_decode(text: &[u8]) -> Option<Vec<u8>> {
-    if text.is_empty() || !text.len().is_multiple_of(5) {
-        return None;
-    }
-    let mut bytes = vec![0; text.len() / 5 * 4];
-    let text = CString::new(text).ok()?;
-    // SAFETY: libzmq writes four bytes for five characters.
-    let done = unsafe { ffi::zmq_z85_decode(bytes.as_mut_ptr(), text.as_ptr()) };
-    (!done.is_null()).then_some(bytes)
-}
-
-/// What a call returned, which is -1 when it failed.
-fn check(returned: c_int) -> ZmqResult<c_int> {
-    if returned == -1 { Err(Errno::last()) } else { Ok(returned) }
-}
 
 /// An address or a name as libzmq reads it.
 fn c_text(text: &str) -> ZmqResult<CString> {

@@ -2,14 +2,15 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
-use std::ffi::{c_int, c_long, c_short, c_void};
+use std::ffi::{c_int, c_long, c_short};
 use std::rc::Rc;
 
 use zmq_sys as ffi;
 
 use super::context::Context;
+use super::libzmq::{PollItem, RawSocket, poll_items};
 use super::monitor::{self, Monitor};
-use super::{Errno, ZmqResult, c_text, check};
+use super::{Errno, ZmqResult, c_text};
 
 /// The last of the stable types of sockets. Those beyond are drafts, of which only parts are built.
 const LAST_TYPE: c_int = ffi::ZMQ_STREAM as c_int;
@@ -18,19 +19,18 @@ const USE_FD: c_int = ffi::ZMQ_USE_FD as c_int;
 const CONNECT_ROUTING_ID: c_int = ffi::ZMQ_CONNECT_ROUTING_ID as c_int;
 /// No option is longer.
 const MAX_OPTION: usize = 4096;
-/// How long a closed socket tries to deliver what it was told to send, milliseconds: in libzmq for ever, if nobody says otherwise.
+/// Longest time that a closed socket tries to deliver unsent messages, milliseconds. libzmq has no limit by default.
 const MAX_LINGER: c_int = 30_000;
 
-/// A socket. One that is dropped forgets what it has not sent yet, unless it is closed before.
+/// A socket. Dropping it discards unsent messages, unless it is closed before.
 pub(crate) struct Socket {
-    raw: *mut c_void,
-    /// Whether it is draining unsent messages.
+    raw: RawSocket,
+    /// Whether it may still send its messages after it is dropped.
     is_closed: Cell<bool>,
-    /// Names given to connections to be made; libzmq ends the program at the second of the same name.
+    /// Names for future connections; libzmq aborts the program when a name is used twice.
     connection_names: RefCell<BTreeSet<Vec<u8>>>,
-    /// Endpoint of its monitor.
     monitor: RefCell<Option<Monitor>>,
-    /// Goes after the socket: a context must not end before its sockets.
+    /// Dropped after the socket: a context must not end before its sockets.
     context: Rc<Context>,
 }
 
@@ -39,30 +39,24 @@ impl Socket {
         if kind > LAST_TYPE {
             return Err(Errno::INVALID);
         }
-        // SAFETY: the context lives.
-        let raw = unsafe { ffi::zmq_socket(context.raw(), kind) };
-        if raw.is_null() {
-            return Err(Errno::last());
-        }
-        let context = context.clone();
         Ok(Self {
-            raw,
+            raw: context.socket(kind)?,
             is_closed: Cell::new(false),
             connection_names: RefCell::default(),
             monitor: RefCell::default(),
-            context,
+            context: context.clone(),
         })
     }
 
-    pub(super) fn raw(&self) -> *mut c_void {
-        self.raw
+    pub(super) fn raw(&self) -> &RawSocket {
+        &self.raw
     }
 
     pub(crate) fn is_in(&self, context: &Rc<Context>) -> bool {
         Rc::ptr_eq(&self.context, context)
     }
 
-    /// Closes it, when nobody else uses it any more. What was to be sent is sent, as long as the option LINGER says.
+    /// Closes it as soon as nobody else uses it. Unsent messages are still sent, for as long as the option LINGER says.
     pub(crate) fn close(self: Rc<Self>) {
         self.limit_linger();
         self.is_closed.set(true);
@@ -82,33 +76,28 @@ impl Socket {
     }
 
     pub(crate) fn bind(&self, endpoint: &str) -> ZmqResult<()> {
-        let endpoint = c_text(endpoint)?;
-        // SAFETY (this and the next three): the socket lives, the text ends with NUL and is copied.
-        check(unsafe { ffi::zmq_bind(self.raw, endpoint.as_ptr()) }).map(drop)
+        self.raw.bind(&c_text(endpoint)?)
     }
 
     pub(crate) fn unbind(&self, endpoint: &str) -> ZmqResult<()> {
-        let endpoint = c_text(endpoint)?;
-        check(unsafe { ffi::zmq_unbind(self.raw, endpoint.as_ptr()) }).map(drop)
+        self.raw.unbind(&c_text(endpoint)?)
     }
 
     pub(crate) fn connect(&self, endpoint: &str) -> ZmqResult<()> {
-        let endpoint = c_text(endpoint)?;
-        check(unsafe { ffi::zmq_connect(self.raw, endpoint.as_ptr()) }).map(drop)
+        self.raw.connect(&c_text(endpoint)?)
     }
 
     pub(crate) fn disconnect(&self, endpoint: &str) -> ZmqResult<()> {
-        let endpoint = c_text(endpoint)?;
-        check(unsafe { ffi::zmq_disconnect(self.raw, endpoint.as_ptr()) }).map(drop)
+        self.raw.disconnect(&c_text(endpoint)?)
     }
 
-    /// Tells what happens to its connections to a PAIR socket at `endpoint`, and no longer to the one before.
+    /// Publishes the events of its connections to a PAIR socket at `endpoint`, in place of an earlier monitor.
     pub(crate) fn monitor(&self, endpoint: &str, events: c_int) -> ZmqResult<()> {
         monitor::check_endpoint(endpoint)?;
-        if let Some(before) = self.monitor.take() {
-            before.stop(self.raw);
+        if let Some(previous) = self.monitor.take() {
+            previous.stop(&self.raw);
         }
-        self.monitor.replace(Some(Monitor::start(&self.context, self.raw, endpoint, events)?));
+        self.monitor.replace(Some(Monitor::start(&self.context, &self.raw, endpoint, events)?));
         Ok(())
     }
 
@@ -117,40 +106,35 @@ impl Socket {
         self.monitor.borrow().as_ref().is_some_and(Monitor::has_lost)
     }
 
-    /// Sets an option to a value of whatever type, given as bytes.
+    /// Sets an option to a value of any type, as bytes.
     pub(crate) fn set(&self, option: c_int, value: &[u8]) -> ZmqResult<()> {
         if option == USE_FD {
-            // A script has no open files of its own: it could only take one of the program's.
+            // A script has no open files: any number would be a file of the program.
             return Err(Errno::INVALID);
         }
         let names_connection = option == CONNECT_ROUTING_ID;
-        // Names that begin with 0 are those libzmq gives.
+        // libzmq itself makes the names that begin with 0.
         if names_connection && (value.first() == Some(&0) || self.connection_names.borrow().contains(value)) {
             return Err(Errno::INVALID);
         }
-        // SAFETY: the socket lives, the value is copied.
-        check(unsafe { ffi::zmq_setsockopt(self.raw, option, value.as_ptr().cast(), value.len()) })?;
+        self.raw.set(option, value)?;
         if names_connection {
             self.connection_names.borrow_mut().insert(value.to_vec());
         }
         Ok(())
     }
 
-    /// The bytes of an option, of which there may be `room`.
+    /// The bytes of an option, at most `room` of them.
     pub(crate) fn get(&self, option: c_int, room: usize) -> ZmqResult<Vec<u8>> {
         let mut value = vec![0_u8; room.min(MAX_OPTION)];
-        let mut length = value.len();
-        // SAFETY: the socket lives, and libzmq writes at most `length` bytes.
-        check(unsafe { ffi::zmq_getsockopt(self.raw, option, value.as_mut_ptr().cast(), &raw mut length) })?;
+        let length = self.raw.get(option, &mut value)?;
         value.truncate(length);
         Ok(value)
     }
 
     /// Sends without waiting. Returns the number of bytes.
     pub(crate) fn send(&self, bytes: &[u8], flags: c_int) -> ZmqResult<c_int> {
-        let flags = flags | ffi::ZMQ_DONTWAIT as c_int;
-        // SAFETY: the socket lives, the bytes are copied.
-        check(unsafe { ffi::zmq_send(self.raw, bytes.as_ptr().cast(), bytes.len(), flags) })
+        self.raw.send(bytes, flags | ffi::ZMQ_DONTWAIT as c_int)
     }
 }
 
@@ -159,28 +143,24 @@ impl Drop for Socket {
         if !self.is_closed.get() {
             self.set_linger(0);
         }
-        // SAFETY: the socket lives, and is not used afterwards. It fails only for what is no socket.
-        unsafe { ffi::zmq_close(self.raw) };
     }
 }
 
-/// Waits until one of the sockets is ready for one of its events, at most that many milliseconds. Returns which ones each is ready for.
+/// Waits until one of the sockets is ready for one of its events, at most so many milliseconds. Returns the events each is ready for.
 pub(crate) fn poll(sockets: &[(Rc<Socket>, c_short)], milliseconds: c_long) -> ZmqResult<Vec<c_short>> {
-    let mut items: Vec<ffi::zmq_pollitem_t> = Vec::new();
-    // Each socket once: the system refuses lists that are longer than there can be open files, and libzmq ends the program then.
-    let places: Vec<usize> = sockets.iter().map(|(socket, events)| place(&mut items, socket, *events)).collect();
-    // SAFETY: the sockets live, and there are as many items as said.
-    check(unsafe { ffi::zmq_poll(items.as_mut_ptr(), items.len() as c_int, milliseconds) })?;
-    Ok(sockets.iter().zip(places).map(|((_, events), place)| items[place].revents & events).collect())
+    let mut items = Vec::new();
+    // Each socket once: the system limits the list to the number of open files, and libzmq aborts the program beyond it.
+    let places: Vec<_> = sockets.iter().map(|(socket, events)| place(&mut items, socket, *events)).collect();
+    poll_items(&mut items, milliseconds)?;
+    Ok(sockets.iter().zip(places).map(|((_, events), place)| items[place].ready() & events).collect())
 }
 
-/// The place of a socket in the list, at its end if it was not there.
-fn place(items: &mut Vec<ffi::zmq_pollitem_t>, socket: &Socket, events: c_short) -> usize {
-    let known = items.iter().position(|item| item.socket == socket.raw);
-    let place = known.unwrap_or(items.len());
-    if known.is_none() {
-        items.push(ffi::zmq_pollitem_t { socket: socket.raw, ..Default::default() });
+/// The index of a socket in the list, to which it is added if necessary.
+fn place<'a>(items: &mut Vec<PollItem<'a>>, socket: &'a Socket, events: c_short) -> usize {
+    if let Some(known) = items.iter().position(|item| item.is_for(&socket.raw)) {
+        items[known].add_events(events);
+        return known;
     }
-    items[place].events |= events;
-    place
+    items.push(PollItem::new(&socket.raw, events));
+    items.len() - 1
 }
