@@ -1,6 +1,7 @@
 //! The world outside: sockets and whole messages, serial ports, programs. What messages say is not known here.
 
 mod event_loop;
+mod file_lock;
 mod process;
 mod serial;
 pub(crate) mod socket;
@@ -10,6 +11,9 @@ mod zmq_server;
 mod zmtp;
 
 pub(crate) use event_loop::EventLoop;
+pub(crate) use file_lock::FileLock;
+#[cfg(unix)]
+pub(crate) use file_lock::lock_file;
 pub(crate) use process::{Process, ProcessError, Program};
 pub(crate) use serial::SerialPort;
 pub(crate) use ws::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent, WsPages, WsRequest};

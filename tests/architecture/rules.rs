@@ -67,7 +67,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("rand_mt", "src/script/lifecycle"),
     ("rapier3d", "src/dynamics"),
     ("rsruckig", "crates/motion"),
-    ("rustix", "src/io/socket"),
+    ("rustix", "src/io"),
     ("rustls", "src/io/socket/tls.rs"),
     ("rustls_native_certs", "src/io/socket/tls.rs"),
     ("serde_json", "src/cli"),

@@ -2,7 +2,7 @@
 
 use std::ffi::c_int;
 
-use super::low_level::packet;
+use super::low_level::position;
 use super::{MAX_DEPTH, TOO_DEEP};
 use crate::scene::Data;
 use crate::script::{ApiError, ApiResult, Args, LuaType, Stack, push_buffer};
@@ -35,7 +35,11 @@ type Read<T> = Result<T, Stop>;
 
 pub(super) fn decode(args: &mut Args<'_>) -> ApiResult<c_int> {
     let stack = args.stack();
-    let (bytes, at) = packet(&stack)?;
+    let at = position(stack)?;
+    // It stays where it is for the whole decoding, whatever happens on the stack.
+    let packet = stack.string(1).ok_or(ApiError::NotA { position: 1, expected: "string" })?;
+    let bytes = &*packet.bytes();
+    let at = at.min(bytes.len());
     if stack.kind(3) != LuaType::Table {
         return Err(ApiError::NotA { position: 3, expected: "table" });
     }

@@ -49,7 +49,7 @@ fn write(stack: Stack<'_>, index: c_int, out: &mut Vec<u8>, depth: usize) -> Wri
             Some(integer) => push_int(out, integer),
             None => push_float(out, stack.number(index).unwrap_or_default()),
         },
-        LuaType::String => write_string(out, stack.bytes(index).unwrap_or_default())?,
+        LuaType::String => stack.with_bytes(index, |bytes| write_string(out, bytes)).unwrap_or(Ok(()))?,
         LuaType::Table => write_table(stack, stack.absolute(index), out, depth)?,
         _ => return Err(Stop::NeedsLua),
     }
@@ -106,11 +106,10 @@ fn write_map(stack: Stack<'_>, table: c_int, out: &mut Vec<u8>, depth: usize) ->
     let start = out.len();
     let mut count: u64 = 0;
     out.push(major::MAP);
-    stack.push_nil();
-    while stack.next(table) {
-        write(stack, -2, out, depth + 1)?;
-        write(stack, -1, out, depth + 1)?;
-        stack.pop(1);
+    let mut entries = stack.entries(table);
+    while entries.advance() {
+        write(stack, entries.key(), out, depth + 1)?;
+        write(stack, entries.value(), out, depth + 1)?;
         count += 1;
     }
     // The number of entries is known only now; its place is before them.

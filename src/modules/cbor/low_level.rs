@@ -3,7 +3,7 @@
 use std::ffi::c_int;
 
 use crate::script::{ApiError, ApiResult, Args, LuaType, Stack};
-use crate::wire::cbor_head::{Head, INDEFINITE, major, push_float, push_head};
+use crate::wire::cbor_head::{Head, HeadError, INDEFINITE, major, push_float, push_head};
 
 pub(super) fn encode(args: &mut Args<'_>) -> ApiResult<c_int> {
     args.require(1)?;
@@ -56,8 +56,7 @@ fn write_float(out: &mut Vec<u8>, stack: Stack<'_>, float: f64) -> ApiResult<()>
 pub(super) fn decode(args: &mut Args<'_>) -> ApiResult<c_int> {
     args.require(2)?;
     let stack = args.stack();
-    let (bytes, at) = packet(&stack)?;
-    let (head, end) = Head::read(bytes, at).map_err(|error| ApiError::Other(error.to_string()))?;
+    let (head, end) = read_head(stack)?.map_err(|error| ApiError::Other(error.to_string()))?;
     Ok(push_head_read(stack, head, end))
 }
 
@@ -65,8 +64,7 @@ pub(super) fn decode(args: &mut Args<'_>) -> ApiResult<c_int> {
 pub(super) fn head(args: &mut Args<'_>) -> ApiResult<c_int> {
     args.require(2)?;
     let stack = args.stack();
-    let (bytes, at) = packet(&stack)?;
-    Ok(match Head::read(bytes, at) {
+    Ok(match read_head(stack)? {
         Ok((head, end)) => push_head_read(stack, head, end),
         Err(error) => {
             stack.push_nil();
@@ -76,12 +74,20 @@ pub(super) fn head(args: &mut Args<'_>) -> ApiResult<c_int> {
     })
 }
 
-/// The first two arguments: bytes, and the place in them, which scripts count from 1.
-pub(super) fn packet<'a>(stack: &'a Stack<'_>) -> ApiResult<(&'a [u8], usize)> {
-    let bytes = stack.bytes(1).ok_or(ApiError::NotA { position: 1, expected: "string" })?;
-    let pos = stack.integer(2).ok_or(ApiError::NotA { position: 2, expected: "integer" })?;
-    let at = usize::try_from(pos.saturating_sub(1)).unwrap_or(usize::MAX);
-    Ok((bytes, at.min(bytes.len())))
+/// The head at a position in the string in argument 1.
+fn read_head(stack: Stack<'_>) -> ApiResult<Result<(Head, usize), HeadError>> {
+    let at = position(stack)?;
+    let head = stack.with_bytes(1, |bytes| Head::read(bytes, at.min(bytes.len())));
+    head.ok_or(ApiError::NotA { position: 1, expected: "string" })
+}
+
+/// The second argument: a position in the first one, which scripts count from 1. It may be beyond the end.
+pub(super) fn position(stack: Stack<'_>) -> ApiResult<usize> {
+    if stack.kind(1) != LuaType::String {
+        return Err(ApiError::NotA { position: 1, expected: "string" });
+    }
+    let position = stack.integer(2).ok_or(ApiError::NotA { position: 2, expected: "integer" })?;
+    Ok(usize::try_from(position.saturating_sub(1)).unwrap_or(usize::MAX))
 }
 
 fn push_head_read(stack: Stack<'_>, head: Head, end: usize) -> c_int {

@@ -4,7 +4,8 @@
 
 use std::ffi::c_int;
 
-use crate::script::{ApiError, ApiFn, ApiResult, Args, FileLock, Param, needs_lua};
+use crate::io::FileLock;
+use crate::script::{ApiError, ApiFn, ApiResult, Args, Param, needs_lua};
 
 pub(super) const FUNCTIONS: &[ApiFn] = &[ApiFn {
     name: "lfs.lock",
@@ -19,10 +20,10 @@ pub(super) const FUNCTIONS: &[ApiFn] = &[ApiFn {
 fn lock(args: &mut Args<'_>) -> ApiResult<c_int> {
     args.require(2)?;
     let stack = args.stack();
-    let lock = match stack.bytes(2) {
-        Some([b'r', ..]) => FileLock::Shared,
-        Some([b'w', ..]) => FileLock::Exclusive,
-        Some([b'u', ..]) => FileLock::Released,
+    let lock = match stack.with_bytes(2, |mode| mode.first().copied()).flatten() {
+        Some(b'r') => FileLock::Shared,
+        Some(b'w') => FileLock::Exclusive,
+        Some(b'u') => FileLock::Released,
         _ => return Err(ApiError::Other("invalid mode.".into())),
     };
     let result = stack.lock_file(1, lock).ok_or_else(|| ApiError::Other("not an open file.".into()))?;

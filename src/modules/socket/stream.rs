@@ -97,14 +97,23 @@ fn accept(cx: &Cx, object: Server) -> Result<Outcome<Created>> {
     Ok(Outcome(accepted.map(|client| cx.script_state::<Sockets>().add_stream(object.class, client))))
 }
 
+impl Pattern {
+    fn named(name: &[u8]) -> Option<Self> {
+        match name {
+            [b'*', b'l', ..] => Some(Self::Line),
+            [b'*', b'a', ..] => Some(Self::All),
+            _ => None,
+        }
+    }
+}
+
 impl FromScript for Pattern {
     const TYPE: &'static str = "string";
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
-        match args.bytes() {
-            Some([b'*', b'l', ..]) => Ok(Self::Line),
-            Some([b'*', b'a', ..]) => Ok(Self::All),
-            _ => match args.lua_number() {
+        match args.with_bytes(Self::named).flatten() {
+            Some(pattern) => Ok(pattern),
+            None => match args.lua_number() {
                 Some(count) if count >= 0.0 => Ok(Self::Count(count as usize)),
                 _ => Err(args.refused("invalid receive pattern")),
             },

@@ -64,9 +64,9 @@ impl<'a, S: Source<'a>> Args<'a, S> {
         if self.position > self.count { Type::None } else { self.source.kind(self.position) }
     }
 
-    /// The bytes of the argument, when it is a string.
-    pub(crate) fn bytes(&self) -> Option<&[u8]> {
-        if self.position > self.count { None } else { self.source.bytes(self.position) }
+    /// Reads the bytes of the argument, when it is a string.
+    pub(crate) fn with_bytes<T>(&self, read: impl FnOnce(&[u8]) -> T + Send) -> Option<T> {
+        if self.position > self.count { None } else { self.source.with_bytes(self.position, read) }
     }
 
     /// Fails unless there are `count` arguments.
@@ -215,7 +215,7 @@ scalars! {
         _ => Ok(ScriptFunction::Name(String::from_script(args)?)),
     };
     LuaString, "string", |args| match args.kind() {
-        Type::String => Ok(LuaString(args.bytes().unwrap_or_default().to_vec())),
+        Type::String => Ok(LuaString(args.with_bytes(<[u8]>::to_vec).unwrap_or_default())),
         Type::Number => Ok(LuaString(args.source.text(args.position).unwrap_or_default())),
         _ => Err(args.expected("string")),
     };

@@ -41,7 +41,7 @@ fn read(stack: Stack<'_>, index: c_int, above: &mut Vec<*const c_void>) -> Data 
             Some(i) => Data::Int(i),
             None => Data::Float(stack.number(index).unwrap_or_default()),
         },
-        Type::String => Data::Text(stack.bytes(index).unwrap_or_default().to_vec()),
+        Type::String => Data::Text(stack.bytes(index).unwrap_or_default()),
         Type::Table => read_table(stack, stack.absolute(index), above),
         Type::Function => Data::Text(opaque("FUNCTION", stack, index)),
         Type::UserData => Data::Text(opaque("USERDATA", stack, index)),
@@ -82,7 +82,7 @@ pub(crate) fn read_buffer(stack: Stack<'_>, table: c_int) -> Option<Vec<u8>> {
     }
     stack.push_registry(BUFFER_FIELD_NAME);
     stack.raw_get(table);
-    let bytes = stack.bytes(-1).map(<[u8]>::to_vec);
+    let bytes = stack.bytes(-1);
     stack.pop(1);
     bytes
 }
@@ -92,12 +92,11 @@ fn read_entries(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) 
     // A table with holes may claim any length.
     let mut entries = Vec::with_capacity(len.min(MAX_HINT));
     let mut array = true;
-    stack.push_nil();
-    while stack.next(table) {
-        let key = read_key(stack, -2);
+    let mut cursor = stack.entries(table);
+    while cursor.advance() {
+        let key = read_key(stack, cursor.key());
         array = array && matches!(key, Key::Int(i) if i >= 1 && i as usize <= len);
-        entries.push((key, read(stack, -1, above)));
-        stack.pop(1);
+        entries.push((key, read(stack, cursor.value(), above)));
     }
     if !array || entries.len() != len {
         return Data::Map(entries);
@@ -115,8 +114,8 @@ fn read_key(stack: Stack<'_>, index: c_int) -> Key {
         },
         // A C string on its way through the original: it ends at the first NUL.
         Type::String => {
-            let text = stack.bytes(index).unwrap_or_default();
-            Key::Text(text.split(|&byte| byte == 0).next().unwrap_or_default().to_vec())
+            let up_to_nul = |text: &[u8]| text.split(|&byte| byte == 0).next().unwrap_or_default().to_vec();
+            Key::Text(stack.with_bytes(index, up_to_nul).unwrap_or_default())
         }
         Type::Function => Key::Text(opaque("FUNCTION", stack, index)),
         Type::Thread => Key::Text(opaque("THREAD", stack, index)),

@@ -23,8 +23,8 @@ pub trait Source<'a>: Copy {
     /// The number, when it is an integer; 2.0 and "2" are not.
     fn integer(self, position: c_int) -> Option<i64>;
     fn truthy(self, position: c_int) -> bool;
-    /// The bytes of a string.
-    fn bytes(&self, position: c_int) -> Option<&[u8]>;
+    /// Reads the bytes of a string, without access to any Lua state.
+    fn with_bytes<T>(&self, position: c_int, read: impl FnOnce(&[u8]) -> T + Send) -> Option<T>;
     /// The bytes of a string, or a number in Lua's spelling.
     fn text(self, position: c_int) -> Option<Vec<u8>>;
     /// Length of a list.
@@ -62,8 +62,8 @@ impl<'a> Source<'a> for Stack<'a> {
         Stack::truthy(self, position)
     }
 
-    fn bytes(&self, position: c_int) -> Option<&[u8]> {
-        Stack::bytes(self, position)
+    fn with_bytes<T>(&self, position: c_int, read: impl FnOnce(&[u8]) -> T + Send) -> Option<T> {
+        Stack::with_bytes(*self, position, read)
     }
 
     fn text(self, position: c_int) -> Option<Vec<u8>> {
@@ -154,9 +154,9 @@ impl<'a> Source<'a> for Values<'a> {
         self.get(position).is_some_and(Data::truthy)
     }
 
-    fn bytes(&self, position: c_int) -> Option<&[u8]> {
+    fn with_bytes<T>(&self, position: c_int, read: impl FnOnce(&[u8]) -> T + Send) -> Option<T> {
         match self.get(position)? {
-            Data::Text(bytes) => Some(bytes),
+            Data::Text(bytes) => Some(read(bytes)),
             _ => None,
         }
     }

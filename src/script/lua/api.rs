@@ -1,32 +1,60 @@
-//! Functions of Lua's that cannot go wrong: the types of their arguments are the proof.
+//! Functions of Lua's that cannot fail: the types of their arguments are the proof.
 //!
-//! A [`Stack`] is a living coroutine, a [`Slot`] an index Lua can look at, and [`Room`] a place for one more value.
+//! A [`Stack`] is a living coroutine and a [`Slot`] an index Lua can look at. The other types say what is on the stack at the moment:
+//! they are made and used in one expression, and only in `script/lua`.
 
-use std::ffi::{c_int, c_void};
+use std::ffi::{c_char, c_int, c_void};
 
-use super::Stack;
+use mlua::ffi;
 
-/// The positive index of a slot; nothing may be there, which Lua reads as no value.
+use super::stack::{Stack, Type};
+
+/// An index that every function accepts; nothing may be there, which Lua reads as no value.
 #[repr(transparent)]
 #[derive(Clone, Copy)]
 pub(super) struct Slot(c_int);
+
+/// The index of a table.
+#[repr(transparent)]
+#[derive(Clone, Copy)]
+pub(super) struct Table(c_int);
+
+/// The indices from a value up to the top.
+#[repr(transparent)]
+pub(super) struct Occupied(c_int);
 
 /// A stack with a free place.
 #[repr(transparent)]
 pub(super) struct Room<'a>(Stack<'a>);
 
-// SAFETY: declared as in lua.h, since `Stack` and `Room` are pointers to a `lua_State` and `Slot` is an int. With a living state the first ones
-// read, and a positive index beyond the top is "no value" to them; the others push one value, for which there is room. Out of memory
-// ends the process where Rust asks for it (`budget.rs`), so pushing does not raise.
+/// A stack with a value on top, which is popped.
+#[repr(transparent)]
+pub(super) struct Top<'a>(Stack<'a>);
+
+/// A stack with a key for a table and a value on top, which are popped.
+#[repr(transparent)]
+pub(super) struct Pair<'a>(Stack<'a>);
+
+/// A stack with a key of a table on top, or nil, and a free place.
+#[repr(transparent)]
+struct Known<'a>(Stack<'a>);
+
+// SAFETY: declared as in lua.h, since the types are pointers to a `lua_State` and ints. With a living state the first ones read or convert,
+// and a positive index beyond the top is "no value" to them; the second ones push one value, for which there is room. The others
+// get the table, key and values that they need. Raw access runs no code. Out of memory ends the process where Rust asks for it
+// (`budget.rs`), so nothing here raises.
 unsafe extern "C-unwind" {
     pub(super) safe fn lua_gettop(stack: Stack<'_>) -> c_int;
     pub(super) safe fn lua_checkstack(stack: Stack<'_>, count: c_int) -> c_int;
+    pub(super) safe fn lua_isyieldable(stack: Stack<'_>) -> c_int;
     pub(super) safe fn lua_type(stack: Stack<'_>, slot: Slot) -> c_int;
     pub(super) safe fn lua_iscfunction(stack: Stack<'_>, slot: Slot) -> c_int;
     pub(super) safe fn lua_isinteger(stack: Stack<'_>, slot: Slot) -> c_int;
     pub(super) safe fn lua_tonumberx(stack: Stack<'_>, slot: Slot, is_number: Option<&mut c_int>) -> f64;
     pub(super) safe fn lua_tointegerx(stack: Stack<'_>, slot: Slot, is_integer: Option<&mut c_int>) -> i64;
     pub(super) safe fn lua_toboolean(stack: Stack<'_>, slot: Slot) -> c_int;
+    pub(super) safe fn lua_tolstring(stack: Stack<'_>, slot: Slot, length: Option<&mut usize>) -> *const c_char;
+    pub(super) safe fn lua_tocfunction(stack: Stack<'_>, slot: Slot) -> Option<ffi::lua_CFunction>;
     pub(super) safe fn lua_topointer(stack: Stack<'_>, slot: Slot) -> *const c_void;
     pub(super) safe fn lua_rawlen(stack: Stack<'_>, slot: Slot) -> u64;
     pub(super) safe fn lua_rawequal(stack: Stack<'_>, a: Slot, b: Slot) -> c_int;
@@ -38,6 +66,30 @@ unsafe extern "C-unwind" {
     pub(super) safe fn lua_pushvalue(room: Room<'_>, slot: Slot);
     pub(super) safe fn lua_pushthread(room: Room<'_>) -> c_int;
     pub(super) safe fn luaL_where(room: Room<'_>, level: c_int);
+    pub(super) safe fn lua_createtable(room: Room<'_>, array: c_int, fields: c_int);
+    pub(super) safe fn lua_getmetatable(room: Room<'_>, slot: Slot) -> c_int;
+    pub(super) safe fn lua_getupvalue(room: Room<'_>, slot: Slot, number: c_int) -> *const c_char;
+    pub(super) safe fn lua_rawgeti(room: Room<'_>, table: Table, i: i64) -> c_int;
+    pub(super) safe fn lua_rawgetp(room: Room<'_>, table: Table, key: *const c_void) -> c_int;
+
+    safe fn lua_settop(stack: Stack<'_>, top: Occupied);
+    safe fn lua_rotate(stack: Stack<'_>, slots: Occupied, by: c_int);
+    pub(super) safe fn lua_rawget(key: Top<'_>, table: Table) -> c_int;
+    pub(super) safe fn lua_rawset(pair: Pair<'_>, table: Table);
+    pub(super) safe fn lua_rawseti(value: Top<'_>, table: Table, i: i64);
+    pub(super) safe fn lua_rawsetp(value: Top<'_>, table: Table, key: *const c_void);
+    pub(super) safe fn luaL_ref(value: Top<'_>, table: Table) -> c_int;
+    pub(super) safe fn luaL_unref(stack: Stack<'_>, table: Table, reference: c_int);
+    safe fn lua_next(key: Known<'_>, table: Table) -> c_int;
+}
+
+impl Slot {
+    /// The number of a running function of ours.
+    pub(super) const NUMBER: Self = Self(ffi::lua_upvalueindex(1));
+}
+
+impl Table {
+    pub(super) const REGISTRY: Self = Self(ffi::LUA_REGISTRYINDEX);
 }
 
 impl<'a> Stack<'a> {
@@ -50,9 +102,146 @@ impl<'a> Stack<'a> {
         Slot(if (-top..0).contains(&index) { top + index + 1 } else { top + 1 })
     }
 
+    /// The table at `index`.
+    pub(super) fn table(self, index: c_int) -> Table {
+        let slot = self.slot(index);
+        assert_eq!(Type::from_raw(lua_type(self, slot)), Type::Table, "raw access is for tables");
+        Table(slot.0)
+    }
+
     /// Room for one more value. Lua's stack is limited to a million.
     pub(super) fn room(self) -> Room<'a> {
-        assert!(lua_checkstack(self, 1) != 0, "stack overflow");
+        self.room_for(1)
+    }
+
+    /// The same, and for what Lua pushes meanwhile.
+    pub(super) fn large_room(self) -> Room<'a> {
+        self.room_for(ffi::LUA_MINSTACK)
+    }
+
+    fn room_for(self, count: c_int) -> Room<'a> {
+        assert!(lua_checkstack(self, count) != 0, "stack overflow");
         Room(self)
+    }
+
+    /// The value on top.
+    pub(super) fn value(self) -> Top<'a> {
+        assert!(lua_gettop(self) > 0, "only what is there can be popped");
+        Top(self)
+    }
+
+    /// The key and value on top; None for a key that no table can have.
+    pub(super) fn pair(self) -> Option<Pair<'a>> {
+        let top = lua_gettop(self);
+        assert!(top > 1, "only what is there can be popped");
+        let key = Slot(top - 1);
+        // Only of numbers: asking a string for its number would parse it.
+        let is_key = match lua_type(self, key) {
+            ffi::LUA_TNIL => false,
+            ffi::LUA_TNUMBER => !lua_tonumberx(self, key, None).is_nan(),
+            _ => true,
+        };
+        is_key.then_some(Pair(self))
+    }
+
+    /// Cuts the stack to `top` values.
+    pub(crate) fn set_top(self, top: c_int) {
+        assert!((0..=lua_gettop(self)).contains(&top), "a stack is only cut, never stretched");
+        lua_settop(self, Occupied(top));
+    }
+
+    pub(crate) fn pop(self, count: c_int) {
+        let top = lua_gettop(self);
+        assert!((0..=top).contains(&count), "only what is there can be popped");
+        lua_settop(self, Occupied(top - count));
+    }
+
+    /// Rotates the values from `index` to the top by one place, up or down.
+    pub(super) fn rotate(self, index: c_int, up: bool) {
+        let top = lua_gettop(self);
+        let from = if index < 0 { top + index + 1 } else { index };
+        assert!((1..=top).contains(&from), "only what is there can be moved");
+        lua_rotate(self, Occupied(from), if up { 1 } else { -1 });
+    }
+}
+
+impl<'a> Room<'a> {
+    /// Pushes a number.
+    pub(super) fn push_number(self, number: f64) -> Top<'a> {
+        let stack = self.0;
+        lua_pushnumber(self, number);
+        Top(stack)
+    }
+}
+
+impl<'a> Top<'a> {
+    /// Pops the value into a list.
+    pub(super) fn set_index(self, table: Table, i: i64) -> Room<'a> {
+        let stack = self.0;
+        lua_rawseti(self, table, i);
+        Room(stack)
+    }
+
+    /// Puts a key below the value on top.
+    pub(super) fn with_name(self, name: &str) -> Pair<'a> {
+        let stack = self.0;
+        stack.push_bytes(name.as_bytes());
+        stack.rotate(-2, true);
+        Pair(stack)
+    }
+}
+
+/// The entries of a table, in Lua's order. While one is looked at, its key and value are on the stack.
+pub(crate) struct Entries<'a> {
+    stack: Stack<'a>,
+    table: c_int,
+    key: c_int,
+    is_first: bool,
+}
+
+impl<'a> Stack<'a> {
+    /// The entries of the table at `index`, which gets no new fields meanwhile. The key and value on top of the stack are popped by
+    /// [`Entries::advance`], together with what has been pushed since.
+    pub(crate) fn entries(self, index: c_int) -> Entries<'a> {
+        let table = self.table(index).0;
+        lua_pushnil(self.room_for(3));
+        Entries { stack: self, table, key: lua_gettop(self), is_first: true }
+    }
+}
+
+impl Entries<'_> {
+    /// The index of the key.
+    pub(crate) fn key(&self) -> c_int {
+        self.key
+    }
+
+    /// The index of the value.
+    pub(crate) fn value(&self) -> c_int {
+        self.key + 1
+    }
+
+    /// Goes to the next entry; false after the last one, or when the table has lost the current one.
+    pub(crate) fn advance(&mut self) -> bool {
+        let (stack, table) = (self.stack, self.stack.table(self.table));
+        stack.set_top(self.key);
+        match self.known_key(table) {
+            Some(key) => lua_next(key, table) != 0,
+            None => {
+                stack.pop(1);
+                false
+            }
+        }
+    }
+
+    /// Lua raises for a key that the table does not have.
+    fn known_key(&mut self, table: Table) -> Option<Known<'_>> {
+        let (stack, key) = (self.stack, Slot(self.key));
+        if std::mem::take(&mut self.is_first) {
+            return (lua_type(stack, key) == ffi::LUA_TNIL).then_some(Known(stack));
+        }
+        lua_pushvalue(stack.room(), key);
+        let is_known = lua_rawget(Top(stack), table) != ffi::LUA_TNIL;
+        lua_settop(stack, Occupied(self.key));
+        is_known.then_some(Known(stack))
     }
 }

@@ -1,11 +1,13 @@
 //! Compiling and calling Lua code, and inspecting the call stack.
 
-use std::ffi::{c_int, c_void};
+use std::ffi::{CStr, CString, c_char, c_int};
+use std::mem::MaybeUninit;
 
 use mlua::chunk::ChunkMode;
-use mlua::{Error, Lua, LuaOptions, StdLib, ffi};
+use mlua::{Error, Function, Lua, LuaOptions, StdLib, ffi};
 
 use super::api;
+use super::entry::{Exit, push_function};
 use super::seal::seal_top;
 use super::stack::Stack;
 
@@ -40,9 +42,10 @@ impl Stack<'_> {
     /// Compiles `code` (text or bytecode made by this binary) and pushes the chunk. Lua shows positions as `[string "name"]:line:`
     /// unless the name starts with `=` or `@`.
     pub(crate) fn load(self, code: &[u8], name: &str, bytecode: bool) -> Result<(), LuaError> {
-        let name = std::ffi::CString::new(name.replace('\0', " ")).unwrap_or_default();
+        let name = CString::new(name.replace('\0', " ")).unwrap_or_default();
         let mode = if bytecode { c"b" } else { c"t" };
-        // SAFETY: `luaL_loadbufferx` reports errors as values.
+        let _room = self.room();
+        // SAFETY: `luaL_loadbufferx` reports errors as values; there is room for one.
         let status = unsafe {
             ffi::luaL_loadbufferx(self.raw(), code.as_ptr().cast(), code.len(), name.as_ptr(), mode.as_ptr())
         };
@@ -52,14 +55,14 @@ impl Stack<'_> {
     /// Calls the function below its `arguments` on the stack, replacing them by `results` values.
     pub(crate) fn protected_call(self, arguments: c_int, results: c_int) -> Result<(), LuaError> {
         let handler = self.top() - arguments;
+        assert!(arguments >= 0 && handler > 0, "only what is there can be called");
+        assert!(results <= 0 || api::lua_checkstack(self, results) != 0, "stack overflow");
+        push_function(self, None, message_handler);
+        self.insert(handler);
         let budget = self.budget();
         let before = budget.enter(false);
-        // SAFETY: the handler goes below the function; `lua_pcall` catches every error.
-        let status = unsafe {
-            ffi::lua_pushcclosure(self.raw(), message_handler, 0);
-            ffi::lua_rotate(self.raw(), handler, 1);
-            ffi::lua_pcall(self.raw(), arguments, results, handler)
-        };
+        // SAFETY: the handler, the function and its arguments are on the stack, which has room for the results. Every error is caught.
+        let status = unsafe { ffi::lua_pcall(self.raw(), arguments, results, handler) };
         budget.leave(before);
         let outcome = if status == ffi::LUA_OK { Ok(()) } else { Err(self.pop_error()) };
         self.remove(handler);
@@ -74,15 +77,7 @@ impl Stack<'_> {
 
     /// The line being executed by the function `level` calls up; -1 when that is not a Lua function.
     pub(crate) fn current_line(self, level: c_int) -> c_int {
-        // SAFETY: `lua_Debug` is plain data that `lua_getstack` fills.
-        unsafe {
-            let mut record: ffi::lua_Debug = std::mem::zeroed();
-            if ffi::lua_getstack(self.raw(), level, &raw mut record) == 0 {
-                return -1;
-            }
-            ffi::lua_getinfo(self.raw(), c"l".as_ptr(), &raw mut record);
-            record.currentline
-        }
+        self.frame(level, c"l").map_or(-1, |frame| frame.line)
     }
 
     /// The text of Lua's own functions for an argument they do not take, told by the running callback.
@@ -98,24 +93,32 @@ impl Stack<'_> {
 
     /// The name the running function was called by, and whether as a method.
     fn called_as(self) -> (String, bool) {
-        // SAFETY: `lua_Debug` is plain data that `lua_getstack` fills; the names it points to are copied at once.
-        unsafe {
-            let mut record: ffi::lua_Debug = std::mem::zeroed();
-            if ffi::lua_getstack(self.raw(), 0, &raw mut record) == 0 {
-                return ("?".into(), false);
+        let frame = self.frame(0, c"n");
+        frame.and_then(|frame| Some((frame.name?, frame.is_method))).unwrap_or_else(|| ("?".into(), false))
+    }
+
+    /// What is asked for about the function `level` calls up.
+    fn frame(self, level: c_int, what: &'static CStr) -> Option<Frame> {
+        let mut record = MaybeUninit::<ffi::lua_Debug>::zeroed();
+        let text = |text: *const c_char| {
+            // SAFETY: names in a record are texts, which last until the function returns.
+            (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned())
+        };
+        // SAFETY: a record of zeros is valid; Lua fills in what is asked for, which pushes nothing.
+        let record = unsafe {
+            if ffi::lua_getstack(self.raw(), level, record.as_mut_ptr()) == 0 {
+                return None;
             }
-            ffi::lua_getinfo(self.raw(), c"n".as_ptr(), &raw mut record);
-            if record.name.is_null() {
-                return ("?".into(), false);
-            }
-            let text = |start| std::ffi::CStr::from_ptr(start).to_string_lossy().into_owned();
-            (text(record.name), text(record.namewhat) == "method")
-        }
+            ffi::lua_getinfo(self.raw(), what.as_ptr(), record.as_mut_ptr());
+            record.assume_init()
+        };
+        let is_method = text(record.namewhat).is_some_and(|kind| kind == "method");
+        Some(Frame { line: record.currentline, name: text(record.name), is_method })
     }
 
     /// `chunk:line: ` of the Lua function that called; nothing when that is none.
     fn place_of_call(self) -> String {
-        api::luaL_where(self.room(), 1);
+        api::luaL_where(self.large_room(), 1);
         let place = self.text(-1).unwrap_or_default();
         self.pop(1);
         String::from_utf8_lossy(&place).into_owned()
@@ -128,7 +131,8 @@ impl Stack<'_> {
 
     /// The same from a level on: 0 is the running function.
     pub(crate) fn traceback_from(self, level: c_int) -> String {
-        // SAFETY: pushes one string.
+        let _room = self.large_room();
+        // SAFETY: there is room for the text and its parts.
         unsafe { ffi::luaL_traceback(self.raw(), self.raw(), std::ptr::null(), level) };
         let text = self.text(-1).unwrap_or_default();
         self.pop(1);
@@ -137,32 +141,15 @@ impl Stack<'_> {
 
     /// Compiled form of the Lua function on top, which is popped.
     pub(crate) fn dump(self) -> Vec<u8> {
-        unsafe extern "C-unwind" fn write(
-            _: *mut ffi::lua_State,
-            block: *const c_void,
-            size: usize,
-            out: *mut c_void,
-        ) -> c_int {
-            // SAFETY: `out` is the vector below; `block` has `size` bytes.
-            unsafe { (*out.cast::<Vec<u8>>()).extend_from_slice(std::slice::from_raw_parts(block.cast(), size)) };
-            0
-        }
-        let mut out = Vec::new();
-        // SAFETY: `write` gets the vector it expects.
-        unsafe { ffi::lua_dump(self.raw(), write, (&raw mut out).cast(), 0) };
+        let function = self.to_mlua::<Function>(-1);
         self.pop(1);
-        out
+        function.map(|function| function.dump(false)).unwrap_or_default()
     }
 
     pub(crate) fn is_main_coroutine(self) -> bool {
-        self.push_running_coroutine();
-        // SAFETY: reads only.
-        let main = unsafe {
-            ffi::lua_rawgeti(self.raw(), ffi::LUA_REGISTRYINDEX, ffi::LUA_RIDX_MAINTHREAD);
-            ffi::lua_rawequal(self.raw(), -1, -2) != 0
-        };
-        self.pop(2);
-        main
+        let is_main = api::lua_pushthread(self.room()) != 0;
+        self.pop(1);
+        is_main
     }
 
     /// Pushes the coroutine this stack belongs to.
@@ -171,15 +158,22 @@ impl Stack<'_> {
     }
 }
 
+/// A function on the call stack.
+struct Frame {
+    line: c_int,
+    name: Option<String>,
+    is_method: bool,
+}
+
 /// Adds the traceback to string errors, and to those of Rust functions, and leaves other values alone, as `debug.traceback` does.
-unsafe extern "C-unwind" fn message_handler(raw: *mut ffi::lua_State) -> c_int {
-    // SAFETY: called by Lua with the error value at index 1.
-    unsafe {
-        seal_top(Stack::from_raw(raw));
-        if ffi::lua_type(raw, 1) == ffi::LUA_TSTRING || ffi::lua_type(raw, 1) == ffi::LUA_TNUMBER {
-            let message = ffi::lua_tolstring(raw, 1, std::ptr::null_mut());
-            ffi::luaL_traceback(raw, raw, message, 1);
-        }
-        1
+fn message_handler(stack: Stack<'_>) -> Exit {
+    seal_top(stack);
+    if let Some(mut message) = stack.text(-1) {
+        // Up to the first NUL, as in Lua.
+        message.truncate(message.iter().position(|&byte| byte == 0).unwrap_or(message.len()));
+        message.push(b'\n');
+        message.extend(stack.traceback_from(1).into_bytes());
+        stack.push_bytes(&message);
     }
+    Exit::Results(1)
 }

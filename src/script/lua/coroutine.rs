@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use mlua::ffi;
 
 use super::callback::panic_message;
-use super::guard::{guarded, install_raw, original};
+use super::guard::{Next, guarded, install};
 use super::{Stack, api};
 
 /// Virtual machine instructions between two checks of the budget.
@@ -20,17 +20,31 @@ pub(crate) type OnCount = fn(Stack<'_>, bool) -> Verdict;
 /// Where the process-wide decision function is kept: there is one host implementation, so a static suffices.
 static ON_COUNT: std::sync::OnceLock<OnCount> = std::sync::OnceLock::new();
 
-/// Makes `coroutine.create` and `coroutine.wrap` give new coroutines the count hook. Code outside of coroutines runs without a hook,
+/// Makes `coroutine.create` and `coroutine.wrap` set the count hook of new coroutines. Code outside of coroutines runs without a hook,
 /// at full speed, unless the state is watched.
 pub(crate) fn install_coroutine_hooks(stack: Stack<'_>, on_count: OnCount) {
     ON_COUNT.get_or_init(|| on_count);
     stack.push_global("coroutine");
-    install_raw(stack, "create", guarded::COROUTINE_CREATE, create);
-    install_raw(stack, "wrap", guarded::COROUTINE_WRAP, wrap);
+    install::<{ guarded::COROUTINE_CREATE }, _>(stack, "create", |_| Next::OriginalThen(hook_created));
+    install::<{ guarded::COROUTINE_WRAP }, _>(stack, "wrap", |_| Next::OriginalThen(hook_wrapped));
     stack.pop(1);
-    let interval = if stack.owner().is_interruptible() { HOOK_INTERVAL } else { 0 };
-    // SAFETY: the main coroutine of a living state.
-    unsafe { set_hook(stack.raw(), interval) };
+    if stack.owner().is_interruptible() {
+        stack.push_running_coroutine();
+        set_hook(stack, HOOK_INTERVAL);
+        stack.pop(1);
+    }
+}
+
+fn hook_created(stack: Stack<'_>) {
+    set_hook(stack, HOOK_INTERVAL);
+}
+
+/// The function `coroutine.wrap` returns has its coroutine as first upvalue.
+fn hook_wrapped(stack: Stack<'_>) {
+    if stack.push_upvalue(-1, 1) {
+        set_hook(stack, HOOK_INTERVAL);
+        stack.pop(1);
+    }
 }
 
 /// Switches the count hook of the running coroutine on or off. The main coroutine keeps what it has, and so does a watched state.
@@ -45,50 +59,20 @@ pub(crate) fn hasten_count_hook(stack: Stack<'_>) {
 
 fn set_interval(stack: Stack<'_>, interval: c_int) {
     let is_main = api::lua_pushthread(stack.room()) != 0;
-    stack.pop(1);
     if !is_main {
-        // SAFETY: a coroutine of a living state.
-        unsafe { set_hook(stack.raw(), interval) };
+        set_hook(stack, interval);
     }
+    stack.pop(1);
 }
 
-/// Sets the hook for every `interval` instructions; none with an interval of 0.
-unsafe fn set_hook(raw: *mut ffi::lua_State, interval: c_int) {
-    // SAFETY: `raw` is a coroutine of a living state.
+/// Sets the hook of the coroutine on top for every `interval` instructions; none with an interval of 0.
+fn set_hook(stack: Stack<'_>, interval: c_int) {
+    let mask = if interval > 0 { ffi::LUA_MASKCOUNT } else { 0 };
+    // SAFETY: null for what is no coroutine; a coroutine on the stack is alive.
     unsafe {
-        let mask = if interval > 0 { ffi::LUA_MASKCOUNT } else { 0 };
-        ffi::lua_sethook(raw, (mask != 0).then_some(hook as ffi::lua_Hook), mask, interval);
-    }
-}
-
-unsafe extern "C-unwind" fn create(raw: *mut ffi::lua_State) -> c_int {
-    // SAFETY: continues in Lua's function, which may raise; nothing is owned here.
-    unsafe {
-        let results = original(raw, guarded::COROUTINE_CREATE);
-        hook_new(raw, -1);
-        results
-    }
-}
-
-unsafe extern "C-unwind" fn wrap(raw: *mut ffi::lua_State) -> c_int {
-    // SAFETY: as above; the function `coroutine.wrap` returns keeps its coroutine as first upvalue.
-    unsafe {
-        let results = original(raw, guarded::COROUTINE_WRAP);
-        if !ffi::lua_getupvalue(raw, -1, 1).is_null() {
-            hook_new(raw, -1);
-            ffi::lua_settop(raw, -2);
-        }
-        results
-    }
-}
-
-/// Sets the hook of the coroutine at `index`, if there is one.
-unsafe fn hook_new(raw: *mut ffi::lua_State, index: c_int) {
-    // SAFETY: null for what is no coroutine.
-    unsafe {
-        let coroutine = ffi::lua_tothread(raw, index);
+        let coroutine = ffi::lua_tothread(stack.raw(), -1);
         if !coroutine.is_null() {
-            set_hook(coroutine, HOOK_INTERVAL);
+            ffi::lua_sethook(coroutine, (mask != 0).then_some(hook as ffi::lua_Hook), mask, interval);
         }
     }
 }
@@ -106,7 +90,7 @@ pub(crate) enum Verdict {
 unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
     // SAFETY: Lua calls the hook of a running coroutine. Yields and errors leave it by `longjmp`; nothing is owned here.
     unsafe {
-        match ask(Stack::from_raw(raw), ffi::lua_isyieldable(raw) != 0) {
+        match ask(Stack::from_raw(raw)) {
             Step::GoOn => {}
             Step::Yield => drop(ffi::lua_yield(raw, 0)),
             Step::Raise => ffi::lua_error(raw),
@@ -123,17 +107,17 @@ enum Step {
     Raise,
 }
 
-fn ask(stack: Stack<'_>, can_yield: bool) -> Step {
+fn ask(stack: Stack<'_>) -> Step {
     let Some(on_count) = ON_COUNT.get() else { return Step::GoOn };
     let budget = stack.budget();
     let before = budget.enter(true);
-    let step = follow(stack, || on_count(stack, can_yield));
+    let step = step(stack, || on_count(stack, api::lua_isyieldable(stack) != 0));
     budget.leave(before);
     step
 }
 
 /// A panic must not unwind through Lua: it becomes an error of the script.
-fn follow(stack: Stack<'_>, verdict: impl FnOnce() -> Verdict) -> Step {
+fn step(stack: Stack<'_>, verdict: impl FnOnce() -> Verdict) -> Step {
     match catch_unwind(AssertUnwindSafe(verdict)) {
         Ok(Verdict::GoOn) => Step::GoOn,
         Ok(Verdict::Yield) => Step::Yield,
@@ -150,15 +134,15 @@ fn follow(stack: Stack<'_>, verdict: impl FnOnce() -> Verdict) -> Step {
 
 #[cfg(test)]
 mod tests {
-    use super::{Step, Verdict, follow};
+    use super::{Step, Verdict, step};
     use crate::script::lua::tests::with_state;
 
     #[test]
     fn a_panic_of_the_host_is_an_error_of_the_script() {
         with_state(|state| {
-            assert_eq!(follow(state.stack(), || Verdict::Yield), Step::Yield);
-            assert_eq!(follow(state.stack(), || Verdict::GoOn), Step::GoOn);
-            assert_eq!(follow(state.stack(), || panic!("out of order")), Step::Raise);
+            assert_eq!(step(state.stack(), || Verdict::Yield), Step::Yield);
+            assert_eq!(step(state.stack(), || Verdict::GoOn), Step::GoOn);
+            assert_eq!(step(state.stack(), || panic!("out of order")), Step::Raise);
             let text = String::from_utf8(state.stack().text(-1).unwrap_or_default());
             assert!(text.as_ref().is_ok_and(|text| text.ends_with("out of order")), "{text:?}");
         });

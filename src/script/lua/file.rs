@@ -1,56 +1,50 @@
 //! Files of Lua's io library.
 
-use std::ffi::c_int;
+use std::ffi::{c_int, c_void};
 use std::io;
+use std::marker::PhantomData;
+#[cfg(unix)]
+use std::os::fd::BorrowedFd;
+use std::ptr::NonNull;
 
 use mlua::ffi;
 
 use super::stack::Stack;
-
-/// What to do with the lock of a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum FileLock {
-    Shared,
-    Exclusive,
-    Released,
-}
+use crate::io::FileLock;
 
 /// Lua's `luaL_Stream`.
 #[repr(C)]
 struct Stream {
-    file: *mut std::ffi::c_void,
-    /// Null once the file is closed.
-    close: Option<unsafe extern "C" fn()>,
+    file: Option<NonNull<c_void>>,
+    /// None once the file is closed.
+    close: Option<NonNull<c_void>>,
 }
 
 impl Stack<'_> {
     /// Changes the lock of the file at `index`, without waiting; None when that is not an open file.
     pub(crate) fn lock_file(self, index: c_int, lock: FileLock) -> Option<io::Result<()>> {
-        // SAFETY: userdata with that metatable are streams of Lua's io library.
+        let _room = self.large_room();
+        // SAFETY: userdata with that metatable are streams of Lua's io library. There is room for the metatables that are compared.
         let stream = unsafe { ffi::luaL_testudata(self.raw(), index, c"FILE*".as_ptr()).cast::<Stream>().as_ref() }?;
         stream.close?;
-        Some(apply(stream.file, lock))
+        Some(apply(File(stream.file?, PhantomData), lock))
     }
 }
 
+/// An open file of C's library.
+#[repr(transparent)]
+struct File<'a>(NonNull<c_void>, PhantomData<&'a Stream>);
+
 #[cfg(unix)]
-fn apply(file: *mut std::ffi::c_void, lock: FileLock) -> io::Result<()> {
+fn apply(file: File<'_>, lock: FileLock) -> io::Result<()> {
+    // SAFETY: as declared in stdio.h. It reads the descriptor of an open file, or returns -1, which is None.
     unsafe extern "C" {
-        fn fileno(file: *mut std::ffi::c_void) -> c_int;
-        fn flock(descriptor: c_int, operation: c_int) -> c_int;
+        safe fn fileno<'a>(file: File<'a>) -> Option<BorrowedFd<'a>>;
     }
-    const NO_WAIT: c_int = 4;
-    let operation = match lock {
-        FileLock::Shared => 1 | NO_WAIT,
-        FileLock::Exclusive => 2 | NO_WAIT,
-        FileLock::Released => 8,
-    };
-    // SAFETY: an open C file; both calls report failures.
-    let status = unsafe { flock(fileno(file), operation) };
-    if status == 0 { Ok(()) } else { Err(io::Error::last_os_error()) }
+    crate::io::lock_file(fileno(file).ok_or_else(io::Error::last_os_error)?, lock)
 }
 
 #[cfg(not(unix))]
-fn apply(_: *mut std::ffi::c_void, _: FileLock) -> io::Result<()> {
+fn apply(_: File<'_>, _: FileLock) -> io::Result<()> {
     Err(io::Error::new(io::ErrorKind::Unsupported, "not implemented in Swanilda on this system: lfs.lock"))
 }

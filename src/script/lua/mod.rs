@@ -6,17 +6,20 @@
 //! The discipline that makes it hold:
 //! - A [`State`] is used from one thread and closed once, by mlua, when nobody holds it any more.
 //! - A [`Stack`] is a view of one coroutine of a living state. It checks indices and types before it follows them, so that a mistake
-//!   is a wrong answer and not a wild pointer.
-//! - Lua raises errors by `longjmp`. Only [`Stack::protected_call`] runs code that may raise; callbacks raise as their very last
-//!   act, from a frame that owns nothing ([`callback`]). Allocation failure aborts (see `Pool`), so that pushing never raises
-//!   as long as what is pushed fits Lua's largest block: strings are cut to it, longer lists are refused before they are pushed
-//!   ([`LONGEST_LIST`], `Data::MAX_ITEMS`).
+//!   is a wrong answer or a panic, and not a wild pointer. Every push makes room for what it pushes.
+//! - [`api`] declares Lua's functions that cannot fail, with argument types that prove it; so they need no `unsafe` where they are called.
+//! - What reads the bytes of a string in place ([`Stack::with_bytes`]) is `Send`, so it has no access to the state that could free them.
+//! - Lua raises errors by `longjmp`. Only [`Stack::protected_call`] runs code that may raise; functions of ours raise as their very last
+//!   act, from a frame that owns nothing ([`entry`]). Going through a table ([`Entries`]) looks whether the table still has the key, since Lua
+//!   raises where it has not. Allocation failure aborts (see `Pool`), so that pushing never raises as long as what is pushed fits
+//!   Lua's largest block: strings are cut to it, longer lists are refused before they are pushed ([`LONGEST_LIST`], `Data::MAX_ITEMS`).
 
 mod api;
 mod callback;
 mod calls;
 mod coroutine;
 mod debug_library;
+mod entry;
 mod file;
 mod functions;
 mod guard;
@@ -32,7 +35,6 @@ pub(crate) use callback::{Callback, push_callback};
 pub(crate) use calls::{LuaError, MULTIPLE, compile};
 pub(crate) use coroutine::{HOOK_INTERVAL, Verdict, hasten_count_hook, install_coroutine_hooks, set_count_hook};
 pub(crate) use debug_library::restrict_debug;
-pub(crate) use file::FileLock;
 pub(crate) use object::Object;
 pub(crate) use seal::seal_argument;
 pub(crate) use stack::{Stack, Type};
@@ -43,19 +45,4 @@ pub(crate) use text_only::refuse_bytecode;
 use super::lifecycle::budget::Budget;
 
 #[cfg(test)]
-mod tests {
-    use std::rc::Rc;
-
-    use super::State;
-    use crate::scene::object::script_object::ScriptType;
-    use crate::script::lifecycle::env::Env;
-    use crate::script::{Detached, Languages, Options, Registry, Silent, Sim};
-
-    /// Calls `test` with a state that has the standard libraries only.
-    pub(super) fn with_state<T>(test: impl FnOnce(&State) -> T) -> T {
-        let registry = Registry::without_functions();
-        let sim = Sim::new(Options::default(), registry, Box::new(Silent), Languages::default());
-        let script = sim.scripts.add_detached(ScriptType::Sandbox, Detached::default());
-        test(&State::new(Rc::new(Env::new(&sim, &script))))
-    }
-}
+mod tests;

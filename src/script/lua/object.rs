@@ -39,7 +39,8 @@ impl Stack<'_> {
 
     /// Pushes an object of a class that is defined.
     pub(crate) fn push_object(self, object: Object) {
-        // SAFETY: pushes a block of that size, which Lua aligns for every type; it is written before anybody sees it.
+        let _room = self.room();
+        // SAFETY: there is room for one value. Pushes a block of that size, which Lua aligns for every type; it is written before anybody sees it.
         unsafe {
             let block = ffi::lua_newuserdatauv(self.raw(), size_of::<Object>(), 0).cast::<Object>();
             block.write(object);

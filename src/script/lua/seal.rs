@@ -3,16 +3,16 @@
 //! mlua raises userdata, on which `..` and `:find` fail. They become strings where scripts catch errors (`seal.lua`: in `pcall`, `xpcall`,
 //! `coroutine.resume` and `coroutine.close`), and in the host's own calls. So a call that succeeds costs nothing more.
 
-use std::ffi::{CStr, c_int};
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::ffi::c_int;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-use mlua::{Error, Value};
+use mlua::{Error, FromLua, Value};
 
 use super::callback::panic_text;
 use super::{Budget, Stack, Type};
 
-/// Where an error is for mlua to look at.
-const FAILURE: &CStr = c"swanilda.failure";
+/// Where mlua finds a value.
+const EXCHANGE: &str = "swanilda.exchange";
 
 /// A callback that returns its argument, as a string if it is an error of a Rust function.
 pub(crate) fn seal_argument(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
@@ -38,18 +38,23 @@ pub(super) fn seal_top(stack: Stack<'_>) {
 }
 
 fn failure(stack: Stack<'_>) -> Option<String> {
-    stack.push_value(-1);
-    stack.set_named_registry(FAILURE);
-    let name = FAILURE.to_str().expect("ASCII");
-    let lua = stack.lua();
     // A panic that mlua caught goes on when its userdata is looked at.
-    let value = catch_unwind(AssertUnwindSafe(|| lua.named_registry_value::<Value>(name)));
-    // Nobody reads the value there; a failure to remove it keeps one error alive.
-    let _ = lua.unset_named_registry_value(name);
-    match value {
+    match catch_unwind(AssertUnwindSafe(|| stack.to_mlua::<Value>(-1))) {
         Ok(Ok(Value::Error(error))) => Some(text_of(&error, stack.budget())),
         Ok(_) => None,
         Err(panic) => Some(format!("a Rust function panicked: {}", panic_text(&*panic))),
+    }
+}
+
+impl Stack<'_> {
+    /// The value at `index`, for mlua's functions.
+    pub(super) fn to_mlua<T: FromLua>(self, index: c_int) -> mlua::Result<T> {
+        self.push_value(index);
+        self.set_named_registry(EXCHANGE);
+        let value = catch_unwind(AssertUnwindSafe(|| self.lua().named_registry_value(EXCHANGE)));
+        self.push_nil();
+        self.set_named_registry(EXCHANGE);
+        value.unwrap_or_else(|panic| resume_unwind(panic))
     }
 }
 

@@ -2,9 +2,11 @@
 
 use std::ffi::{c_int, c_void};
 use std::marker::PhantomData;
+use std::ops::Deref;
 
 use mlua::{Lua, ffi};
 
+use super::api::Slot;
 use super::{Budget, api};
 use crate::script::lifecycle::env::Env;
 
@@ -17,6 +19,15 @@ const LONGEST_STRING: usize = 1 << 29;
 pub struct Stack<'a> {
     raw: *mut ffi::lua_State,
     _state: PhantomData<&'a ()>,
+}
+
+/// A string of a state, which Lua does not collect before this is dropped.
+pub(crate) struct SharedString(mlua::LuaString);
+
+impl SharedString {
+    pub(crate) fn bytes(&self) -> impl Deref<Target = [u8]> + '_ {
+        self.0.as_bytes()
+    }
 }
 
 /// The type of a Lua value.
@@ -67,19 +78,6 @@ impl<'a> Stack<'a> {
         api::lua_gettop(self)
     }
 
-    /// Cuts the stack to `top` values.
-    pub(crate) fn set_top(self, top: c_int) {
-        assert!((0..=self.top()).contains(&top), "a stack is only cut, never stretched");
-        // SAFETY: shrinking only.
-        unsafe { ffi::lua_settop(self.raw, top) }
-    }
-
-    pub(crate) fn pop(self, count: c_int) {
-        assert!((0..=self.top()).contains(&count), "only what is there can be popped");
-        // SAFETY: shrinking only.
-        unsafe { ffi::lua_settop(self.raw, -count - 1) }
-    }
-
     /// Makes room for `count` more values; false when the stack would grow past Lua's limit.
     pub(crate) fn reserve(self, count: usize) -> bool {
         c_int::try_from(count).is_ok_and(|n| api::lua_checkstack(self, n) != 0)
@@ -106,36 +104,48 @@ impl<'a> Stack<'a> {
         api::lua_toboolean(self, self.slot(index)) != 0
     }
 
-    /// The bytes of the string at `index`, which has to stay where it is while they are looked at.
-    pub(crate) fn bytes(&self, index: c_int) -> Option<&[u8]> {
+    /// Reads the bytes of the string at `index`. What reads them can be sent to another thread, so it has no access to any state, and the
+    /// string stays where it is meanwhile.
+    pub(crate) fn with_bytes<T>(self, index: c_int, read: impl FnOnce(&[u8]) -> T + Send) -> Option<T> {
         if self.kind(index) != Type::String {
             return None;
         }
         let mut length = 0;
-        // SAFETY: the value is a string, so nothing is converted; Lua strings do not move.
-        unsafe {
-            let start = ffi::lua_tolstring(self.raw, index, &raw mut length);
-            Some(std::slice::from_raw_parts(start.cast(), length))
-        }
+        let start = api::lua_tolstring(self, self.slot(index), Some(&mut length));
+        // SAFETY: the bytes of a string on the stack, which was not converted. They do not move, and are freed only by Lua: `read` cannot call
+        // it, since it holds nothing that leads to a state (`Stack`, `Lua`, `Env` are not `Send`).
+        Some(read(unsafe { std::slice::from_raw_parts(start.cast(), length) }))
+    }
+
+    /// The string at `index`, which stays alive while it is looked at, wherever else it is.
+    pub(crate) fn string(self, index: c_int) -> Option<SharedString> {
+        if self.kind(index) == Type::String { self.to_mlua(index).ok().map(SharedString) } else { None }
+    }
+
+    /// A copy of the bytes of the string at `index`.
+    pub(crate) fn bytes(self, index: c_int) -> Option<Vec<u8>> {
+        self.with_bytes(index, <[u8]>::to_vec)
     }
 
     /// The string or number at `index` as text.
     pub(crate) fn text(self, index: c_int) -> Option<Vec<u8>> {
         match self.kind(index) {
-            Type::String => self.bytes(index).map(<[u8]>::to_vec),
+            Type::String => self.bytes(index),
             Type::Number => {
+                // A copy, since Lua converts numbers in their place.
                 self.push_value(index);
-                let mut length = 0;
-                // SAFETY: converts the copy just pushed, then copies its bytes before it is popped.
-                let text = unsafe {
-                    let start = ffi::lua_tolstring(self.raw, -1, &raw mut length);
-                    std::slice::from_raw_parts(start.cast::<u8>(), length).to_vec()
-                };
+                api::lua_tolstring(self, self.slot(-1), None);
+                let text = self.bytes(-1);
                 self.pop(1);
-                Some(text)
+                text
             }
             _ => None,
         }
+    }
+
+    /// The number of the running function, which it got from `push_function`.
+    pub(super) fn number_of_function(self) -> i64 {
+        api::lua_tointegerx(self, Slot::NUMBER, None)
     }
 
     /// An address that identifies the table, function, thread or userdata at `index`.
@@ -175,20 +185,13 @@ impl<'a> Stack<'a> {
 
     /// Moves the top value to `index`.
     pub(crate) fn insert(self, index: c_int) {
-        self.rotate(index, 1);
+        self.rotate(index, true);
     }
 
     /// Removes the value at `index`.
     pub(crate) fn remove(self, index: c_int) {
-        self.rotate(index, -1);
+        self.rotate(index, false);
         self.pop(1);
-    }
-
-    fn rotate(self, index: c_int, by: c_int) {
-        let (index, top) = (self.absolute(index), self.top());
-        assert!((1..=top).contains(&index), "only what is there can be moved");
-        // SAFETY: rotates one or more existing values by one.
-        unsafe { ffi::lua_rotate(self.raw, index, by) }
     }
 
     /// The positive index of the same slot.

@@ -4,7 +4,7 @@ use std::ffi::{CStr, c_int};
 
 use mlua::ffi;
 
-use super::api;
+use super::api::{self, Table};
 use super::stack::{Stack, Type};
 use crate::script::runtime::FunctionRef;
 
@@ -17,11 +17,7 @@ pub(crate) const LONGEST_LIST: usize = 1 << 26;
 impl Stack<'_> {
     /// Replaces the key on top by `table[key]`.
     pub(crate) fn raw_get(self, table: c_int) -> Type {
-        let table = self.absolute(table);
-        self.expect_table(table);
-        // SAFETY: a table; raw access runs no code.
-        unsafe { ffi::lua_rawget(self.raw(), table) };
-        self.kind(-1)
+        Type::from_raw(api::lua_rawget(self.value(), self.table(table)))
     }
 
     /// Raw length of the table at `index`.
@@ -31,21 +27,13 @@ impl Stack<'_> {
 
     pub(crate) fn new_table(self, array: usize, fields: usize) {
         let hint = |n: usize| n.min(MAX_HINT) as c_int;
-        let _room = self.room();
-        // SAFETY: there is room for one value, and the hints are small.
-        unsafe { ffi::lua_createtable(self.raw(), hint(array), hint(fields)) }
-    }
-
-    fn expect_table(self, index: c_int) {
-        assert_eq!(self.kind(index), Type::Table, "raw access is for tables");
+        api::lua_createtable(self.room(), hint(array), hint(fields));
     }
 
     /// Pushes `table[i]`.
     pub(crate) fn raw_get_index(self, table: c_int, i: i64) -> Type {
-        self.expect_table(table);
-        let _room = self.room();
-        // SAFETY: a table, and room for one value; raw access runs no code.
-        Type::from_raw(unsafe { ffi::lua_rawgeti(self.raw(), table, i) })
+        let table = self.table(table);
+        Type::from_raw(api::lua_rawgeti(self.room(), table, i))
     }
 
     /// `table[i]` as a number, without leaving it on the stack.
@@ -67,74 +55,43 @@ impl Stack<'_> {
     /// Pushes a list of numbers.
     pub(crate) fn push_numbers(self, numbers: &[f64]) {
         self.new_table(numbers.len(), 0);
-        let _room = self.room();
+        let table = self.table(-1);
+        let mut room = self.room();
         for (i, &number) in (1..).zip(numbers) {
-            // SAFETY: the new table is on top, and there is room for one value, which goes into the table.
-            unsafe {
-                ffi::lua_pushnumber(self.raw(), number);
-                ffi::lua_rawseti(self.raw(), -2, i);
-            }
+            room = room.push_number(number).set_index(table, i);
         }
     }
 
     /// Pops a value into `table[i]`.
     pub(crate) fn raw_set_index(self, table: c_int, i: i64) {
-        self.expect_table(table);
-        // SAFETY: a table; raw access runs no code.
-        unsafe { ffi::lua_rawseti(self.raw(), table, i) }
+        api::lua_rawseti(self.value(), self.table(table), i);
     }
 
     /// Pushes `table[name]`.
     pub(crate) fn raw_get_field(self, table: c_int, name: &str) -> Type {
-        let table = self.absolute(table);
-        self.expect_table(table);
+        let table = self.table(table);
         self.push_bytes(name.as_bytes());
-        // SAFETY: a table; raw access runs no code.
-        unsafe { ffi::lua_rawget(self.raw(), table) };
-        self.kind(-1)
+        Type::from_raw(api::lua_rawget(self.value(), table))
     }
 
     /// Pops a value into `table[name]`.
     pub(crate) fn raw_set_field(self, table: c_int, name: &str) {
-        let table = self.absolute(table);
-        self.expect_table(table);
-        self.push_bytes(name.as_bytes());
-        self.insert(-2);
-        // SAFETY: a table and a string key.
-        unsafe { ffi::lua_rawset(self.raw(), table) }
+        let table = self.table(table);
+        api::lua_rawset(self.value().with_name(name), table);
     }
 
     /// Pops key and value into the table; nil and NaN keys are dropped.
     pub(crate) fn raw_set(self, table: c_int) {
-        let table = self.absolute(table);
-        self.expect_table(table);
-        // Only of numbers: asking a string for its number would parse it.
-        let is_key = match self.kind(-2) {
-            Type::Nil => false,
-            Type::Number => !self.number(-2).is_some_and(f64::is_nan),
-            _ => true,
-        };
-        if !is_key {
-            return self.pop(2);
+        let table = self.table(table);
+        match self.pair() {
+            Some(pair) => api::lua_rawset(pair, table),
+            None => self.pop(2),
         }
-        // SAFETY: a table and a valid key.
-        unsafe { ffi::lua_rawset(self.raw(), table) }
-    }
-
-    /// Pops a key, pushes the next key and value of the table; false at the end.
-    ///
-    /// The key must be nil or have come from this function, and the table must not have got new fields meanwhile:
-    /// between two calls nothing may be allocated in the state, or a finalizer might run.
-    pub(crate) fn next(self, table: c_int) -> bool {
-        self.expect_table(table);
-        // SAFETY: with a key from the same unchanged table `lua_next` does not raise.
-        unsafe { ffi::lua_next(self.raw(), table) != 0 }
     }
 
     /// Pushes the global table.
     pub(crate) fn push_globals(self) {
-        // SAFETY: the registry always holds the global table.
-        unsafe { ffi::lua_rawgeti(self.raw(), ffi::LUA_REGISTRYINDEX, ffi::LUA_RIDX_GLOBALS) };
+        api::lua_rawgeti(self.room(), Table::REGISTRY, ffi::LUA_RIDX_GLOBALS);
     }
 
     /// Pushes the global `name`, without metamethods.
@@ -153,52 +110,55 @@ impl Stack<'_> {
         self.pop(1);
     }
 
-    /// Pushes a value kept under `key` by [`set_registry`](Self::set_registry).
+    /// Pushes the value that [`set_registry`](Self::set_registry) stored under `key`.
     pub(crate) fn push_registry(self, key: &'static CStr) -> Type {
-        // SAFETY: raw access by the address of a static.
-        unsafe { ffi::lua_rawgetp(self.raw(), ffi::LUA_REGISTRYINDEX, key.as_ptr().cast()) };
-        self.kind(-1)
+        Type::from_raw(api::lua_rawgetp(self.room(), Table::REGISTRY, key.as_ptr().cast()))
     }
 
-    /// Pops a value and keeps it under `key`.
+    /// Pops a value and stores it under the address of `key`.
     pub(crate) fn set_registry(self, key: &'static CStr) {
-        // SAFETY: raw access by the address of a static.
-        unsafe { ffi::lua_rawsetp(self.raw(), ffi::LUA_REGISTRYINDEX, key.as_ptr().cast()) }
+        api::lua_rawsetp(self.value(), Table::REGISTRY, key.as_ptr().cast());
     }
 
-    /// Pops a value and keeps it under a name, where mlua finds it.
-    pub(crate) fn set_named_registry(self, name: &'static CStr) {
-        // SAFETY: raw access in effect, since the registry has no metatable.
-        unsafe { ffi::lua_setfield(self.raw(), ffi::LUA_REGISTRYINDEX, name.as_ptr()) }
+    /// Pops a value and stores it under a name, where mlua finds it.
+    pub(crate) fn set_named_registry(self, name: &'static str) {
+        api::lua_rawset(self.value().with_name(name), Table::REGISTRY);
     }
 
     /// Pushes the metatable of the value at `index`, if it has one.
     pub(crate) fn push_metatable(self, index: c_int) -> bool {
-        // SAFETY: reads only.
-        unsafe { ffi::lua_getmetatable(self.raw(), index) != 0 }
+        let slot = self.slot(index);
+        api::lua_getmetatable(self.room(), slot) != 0
     }
 
     /// Pops a table and makes it the metatable of the table or userdata at `index`.
     pub(crate) fn set_metatable(self, index: c_int) {
-        self.expect_table(-1);
+        self.table(-1);
+        assert!(matches!(self.kind(index), Type::Table | Type::UserData), "other values share their metatable");
         // SAFETY: a metatable, and something that has one of its own.
         unsafe { ffi::lua_setmetatable(self.raw(), index) };
     }
 
+    /// Pushes upvalue `number` of the function at `index`, if it has that many.
+    pub(super) fn push_upvalue(self, index: c_int, number: c_int) -> bool {
+        let slot = self.slot(index);
+        !api::lua_getupvalue(self.room(), slot, number).is_null()
+    }
+
     /// Pops a function and keeps it.
     pub(crate) fn keep_function(self) -> FunctionRef {
-        // SAFETY: pops the top into the registry.
-        FunctionRef::new(unsafe { ffi::luaL_ref(self.raw(), ffi::LUA_REGISTRYINDEX) })
+        FunctionRef::new(api::luaL_ref(self.value(), Table::REGISTRY))
     }
 
     pub(crate) fn push_function(self, function: FunctionRef) -> Type {
-        // SAFETY: reads the registry.
-        unsafe { ffi::lua_rawgeti(self.raw(), ffi::LUA_REGISTRYINDEX, i64::from(function.number())) };
-        self.kind(-1)
+        Type::from_raw(api::lua_rawgeti(self.room(), Table::REGISTRY, i64::from(function.number())))
     }
 
     pub(crate) fn release_function(self, function: FunctionRef) {
-        // SAFETY: a reference from `keep_function`, released once.
-        unsafe { ffi::luaL_unref(self.raw(), ffi::LUA_REGISTRYINDEX, function.number()) }
+        // Anything else in the registry is not ours to release.
+        if self.push_function(function) == Type::Function {
+            api::luaL_unref(self, Table::REGISTRY, function.number());
+        }
+        self.pop(1);
     }
 }

@@ -28,7 +28,7 @@ fn set_text_mode(stack: Stack<'_>, mode: c_int) -> Next {
     }
     match stack.kind(mode) {
         Type::Nil => {}
-        Type::String if stack.bytes(mode).is_some_and(|mode| mode.contains(&b't')) => {}
+        Type::String if stack.with_bytes(mode, |mode| mode.contains(&b't')) == Some(true) => {}
         Type::String => {
             stack.push_nil();
             stack.push_bytes(b"bytecode is switched off (--no-unsafe).");

@@ -17,8 +17,9 @@ pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
 /// Gets the name of a stream, and what a script has written there.
 fn write(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let sim = stack.owner().sim.upgrade().ok_or("the simulator is gone.")?;
-    let stream = if stack.bytes(1) == Some(b"stderr") { Stream::Error } else { Stream::Output };
+    let is_error = stack.with_bytes(1, |name| name == b"stderr") == Some(true);
+    let stream = if is_error { Stream::Error } else { Stream::Output };
     let time = sim.clock.time();
-    sim.log.write(stack.bytes(2).unwrap_or_default(), stream, time);
+    sim.log.write(&stack.bytes(2).unwrap_or_default(), stream, time);
     Ok(0)
 }

@@ -246,11 +246,11 @@ fn install_sim(stack: Stack<'_>) {
 
 fn index_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let Some(name) = stack.bytes(2) else { return Ok(0) };
-    let Ok(name) = std::str::from_utf8(name) else { return Ok(0) };
-    push_member(stack, name)?;
+    let Ok(name) = String::from_utf8(name) else { return Ok(0) };
+    push_member(stack, &name)?;
     if stack.kind(-1) != Type::Nil {
         stack.push_value(-1);
-        stack.raw_set_field(1, name);
+        stack.raw_set_field(1, &name);
     }
     Ok(1)
 }
@@ -272,10 +272,12 @@ fn pairs_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 
 /// Old global names: `simGetObjectHandle` is `sim.getObjectHandle`, `sim_handle_all` is `sim.handle_all`.
 fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    let Some(name) = stack.bytes(2).and_then(|name| std::str::from_utf8(name).ok()) else { return Ok(0) };
+    // Most of what scripts look for in vain is something else, which is not worth a copy.
+    let Some(true) = stack.with_bytes(2, |name| name.starts_with(b"sim")) else { return Ok(0) };
+    let Ok(name) = String::from_utf8(stack.bytes(2).unwrap_or_default()) else { return Ok(0) };
     let Some(rest) = name.strip_prefix("sim") else { return Ok(0) };
     let members = stack.owner().registry.members_of_sim();
-    let member = match members.of_old_name(name) {
+    let member = match members.of_old_name(&name) {
         Some(member) => member.to_owned(),
         None => match (rest.strip_prefix('_'), rest.chars().next()) {
             (Some(constant), _) => constant.to_owned(),

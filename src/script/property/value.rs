@@ -37,17 +37,21 @@ impl PropertyName {
     }
 }
 
+impl PropertyName {
+    fn short(name: &[u8]) -> Option<Self> {
+        let mut bytes = [0; Self::SHORT];
+        bytes.get_mut(..name.len())?.copy_from_slice(name);
+        std::str::from_utf8(name).is_ok().then_some(Self::Short { bytes, length: name.len() })
+    }
+}
+
 impl FromScript for PropertyName {
     const TYPE: &'static str = "string";
 
     fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> ApiResult<Self> {
-        match args.bytes() {
-            Some(name) if name.len() <= Self::SHORT && std::str::from_utf8(name).is_ok() => {
-                let mut bytes = [0; Self::SHORT];
-                bytes[..name.len()].copy_from_slice(name);
-                Ok(Self::Short { bytes, length: name.len() })
-            }
-            _ => String::from_script(args).map(Self::Long),
+        match args.with_bytes(Self::short).flatten() {
+            Some(name) => Ok(name),
+            None => String::from_script(args).map(Self::Long),
         }
     }
 }

@@ -1,0 +1,25 @@
+//! Locks of open files, shared with other programs.
+
+use std::io;
+#[cfg(unix)]
+use std::os::fd::BorrowedFd;
+
+/// What to do with the lock of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FileLock {
+    Shared,
+    Exclusive,
+    Released,
+}
+
+/// Changes the lock of an open file, without waiting.
+#[cfg(unix)]
+pub(crate) fn lock_file(file: BorrowedFd<'_>, lock: FileLock) -> io::Result<()> {
+    use rustix::fs::{FlockOperation, flock};
+    let operation = match lock {
+        FileLock::Shared => FlockOperation::NonBlockingLockShared,
+        FileLock::Exclusive => FlockOperation::NonBlockingLockExclusive,
+        FileLock::Released => FlockOperation::Unlock,
+    };
+    Ok(flock(file, operation)?)
+}

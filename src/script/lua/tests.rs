@@ -1,0 +1,113 @@
+//! Tests of the edge to Lua as a whole.
+
+use std::marker::PhantomData;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::rc::{Rc, Weak};
+
+use super::{Stack, State, push_callback};
+use crate::scene::object::script_object::ScriptType;
+use crate::script::lifecycle::env::Env;
+use crate::script::{Detached, Languages, Options, Registry, Silent, Sim};
+
+/// Calls `test` with a state that has the standard libraries only.
+pub(super) fn with_state<T>(test: impl FnOnce(&State) -> T) -> T {
+    let registry = Registry::without_functions();
+    let sim = Sim::new(Options::default(), registry, Box::new(Silent), Languages::default());
+    let script = sim.scripts.add_detached(ScriptType::Sandbox, Detached::default());
+    test(&State::new(Rc::new(Env::new(&sim, &script))))
+}
+
+#[test]
+fn entries_end_when_the_table_loses_the_current_key() {
+    with_state(|state| {
+        let stack = state.stack();
+        stack.new_table(0, 0);
+        for i in 1..=3 {
+            stack.push_int(i);
+            stack.raw_set_field(1, &i.to_string());
+        }
+        let mut entries = stack.entries(1);
+        assert!(entries.advance());
+        stack.push_value(entries.key());
+        stack.push_nil();
+        stack.raw_set(1);
+        // New fields move the others, and the removed key is forgotten: Lua would raise.
+        for i in 10..100 {
+            stack.push_int(i);
+            stack.raw_set_index(1, i);
+        }
+        assert!(!entries.advance());
+        assert_eq!(stack.top(), 1);
+    });
+}
+
+#[test]
+fn entries_are_all_there_whatever_is_left_on_the_stack() {
+    with_state(|state| {
+        let stack = state.stack();
+        stack.push_numbers(&[1.5, 2.5, 3.5]);
+        let (mut entries, mut sum) = (stack.entries(1), 0.0);
+        while entries.advance() {
+            sum += [entries.key(), entries.value()].map(|at| stack.number(at).unwrap_or_default()).iter().sum::<f64>();
+            stack.push_bytes(b"more");
+        }
+        assert_eq!((sum, stack.top()), (13.5, 1));
+    });
+}
+
+#[test]
+fn a_mistake_of_ours_is_a_panic() {
+    with_state(|state| {
+        let stack = state.stack();
+        let panics = |mistake: &dyn Fn(Stack<'_>)| catch_unwind(AssertUnwindSafe(|| mistake(stack))).is_err();
+        stack.push_int(1);
+        let with_one_value: [&dyn Fn(Stack<'_>); 8] = [
+            &|stack| stack.pop(2),
+            &|stack| stack.set_top(2),
+            &|stack| stack.insert(5),
+            &|stack| stack.push_value(3),
+            &|stack| stack.raw_set(1),
+            &|stack| assert_ne!(stack.raw_get(1), super::Type::None),
+            &|stack| stack.set_metatable(1),
+            &|stack| assert!(stack.protected_call(1, 0).is_ok()),
+        ];
+        assert!(with_one_value.iter().all(|mistake| panics(mistake)));
+        stack.pop(1);
+        assert!(panics(&|stack| stack.set_registry(c"none")));
+        assert!(panics(&|stack| stack.release_function(stack.keep_function())));
+        assert_eq!(stack.top(), 0);
+    });
+}
+
+#[test]
+fn a_panic_of_a_callback_is_an_error_that_scripts_can_catch() {
+    with_state(|state| {
+        let broken = |_: Stack<'_>, number| if number == 7 { panic!("out of order") } else { Ok(0) };
+        push_callback(state.stack(), broken, 7);
+        state.stack().set_global("broken");
+        let text: String = state.lua().load("return select(2, pcall(broken, 1, 2))").eval().expect("runs");
+        assert!(text.ends_with("out of order"), "{text}");
+    });
+}
+
+/// `Stack::with_bytes` relies on it.
+#[test]
+fn nothing_that_leads_to_a_state_can_be_sent() {
+    struct Check<T>(PhantomData<T>);
+    trait Otherwise {
+        const IS_SEND: bool = false;
+    }
+    impl<T> Otherwise for Check<T> {}
+    impl<T: Send> Check<T> {
+        const IS_SEND: bool = true;
+    }
+    let states = [
+        Check::<Stack<'static>>::IS_SEND,
+        Check::<State>::IS_SEND,
+        Check::<&State>::IS_SEND,
+        Check::<mlua::Lua>::IS_SEND,
+        Check::<mlua::Table>::IS_SEND,
+        Check::<Weak<Sim>>::IS_SEND,
+    ];
+    assert_eq!((Check::<&mut Vec<u8>>::IS_SEND, states), (true, [false; 6]));
+}
