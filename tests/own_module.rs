@@ -163,6 +163,38 @@ fn errors_are_strings_with_the_line_of_the_call() {
 }
 
 #[test]
+fn closed_variables_and_readers_of_chunks_see_strings_too() {
+    let lines = run("local function closing() return setmetatable({}, {__close = function(_, problem) print(problem .. '') end}) end
+        print(pcall(function()
+            local x <close> = closing()
+            mine.fail('closed')
+        end))
+        local co = coroutine.wrap(function()
+            return pcall(function()
+                local x <close> = closing()
+                coroutine.yield(1)
+                mine.fail('closed after a yield')
+            end)
+        end)
+        print(co(), co())
+        print(pcall(load, function() mine.fail('while reading') end))
+        print(coroutine.wrap(function() return load(function() mine.fail('in a coroutine') end) end)())
+        print(load('return ...', '=x', 't', {})(7), load('return +'))
+        print((pcall(pcall)), (pcall(load)))");
+    let expected = [
+        "5: in mine.fail: closed",
+        "false, 5: in mine.fail: closed",
+        "11: in mine.fail: closed after a yield",
+        "1, false, 11: in mine.fail: closed after a yield",
+        "true, nil, 15: in mine.fail: while reading",
+        "nil, 16: in mine.fail: in a coroutine",
+        "7, nil, [string \"return +\"]:1: unexpected symbol near '+'",
+        "false, false",
+    ];
+    assert_eq!(lines, expected);
+}
+
+#[test]
 fn a_panic_is_an_error_of_the_script() {
     let lines = run("print(pcall(mine.explode))
         print(pcall(function() mine.counter():explode() end))
