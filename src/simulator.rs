@@ -118,7 +118,7 @@ impl Simulator {
     /// When the server cannot start.
     pub fn serve_zmq(&mut self, listener: TcpListener, stop: Arc<AtomicBool>) -> std::io::Result<SocketAddr> {
         let address = listener.local_addr()?;
-        let server = ZmqServer::start(self.sim.channels.event_loop()?, listener, stop)?;
+        let server = ZmqServer::start(self.sim.event_loop.get()?, listener, stop)?;
         modules::remote::set_zmq_server(&self.sim.modules.states, server);
         let port = address.port().to_string().into_bytes();
         self.sim.app.borrow_mut().named_params.insert("zmqRemoteApi.rpcPort".to_owned(), port);
@@ -147,7 +147,7 @@ impl Simulator {
 
     /// Waits until something has arrived from outside, at most that long; false at once when nothing can, for want of sockets.
     pub fn wait_for_request(&self, patience: Duration) -> bool {
-        self.sim.channels.wait_for_arrival(patience)
+        self.sim.event_loop.wait_for_input(patience)
     }
 
     /// Whether scripts have ZeroMQ sockets, whose messages `wait_for_request` does not notice.

@@ -14,7 +14,7 @@ mod scripts;
 mod sensors;
 mod shapes;
 
-use crate::script::Module;
+use crate::script::{Hooks, Module};
 
 pub(crate) use crate::script::{ApiError, ApiResult as Result, functions};
 pub use crate::script::{ApiFn, Args, Cx, FromScript, IntoScript, Param};
@@ -80,6 +80,7 @@ pub(crate) static SIM: Module = Module {
     reference: include_str!("tables/reference.tsv"),
     old_names: include_str!("tables/old_names.tsv"),
     lua_members: Some("sim/"),
+    hooks: Hooks { end_of_simulation: Some(files::serial::end_simulation), ..Hooks::NONE },
     ..Module::new("sim")
 };
 

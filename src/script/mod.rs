@@ -4,9 +4,9 @@
 
 mod binding;
 mod calls;
-pub(crate) mod channels;
 pub mod coverage;
 mod error;
+mod event_loop;
 mod events;
 pub(crate) mod files;
 mod lifecycle;
@@ -23,6 +23,7 @@ pub use binding::args::{
     Args, Bytes, FromScript, Handles, LuaNumber, LuaString, Number, ObjectRef, Rest, ScriptFunction, Table,
 };
 pub use binding::cx::Cx;
+pub use binding::hooks::{Hooks, Host, ModuleHook};
 pub use binding::module::Module;
 pub use binding::returns::{IntoScript, Nil, Results};
 #[doc(hidden)]

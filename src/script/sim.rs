@@ -9,8 +9,8 @@ use std::sync::atomic::AtomicBool;
 
 use super::binding::registry::{Modules, Registry};
 use super::binding::states::States;
-use super::channels::Channels;
 use super::coverage::LineCounts;
+use super::event_loop::SharedEventLoop;
 use super::events::EventStream;
 use super::lifecycle::instance::Script;
 use super::lifecycle::random::Random;
@@ -88,7 +88,7 @@ pub struct Limits {
 /// Everything a running simulator consists of. Borrows of the parts never outlive a statement that calls a script.
 pub(crate) struct Sim {
     pub options: Options,
-    /// What scripts can reach, and what modules keep.
+    /// The modules scripts can use, with their state.
     pub modules: Modules,
     pub languages: Languages,
     pub scene: RefCell<Scene>,
@@ -100,7 +100,7 @@ pub(crate) struct Sim {
     pub removals: Removals,
     pub app: RefCell<AppData>,
     pub signal_owners: RefCell<SignalOwners>,
-    pub channels: Channels,
+    pub event_loop: SharedEventLoop,
     pub events: EventStream,
     /// Where a test's runner waits.
     pub test_bench: OnceCell<Rc<TestBench>>,
@@ -127,7 +127,7 @@ impl Sim {
             dynamics: RefCell::new(Some(Dynamics::default())),
             removals: Removals::default(),
             signal_owners: RefCell::default(),
-            channels: Channels::default(),
+            event_loop: SharedEventLoop::default(),
             events: EventStream::new(),
             test_bench: OnceCell::new(),
             line_counts: RefCell::default(),

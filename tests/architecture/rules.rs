@@ -32,6 +32,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("dejavu", "src/testing/golden/plot.rs"),
     ("directories", "src/script/files/app_storage"),
     ("dns_lookup", "src/io/socket"),
+    ("fs4", "src/api/files"),
     ("fs4", "src/script"),
     ("futures", "src/io"),
     ("geometry", "crates/articulation"),
@@ -151,7 +152,6 @@ const SCRIPT: Rooms = &[
         "binding",
         &[
             "calls",
-            "channels",
             "coverage",
             "error",
             "events",
@@ -168,7 +168,7 @@ const SCRIPT: Rooms = &[
         ],
     ),
     ("calls", &["binding", "error", "lifecycle", "log", "runtime", "sim"]),
-    ("channels", &["binding", "calls", "error", "lifecycle", "log", "sim", "step"]),
+    ("event_loop", &[]),
     ("coverage", &["error", "lifecycle", "log", "runtime", "sim"]),
     ("events", &["calls", "error", "lifecycle", "log", "property", "sim", "step"]),
     ("files", &["calls", "error", "lifecycle", "log", "sim", "step"]),
@@ -179,7 +179,7 @@ const SCRIPT: Rooms = &[
         &[
             "binding",
             "calls",
-            "channels",
+            "event_loop",
             "coverage",
             "error",
             "events",

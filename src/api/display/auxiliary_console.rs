@@ -4,6 +4,7 @@
 
 use api_macro::api;
 
+use crate::api::files::semaphores;
 use crate::api::{ApiFn, Cx, Result, functions};
 use crate::scene::Data;
 use crate::script::log::verbosity;
@@ -98,8 +99,8 @@ fn get_simulator_message(_cx: &Cx) -> Result<(i64, Vec<i64>, Data)> {
 #[api("sim.systemSemaphore")]
 fn system_semaphore(cx: &mut Cx, key: Bytes, acquire: bool) -> Result<()> {
     if acquire {
-        return cx.acquire_semaphore(&key.0);
+        return semaphores::acquire(cx, &key.0);
     }
-    cx.release_semaphore(&key.0);
+    semaphores::release(cx, &key.0);
     Ok(())
 }

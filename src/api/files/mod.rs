@@ -2,4 +2,5 @@
 
 pub(in crate::api) mod program;
 pub(in crate::api) mod scene_file;
+pub(in crate::api) mod semaphores;
 pub(in crate::api) mod serial;

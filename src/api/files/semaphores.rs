@@ -2,28 +2,28 @@
 //!
 //! Each is a locked file in the folder for temporary files, so that it is free again when its holder dies.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fs::File;
 
 use fs4::{FileExt, TryLockError};
 
-use crate::script::error::{ApiError, ApiResult};
-use crate::script::sim::Sim;
+use crate::api::{ApiError, Cx, Result};
 
 /// File names are not longer, in bytes of the key.
 const LONGEST_KEY: usize = 100;
 
 /// Those this simulator holds, by key.
 #[derive(Default)]
-pub(crate) struct SystemSemaphores(BTreeMap<Vec<u8>, File>);
+struct Held(RefCell<BTreeMap<Vec<u8>, File>>);
 
-impl SystemSemaphores {
+impl Held {
     /// Acquires the semaphore, unless this simulator holds it already; None while another program holds it.
     ///
     /// # Errors
     /// When the key is too long or its file cannot be made.
-    fn try_acquire(&mut self, key: &[u8]) -> Result<Option<()>, String> {
-        if self.0.contains_key(key) {
+    fn try_acquire(&self, key: &[u8]) -> std::result::Result<Option<()>, String> {
+        if self.0.borrow().contains_key(key) {
             return Ok(Some(()));
         }
         if key.len() > LONGEST_KEY {
@@ -38,65 +38,39 @@ impl SystemSemaphores {
             Err(TryLockError::WouldBlock) => return Ok(None),
             Err(TryLockError::Error(error)) => return Err(failed(error)),
         }
-        self.0.insert(key.to_vec(), file);
+        self.0.borrow_mut().insert(key.to_vec(), file);
         Ok(Some(()))
-    }
-
-    /// Releases a semaphore, if it is held.
-    pub(crate) fn release(&mut self, key: &[u8]) {
-        self.0.remove(key);
     }
 }
 
-impl Sim {
-    /// Waits until no other program holds the semaphore; at once if this simulator does already.
-    ///
-    /// # Errors
-    /// When the key is too long, its file cannot be made, or the user wants the program to end.
-    pub(crate) fn acquire_semaphore(&self, key: &[u8]) -> ApiResult<()> {
-        let attempt = || self.channels.semaphores.borrow_mut().try_acquire(key).transpose();
-        let acquired = self.wait_for(None, attempt)?;
-        acquired.transpose().map(drop).map_err(ApiError::Other)
-    }
+/// Waits until no other program holds the semaphore; at once if this simulator does already.
+///
+/// # Errors
+/// When the key is too long, its file cannot be made, or the user wants the program to end.
+pub(in crate::api) fn acquire(cx: &mut Cx, key: &[u8]) -> Result<()> {
+    let held = cx.module_state::<Held>();
+    let acquired = cx.wait_for(None, || held.try_acquire(key).transpose())?;
+    acquired.transpose().map(drop).map_err(ApiError::Other)
+}
+
+/// Releases a semaphore, if it is held.
+pub(in crate::api) fn release(cx: &mut Cx, key: &[u8]) {
+    cx.module_state::<Held>().0.borrow_mut().remove(key);
 }
 
 #[cfg(test)]
 mod tests {
-    use std::sync::atomic::Ordering;
-    use std::time::Duration;
-
-    use crate::script::{ApiError, Languages, Options, Registry, Silent, Sim};
-
-    /// Runs with a simulator of its own.
-    fn with_sim<R>(options: Options, test: impl FnOnce(&Sim) -> R) -> R {
-        test(&Sim::new(options, Registry::without_functions(), Box::new(Silent), Languages::default()))
-    }
+    use super::{Held, LONGEST_KEY};
 
     #[test]
-    fn a_wait_ends_when_the_program_is_to_end() {
+    fn one_simulator_holds_it_at_a_time() {
         let key = format!("test of {}", std::process::id()).into_bytes();
-        with_sim(Options::default(), |holder| {
-            assert_eq!(holder.acquire_semaphore(&key), Ok(()));
-            assert_eq!(holder.acquire_semaphore(&key), Ok(()), "it has it already");
-            let options = Options::default();
-            let stop = options.stop.clone();
-            let waiting = {
-                let key = key.clone();
-                std::thread::spawn(move || with_sim(options, |sim| sim.acquire_semaphore(&key)))
-            };
-            assert!(!waiting.is_finished());
-            stop.store(true, Ordering::Relaxed);
-            assert_eq!(waiting.join().expect("it does not panic"), Err(ApiError::Interrupted));
-            holder.channels.semaphores.borrow_mut().release(&key);
-        });
-        with_sim(Options::default(), |next| assert_eq!(next.acquire_semaphore(&key), Ok(()), "it is free"));
-    }
-
-    #[test]
-    fn a_wait_with_a_limit_ends() {
-        with_sim(Options::default(), |sim| {
-            assert_eq!(sim.wait_for(Some(Duration::from_millis(2)), || None::<()>), Ok(None));
-            assert_eq!(sim.wait_for(Some(Duration::ZERO), || Some(1)), Ok(Some(1)), "the answer is asked for first");
-        });
+        let (first, second) = (Held::default(), Held::default());
+        assert_eq!(first.try_acquire(&key), Ok(Some(())));
+        assert_eq!(first.try_acquire(&key), Ok(Some(())), "the holder acquires it again");
+        assert_eq!(second.try_acquire(&key), Ok(None));
+        first.0.borrow_mut().clear();
+        assert_eq!(second.try_acquire(&key), Ok(Some(())));
+        assert!(second.try_acquire(&[0; LONGEST_KEY + 1]).is_err());
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! Ports belong to the simulator, so that scripts may share a handle; they are closed when the simulation ends.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
@@ -9,10 +10,21 @@ use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::io::SerialPort;
-use crate::script::{Bytes, Number};
+use crate::script::{ByHandle, Bytes, Host, Number};
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![serial_open, serial_close, serial_send, serial_check, serial_read, serial_rest];
+
+/// The open ports of a simulator.
+#[derive(Default)]
+struct Ports(RefCell<ByHandle<SerialPort>>);
+
+/// Closes all ports: they last no longer than a simulation.
+pub(in crate::api) fn end_simulation(host: &Host) {
+    if let Some(ports) = host.module_state::<Ports>() {
+        ports.0.borrow_mut().clear();
+    }
+}
 
 /// The port is not open, or the device is gone.
 const FAILED: i64 = -1;
@@ -21,7 +33,8 @@ const NOTHING_TO_SEND: i64 = -5;
 
 #[api("sim._serialOpen")]
 fn serial_open(cx: &mut Cx, port_string: String, baud_rate: Number) -> Result<i64> {
-    let mut ports = cx.serial_ports_mut();
+    let ports = cx.module_state::<Ports>();
+    let mut ports = ports.0.borrow_mut();
     if ports.values().any(|port| port.path() == port_string) {
         return Ok(FAILED);
     }
@@ -30,7 +43,7 @@ fn serial_open(cx: &mut Cx, port_string: String, baud_rate: Number) -> Result<i6
 
 #[api("sim._serialClose")]
 fn serial_close(cx: &mut Cx, port_handle: Number) -> Result<()> {
-    cx.serial_ports_mut().remove(port_handle.0).map(drop).ok_or_else(unknown)
+    cx.module_state::<Ports>().0.borrow_mut().remove(port_handle.0).map(drop).ok_or_else(unknown)
 }
 
 /// Sends bytes through a serial port.
@@ -41,7 +54,8 @@ fn serial_close(cx: &mut Cx, port_handle: Number) -> Result<()> {
 #[api("sim.serialSend")]
 fn serial_send(cx: &mut Cx, port_handle: Number, data: Bytes) -> Result<i64> {
     let stop = Arc::clone(&cx.options().stop);
-    let mut ports = cx.serial_ports_mut();
+    let ports = cx.module_state::<Ports>();
+    let mut ports = ports.0.borrow_mut();
     let port = ports.get_mut(port_handle.0).ok_or_else(unknown)?;
     Ok(match (data.0.len(), port.write(&data.0, || stop.load(Ordering::Relaxed))) {
         (0, _) => NOTHING_TO_SEND,
@@ -56,7 +70,8 @@ fn serial_send(cx: &mut Cx, port_handle: Number, data: Bytes) -> Result<i64> {
 /// @return byteCount -1 when the device is gone
 #[api("sim.serialCheck")]
 fn serial_check(cx: &mut Cx, port_handle: Number) -> Result<i64> {
-    let mut ports = cx.serial_ports_mut();
+    let ports = cx.module_state::<Ports>();
+    let mut ports = ports.0.borrow_mut();
     let port = ports.get_mut(port_handle.0).ok_or_else(unknown)?;
     Ok(port.available().map_or(FAILED, |count| count as i64))
 }
@@ -64,7 +79,8 @@ fn serial_check(cx: &mut Cx, port_handle: Number) -> Result<i64> {
 /// Bytes that are there, at most `length` of them; nothing when there are none, or no such port.
 #[api("sim._serialRead")]
 fn serial_read(cx: &mut Cx, port_handle: Number, length: Number) -> Result<Option<Bytes>> {
-    let mut ports = cx.serial_ports_mut();
+    let ports = cx.module_state::<Ports>();
+    let mut ports = ports.0.borrow_mut();
     let bytes = ports.get_mut(port_handle.0).map(|port| port.read(usize::try_from(length.0).unwrap_or(0)));
     Ok(bytes.filter(|bytes| !bytes.is_empty()).map(Bytes))
 }

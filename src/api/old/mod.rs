@@ -6,4 +6,5 @@ pub(in crate::api) mod object_param;
 pub(in crate::api) mod script;
 pub(in crate::api) mod signal;
 pub(in crate::api) mod tube;
+mod tubes;
 pub(in crate::api) mod user_param;

@@ -1,14 +1,35 @@
 //! `sim.tube*`: tubes between two scripts, as V-REP had them.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use api_macro::api;
 
 use crate::api::{ApiFn, Cx, Result, functions};
 use crate::script::{Bytes, Number};
 
+use super::tubes::Tubes;
+
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![tube_open, tube_write, tube_read, tube_status, tube_close];
 
 /// No such tube.
 const FAILED: i64 = -1;
+
+/// All tubes of a simulator.
+#[derive(Default)]
+struct SharedTubes(RefCell<Tubes>);
+
+/// The tubes that a script opened: they close with its Lua state.
+#[derive(Default)]
+struct OwnTubes(RefCell<Option<(Rc<SharedTubes>, i64)>>);
+
+impl Drop for OwnTubes {
+    fn drop(&mut self) {
+        if let Some((tubes, script)) = self.0.take() {
+            tubes.0.borrow_mut().close_those_of(script);
+        }
+    }
+}
 
 /// Opens one end of a tube; the other one is opened with the same header and name.
 ///
@@ -19,8 +40,10 @@ const FAILED: i64 = -1;
 #[api("sim.tubeOpen")]
 fn tube_open(cx: &mut Cx, data_header: Number, data_name: Bytes, read_buffer_size: Number) -> Result<i64> {
     let capacity = usize::try_from(read_buffer_size.0).unwrap_or(0);
-    let owner = cx.script().id;
-    Ok(cx.tubes_mut().open(data_header.0, data_name.0, capacity, owner))
+    let (tubes, script) = (cx.module_state::<SharedTubes>(), cx.script().id);
+    cx.script_state::<OwnTubes>().0.replace(Some((tubes.clone(), script)));
+    let handle = tubes.0.borrow_mut().open(data_header.0, data_name.0, capacity, script);
+    Ok(handle)
 }
 
 /// Writes a packet into a tube.
@@ -30,7 +53,7 @@ fn tube_open(cx: &mut Cx, data_header: Number, data_name: Bytes, read_buffer_siz
 /// @return result 1, 0 if the other end is not open (the packet is lost), -1 if there is no such tube
 #[api("sim.tubeWrite")]
 fn tube_write(cx: &mut Cx, tube_handle: Number, data: Bytes) -> Result<i64> {
-    Ok(cx.tubes_mut().write(tube_handle.0, data.0).map_or(FAILED, i64::from))
+    Ok(cx.module_state::<SharedTubes>().0.borrow_mut().write(tube_handle.0, data.0).map_or(FAILED, i64::from))
 }
 
 /// Reads and removes the oldest packet of a tube.
@@ -39,7 +62,7 @@ fn tube_write(cx: &mut Cx, tube_handle: Number, data: Bytes) -> Result<i64> {
 /// @return data nothing if no packet waits
 #[api("sim.tubeRead")]
 fn tube_read(cx: &mut Cx, tube_handle: Number) -> Result<Option<Bytes>> {
-    Ok(cx.tubes_mut().read(tube_handle.0).map(Bytes))
+    Ok(cx.module_state::<SharedTubes>().0.borrow_mut().read(tube_handle.0).map(Bytes))
 }
 
 /// The state of a tube.
@@ -50,7 +73,7 @@ fn tube_read(cx: &mut Cx, tube_handle: Number) -> Result<Option<Bytes>> {
 /// @return writePacketsCount packets that wait at the other end
 #[api("sim.tubeStatus")]
 fn tube_status(cx: &Cx, tube_handle: Number) -> Result<(i64, i64, i64)> {
-    let status = cx.tubes().status(tube_handle.0);
+    let status = cx.module_state::<SharedTubes>().0.borrow().status(tube_handle.0);
     Ok(status.map_or((FAILED, 0, 0), |s| (i64::from(s.connected), s.to_read as i64, s.written as i64)))
 }
 
@@ -60,5 +83,5 @@ fn tube_status(cx: &Cx, tube_handle: Number) -> Result<(i64, i64, i64)> {
 /// @return result 1, or -1 if there is no such tube
 #[api("sim.tubeClose")]
 fn tube_close(cx: &mut Cx, tube_handle: Number) -> Result<i64> {
-    Ok(if cx.tubes_mut().close(tube_handle.0) { 1 } else { FAILED })
+    Ok(if cx.module_state::<SharedTubes>().0.borrow_mut().close(tube_handle.0) { 1 } else { FAILED })
 }

@@ -6,13 +6,14 @@ use std::collections::{BTreeMap, VecDeque};
 
 /// All open ends, by handle.
 #[derive(Default)]
-pub(crate) struct Tubes {
+pub(super) struct Tubes {
     ends: BTreeMap<i64, End>,
     opened: i64,
 }
 
 struct End {
     key: (i64, Vec<u8>),
+    /// The script that opened it.
     owner: i64,
     /// How many packets wait at most; 0: any number. The oldest one makes room.
     capacity: usize,
@@ -22,7 +23,7 @@ struct End {
 
 /// The result of `sim.tubeStatus`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct TubeStatus {
+pub(super) struct TubeStatus {
     pub connected: bool,
     /// Packets that wait here.
     pub to_read: usize,
@@ -32,7 +33,7 @@ pub(crate) struct TubeStatus {
 
 impl Tubes {
     /// Opens an end and joins it to a lonely one of that name.
-    pub(crate) fn open(&mut self, header: i64, name: Vec<u8>, capacity: usize, owner: i64) -> i64 {
+    pub(super) fn open(&mut self, header: i64, name: Vec<u8>, capacity: usize, owner: i64) -> i64 {
         let handle = self.opened;
         self.opened += 1;
         let key = (header, name);
@@ -45,7 +46,7 @@ impl Tubes {
     }
 
     /// Hands a packet to the other end; None if there is no such tube, false if it has no other end.
-    pub(crate) fn write(&mut self, handle: i64, packet: Vec<u8>) -> Option<bool> {
+    pub(super) fn write(&mut self, handle: i64, packet: Vec<u8>) -> Option<bool> {
         let Some(partner) = self.ends.get(&handle)?.partner.and_then(|partner| self.ends.get_mut(&partner)) else {
             return Some(false);
         };
@@ -57,11 +58,11 @@ impl Tubes {
     }
 
     /// The oldest packet that waits.
-    pub(crate) fn read(&mut self, handle: i64) -> Option<Vec<u8>> {
+    pub(super) fn read(&mut self, handle: i64) -> Option<Vec<u8>> {
         self.ends.get_mut(&handle)?.packets.pop_front()
     }
 
-    pub(crate) fn status(&self, handle: i64) -> Option<TubeStatus> {
+    pub(super) fn status(&self, handle: i64) -> Option<TubeStatus> {
         let end = self.ends.get(&handle)?;
         let partner = end.partner.and_then(|partner| self.ends.get(&partner));
         let written = partner.map_or(0, |partner| partner.packets.len());
@@ -69,7 +70,7 @@ impl Tubes {
     }
 
     /// Closes an end; the other one is lonely then. False if there was none.
-    pub(crate) fn close(&mut self, handle: i64) -> bool {
+    pub(super) fn close(&mut self, handle: i64) -> bool {
         let Some(end) = self.ends.remove(&handle) else { return false };
         if let Some(partner) = end.partner.and_then(|partner| self.ends.get_mut(&partner)) {
             partner.partner = None;
@@ -77,7 +78,7 @@ impl Tubes {
         true
     }
 
-    pub(crate) fn close_those_of(&mut self, script: i64) {
+    pub(super) fn close_those_of(&mut self, script: i64) {
         let owned: Vec<i64> = self.ends.iter().filter(|(_, end)| end.owner == script).map(|(&h, _)| h).collect();
         for handle in owned {
             self.close(handle);

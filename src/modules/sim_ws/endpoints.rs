@@ -6,43 +6,48 @@ use std::rc::{Rc, Weak};
 
 use crate::io::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent};
 use crate::scene::Data;
-use crate::script::binding::cx::Cx;
-use crate::script::calls::handler::Handler;
-use crate::script::lifecycle::instance::Script;
-use crate::script::sim::Sim;
+use crate::script::{Cx, Handler, Host, Script};
+
+use super::log;
 
 /// The endpoints of a simulator, in the order of their creation.
 #[derive(Default)]
-pub(crate) struct WebSockets {
-    pub(crate) numbers: Numbers,
-    endpoints: BTreeMap<u64, Rc<Endpoint>>,
+pub(super) struct WebSockets {
+    /// The numbers of endpoints and connections.
+    pub(super) numbers: Numbers,
+    endpoints: RefCell<BTreeMap<u64, Rc<Endpoint>>>,
 }
 
 impl WebSockets {
     pub(super) fn get(&self, number: u64) -> Option<Rc<Endpoint>> {
-        self.endpoints.get(&number).cloned()
+        self.endpoints.borrow().get(&number).cloned()
     }
 
-    pub(super) fn remove(&mut self, number: u64) -> Option<Rc<Endpoint>> {
-        self.endpoints.remove(&number)
+    /// Closes an endpoint and all its connections at once.
+    pub(super) fn stop(&self, number: u64) {
+        let endpoint = self.endpoints.borrow_mut().remove(&number);
+        // Nothing is borrowed while connections end and handlers are released.
+        if let Some(endpoint) = endpoint {
+            endpoint.stop();
+        }
     }
 
     /// The endpoints in the order of their creation.
     fn all(&self) -> Vec<Rc<Endpoint>> {
-        self.endpoints.values().cloned().collect()
+        self.endpoints.borrow().values().cloned().collect()
     }
 }
 
 /// What an endpoint is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Role {
+pub(super) enum Role {
     Server,
     Client,
 }
 
 /// What a handler can be for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum HandlerKind {
+pub(super) enum HandlerKind {
     Open,
     Fail,
     Close,
@@ -51,9 +56,9 @@ pub(crate) enum HandlerKind {
 }
 
 /// An endpoint of a script.
-pub(crate) struct Endpoint {
+pub(super) struct Endpoint {
     number: u64,
-    pub(crate) role: Role,
+    pub(super) role: Role,
     /// Where handlers given by name are looked up.
     script: Rc<Script>,
     /// None once it is stopped.
@@ -63,22 +68,22 @@ pub(crate) struct Endpoint {
 
 impl Endpoint {
     /// How scripts call it.
-    pub(crate) fn handle(&self) -> String {
+    pub(super) fn handle(&self) -> String {
         format!("{:x}:simWS.{:?}", self.number, self.role)
     }
 
-    pub(crate) fn set_handler(&self, kind: HandlerKind, handler: Handler) {
+    pub(super) fn set_handler(&self, kind: HandlerKind, handler: Handler) {
         self.handlers.borrow_mut().insert(kind, Rc::new(handler));
     }
 
     /// Where a server listens.
-    pub(crate) fn port(&self) -> Option<u16> {
+    pub(super) fn port(&self) -> Option<u16> {
         self.socket.borrow().as_ref()?.port()
     }
 
     /// # Errors
     /// The reason why the connection rejects it.
-    pub(crate) fn send(&self, connection: u64, data: Vec<u8>, opcode: i64) -> Result<(), SendError> {
+    pub(super) fn send(&self, connection: u64, data: Vec<u8>, opcode: i64) -> Result<(), SendError> {
         self.socket.borrow().as_ref().ok_or(SendError::Expired)?.send(connection, data, opcode)
     }
 
@@ -98,12 +103,12 @@ impl Endpoint {
 }
 
 /// How scripts call a connection.
-pub(crate) fn connection_handle(connection: u64) -> String {
+pub(super) fn connection_handle(connection: u64) -> String {
     format!("{connection:x}:simWS.Connection")
 }
 
 /// The number in a handle of that kind.
-pub(crate) fn handle_number(handle: &str, kind: &str) -> Option<u64> {
+pub(super) fn handle_number(handle: &str, kind: &str) -> Option<u64> {
     let digits = handle.strip_suffix(kind)?.strip_suffix(":simWS.")?;
     u64::from_str_radix(digits, 16).ok().filter(|number| format!("{number:x}") == digits)
 }
@@ -113,77 +118,71 @@ pub(crate) fn handle_number(handle: &str, kind: &str) -> Option<u64> {
 struct Owned(RefCell<Vec<Ownership>>);
 
 struct Ownership {
-    sim: Weak<Sim>,
+    sockets: Weak<WebSockets>,
     number: u64,
 }
 
 impl Drop for Ownership {
     fn drop(&mut self) {
-        if let Some(sim) = self.sim.upgrade() {
-            sim.channels.stop_web_socket(self.number);
+        if let Some(sockets) = self.sockets.upgrade() {
+            sockets.stop(self.number);
         }
     }
 }
 
-impl Sim {
-    /// Adds an endpoint of the calling script.
-    pub(crate) fn add_web_socket(self: &Rc<Self>, cx: &Cx, role: Role, socket: WsEndpoint) -> Rc<Endpoint> {
-        let number = self.channels.web_sockets.borrow().numbers.next();
-        let script = cx.script().clone();
-        let endpoint = Rc::new(Endpoint {
-            number,
-            role,
-            script,
-            socket: RefCell::new(Some(socket)),
-            handlers: RefCell::default(),
-        });
-        self.channels.web_sockets.borrow_mut().endpoints.insert(number, endpoint.clone());
-        let owned = cx.script_state::<Owned>();
-        let mut owned = owned.0.borrow_mut();
-        owned.retain(|other| self.channels.web_socket(other.number).is_some());
-        owned.push(Ownership { sim: Rc::downgrade(self), number });
-        endpoint
-    }
+/// Adds an endpoint of the calling script.
+pub(super) fn add(cx: &mut Cx, role: Role, socket: WsEndpoint) -> Rc<Endpoint> {
+    let sockets = cx.module_state::<WebSockets>();
+    let number = sockets.numbers.next();
+    let script = cx.script().clone();
+    let endpoint =
+        Rc::new(Endpoint { number, role, script, socket: RefCell::new(Some(socket)), handlers: RefCell::default() });
+    sockets.endpoints.borrow_mut().insert(number, endpoint.clone());
+    let owned = cx.script_state::<Owned>();
+    let mut owned = owned.0.borrow_mut();
+    owned.retain(|other| sockets.get(other.number).is_some());
+    owned.push(Ownership { sockets: Rc::downgrade(&sockets), number });
+    endpoint
+}
 
-    /// Lets the sockets move and calls the handlers of what has arrived: endpoint by endpoint in the order of their creation, at each in
-    /// the order of arrival. What arrives meanwhile waits for the next iteration.
-    pub(crate) fn deliver_web_sockets(self: &Rc<Self>) {
-        let endpoints: Vec<Rc<Endpoint>> = self.channels.web_sockets.borrow().all();
-        let Some(event_loop) = (!endpoints.is_empty()).then(|| self.channels.event_loop().ok()).flatten() else {
-            return;
-        };
+/// Runs the sockets and calls the handlers for what arrived: endpoint by endpoint in the order of their creation, in the order of
+/// arrival. What arrives in the meantime waits for the next iteration.
+pub(super) fn start_of_iteration(host: &Host) {
+    let endpoints = host.module_state::<WebSockets>().map_or_else(Vec::new, |sockets| sockets.all());
+    let Some(event_loop) = (!endpoints.is_empty()).then(|| host.event_loop().ok()).flatten() else {
+        return;
+    };
+    event_loop.turn();
+    let batches: Vec<usize> = endpoints.iter().map(|endpoint| endpoint.arrived()).collect();
+    for (endpoint, count) in endpoints.iter().zip(&batches) {
+        for event in (0..*count).map_while(|_| endpoint.next()) {
+            handle(host, endpoint, event);
+        }
+    }
+    if batches.iter().any(|&count| count > 0) {
+        // Answers leave in the same iteration.
         event_loop.turn();
-        let batches: Vec<usize> = endpoints.iter().map(|endpoint| endpoint.arrived()).collect();
-        for (endpoint, count) in endpoints.iter().zip(&batches) {
-            for event in (0..*count).map_while(|_| endpoint.next()) {
-                self.handle_web_socket(endpoint, event);
-            }
-        }
-        if batches.iter().any(|&count| count > 0) {
-            // Answers leave in the same iteration.
-            event_loop.turn();
-        }
     }
+}
 
-    fn handle_web_socket(self: &Rc<Self>, endpoint: &Endpoint, event: WsEvent) {
-        self.log_web_socket(endpoint, &event);
-        let call = |kind, connection, more: &[Data]| {
-            let handler = endpoint.handlers.borrow().get(&kind).cloned()?;
-            let handles = [Data::text(&endpoint.handle()), Data::text(&connection_handle(connection))];
-            let args = [&handles, more].concat();
-            Some(self.call_handler(&endpoint.script, &handler, &args))
-        };
-        match event {
-            WsEvent::Open(connection) => drop(call(HandlerKind::Open, connection, &[])),
-            WsEvent::Fail(connection, _) | WsEvent::Unreachable(connection, _) | WsEvent::Refused(connection, _) => {
-                drop(call(HandlerKind::Fail, connection, &[]))
-            }
-            WsEvent::Close(connection) => drop(call(HandlerKind::Close, connection, &[])),
-            WsEvent::Message(connection, data) => drop(call(HandlerKind::Message, connection, &[Data::Buffer(data)])),
-            WsEvent::Http { connection, resource, body, asker } => {
-                let results = call(HandlerKind::Http, connection, &[Data::text(&resource), Data::Buffer(body)]);
-                asker.answer(results.map_or_else(|| HttpReply::status(404), http_reply));
-            }
+fn handle(host: &Host, endpoint: &Endpoint, event: WsEvent) {
+    log::log_event(host, endpoint, &event);
+    let call = |kind, connection, more: &[Data]| {
+        let handler = endpoint.handlers.borrow().get(&kind).cloned()?;
+        let handles = [Data::text(&endpoint.handle()), Data::text(&connection_handle(connection))];
+        let args = [&handles, more].concat();
+        Some(host.call_handler(&endpoint.script, &handler, &args))
+    };
+    match event {
+        WsEvent::Open(connection) => drop(call(HandlerKind::Open, connection, &[])),
+        WsEvent::Fail(connection, _) | WsEvent::Unreachable(connection, _) | WsEvent::Refused(connection, _) => {
+            drop(call(HandlerKind::Fail, connection, &[]))
+        }
+        WsEvent::Close(connection) => drop(call(HandlerKind::Close, connection, &[])),
+        WsEvent::Message(connection, data) => drop(call(HandlerKind::Message, connection, &[Data::Buffer(data)])),
+        WsEvent::Http { connection, resource, body, asker } => {
+            let results = call(HandlerKind::Http, connection, &[Data::text(&resource), Data::Buffer(body)]);
+            asker.answer(results.map_or_else(|| HttpReply::status(404), http_reply));
         }
     }
 }

@@ -2,47 +2,45 @@
 
 use std::io;
 
-use super::web_sockets::Endpoint;
+use super::endpoints::Endpoint;
 use crate::io::WsEvent;
+use crate::script::Host;
 use crate::script::log::verbosity;
-use crate::script::sim::Sim;
 use crate::script::step::wall_clock;
 
-impl Sim {
-    pub(in crate::script) fn log_web_socket(&self, endpoint: &Endpoint, event: &WsEvent) {
-        match event {
-            WsEvent::Refused(_, origin) => self.log_refused_page(endpoint, origin),
-            WsEvent::Unreachable(_, error) => self.log_unreachable(error),
-            _ => self.log_access(endpoint, event),
-        }
+pub(super) fn log_event(host: &Host, endpoint: &Endpoint, event: &WsEvent) {
+    match event {
+        WsEvent::Refused(_, origin) => log_refused_page(host, endpoint, origin),
+        WsEvent::Unreachable(_, error) => log_unreachable(host, error),
+        _ => log_access(host, endpoint, event),
     }
+}
 
-    fn log_refused_page(&self, endpoint: &Endpoint, origin: &str) {
-        let text = format!("{}: a page of {origin} was refused; --allow-origin {origin} lets it in", endpoint.handle());
-        self.log(verbosity::SCRIPT_WARNINGS | verbosity::ONCE, &text);
-    }
+fn log_refused_page(host: &Host, endpoint: &Endpoint, origin: &str) {
+    let text = format!("{}: a page of {origin} was refused; --allow-origin {origin} lets it in", endpoint.handle());
+    host.log(verbosity::SCRIPT_WARNINGS | verbosity::ONCE, &text);
+}
 
-    fn log_unreachable(&self, error: &io::Error) {
-        for line in unreachable(error) {
-            let line = format!("[{}] {line}", wall_clock::utc_date_and_time());
-            self.log(verbosity::SCRIPT_WARNINGS | verbosity::UNDECORATED, &line);
-        }
+fn log_unreachable(host: &Host, error: &io::Error) {
+    for line in unreachable(error) {
+        let line = format!("[{}] {line}", wall_clock::utc_date_and_time());
+        host.log(verbosity::SCRIPT_WARNINGS | verbosity::UNDECORATED, &line);
     }
+}
 
-    /// The access log, for those who ask for it.
-    fn log_access(&self, endpoint: &Endpoint, event: &WsEvent) {
-        let verbose = self.app.borrow().named_params.get("simWS.verbose").is_some_and(|value| value != b"0");
-        let text = match event {
-            _ if !verbose => return,
-            WsEvent::Open(connection) => format!("{connection:x} is open"),
-            WsEvent::Refused(..) | WsEvent::Unreachable(..) => return,
-            WsEvent::Fail(connection, reason) => format!("{connection:x} has failed: {reason}"),
-            WsEvent::Close(connection) => format!("{connection:x} is closed"),
-            WsEvent::Message(..) => return,
-            WsEvent::Http { connection, resource, .. } => format!("{connection:x} asks for {resource}"),
-        };
-        self.log(verbosity::SCRIPT_INFOS, &format!("{}: connection {text}", endpoint.handle()));
-    }
+/// The access log, for those who ask for it.
+fn log_access(host: &Host, endpoint: &Endpoint, event: &WsEvent) {
+    let verbose = host.named_param("simWS.verbose").is_some_and(|value| value != b"0");
+    let text = match event {
+        _ if !verbose => return,
+        WsEvent::Open(connection) => format!("{connection:x} is open"),
+        WsEvent::Refused(..) | WsEvent::Unreachable(..) => return,
+        WsEvent::Fail(connection, reason) => format!("{connection:x} has failed: {reason}"),
+        WsEvent::Close(connection) => format!("{connection:x} is closed"),
+        WsEvent::Message(..) => return,
+        WsEvent::Http { connection, resource, .. } => format!("{connection:x} asks for {resource}"),
+    };
+    host.log(verbosity::SCRIPT_INFOS, &format!("{}: connection {text}", endpoint.handle()));
 }
 
 /// A failed connection in the words and the form of websocketpp, the original's library, which existing tools look for. It asks

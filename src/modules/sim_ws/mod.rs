@@ -1,18 +1,22 @@
 //! The native part of the Lua module `simWS`: WebSocket servers and clients.
 
+mod endpoints;
+mod log;
+
 use std::net::TcpListener;
 use std::rc::Rc;
 
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions, remote};
-use crate::io::{SendError, WsEndpoint, WsPages, WsRequest};
-use crate::script::channels::web_sockets::{Endpoint, HandlerKind, Role, handle_number};
-use crate::script::{Bytes, Handler, ScriptFunction};
+use crate::io::{Numbers, SendError, WsEndpoint, WsPages, WsRequest};
+use crate::script::{Bytes, Handler, Hooks, ScriptFunction};
+use endpoints::{Endpoint, HandlerKind, Role, WebSockets, handle_number};
 
 pub(super) static MODULE: Module = Module {
     functions: &[("WebSocket", FUNCTIONS)],
     constants: "opcode.continuation\t0\nopcode.text\t1\nopcode.binary\t2\n",
+    hooks: Hooks { start_of_iteration: Some(endpoints::start_of_iteration), ..Hooks::NONE },
     ..Module::new("simWS")
 };
 
@@ -66,8 +70,8 @@ fn start_remote(cx: &mut Cx) -> Result<String> {
 }
 
 fn serve(cx: &mut Cx, listener: std::io::Result<TcpListener>, pages: WsPages) -> std::io::Result<String> {
-    let socket = WsEndpoint::listen(cx.event_loop()?, listener?, pages, cx.web_socket_numbers())?;
-    Ok(cx.add_web_socket(Role::Server, socket).handle())
+    let socket = WsEndpoint::listen(cx.event_loop()?, listener?, pages, numbers(cx))?;
+    Ok(endpoints::add(cx, Role::Server, socket).handle())
 }
 
 fn unusable(address: &str, error: &std::io::Error) -> ApiError {
@@ -79,8 +83,9 @@ fn unusable(address: &str, error: &std::io::Error) -> ApiError {
 /// @param serverHandle
 #[api("simWS.stop")]
 fn stop(cx: &mut Cx, server_handle: String) -> Result<()> {
-    let number = handle_number(&server_handle, "Server").filter(|&number| cx.web_socket(number).is_some());
-    cx.stop_web_socket(number.ok_or_else(invalid_handle)?);
+    let number =
+        handle_number(&server_handle, "Server").filter(|&number| cx.module_state::<WebSockets>().get(number).is_some());
+    cx.module_state::<WebSockets>().stop(number.ok_or_else(invalid_handle)?);
     Ok(())
 }
 
@@ -91,12 +96,12 @@ fn stop(cx: &mut Cx, server_handle: String) -> Result<()> {
 #[api("simWS.connect")]
 fn connect(cx: &mut Cx, uri: String) -> Result<String> {
     let agent = cx.app().named_params.get("simWS.userAgent").cloned().unwrap_or_default();
-    let numbers = cx.web_socket_numbers();
+    let numbers = numbers(cx);
     let refused = |reason: String| ApiError::Other(format!("Could not create connection: {reason}"));
     let request = WsRequest::new(&uri, &String::from_utf8_lossy(&agent), numbers.next()).map_err(refused)?;
     let event_loop = cx.event_loop().map_err(|error| refused(error.to_string()))?;
     let socket = WsEndpoint::connect(event_loop, request, numbers);
-    Ok(cx.add_web_socket(Role::Client, socket).handle())
+    Ok(endpoints::add(cx, Role::Client, socket).handle())
 }
 
 /// Ends a client at once.
@@ -104,8 +109,9 @@ fn connect(cx: &mut Cx, uri: String) -> Result<String> {
 /// @param clientHandle
 #[api("simWS.disconnect")]
 fn disconnect(cx: &mut Cx, client_handle: String) -> Result<()> {
-    let number = handle_number(&client_handle, "Client").filter(|&number| cx.web_socket(number).is_some());
-    cx.stop_web_socket(number.ok_or_else(invalid_handle)?);
+    let number =
+        handle_number(&client_handle, "Client").filter(|&number| cx.module_state::<WebSockets>().get(number).is_some());
+    cx.module_state::<WebSockets>().stop(number.ok_or_else(invalid_handle)?);
     Ok(())
 }
 
@@ -126,7 +132,7 @@ fn send(
     let endpoint = endpoint(cx, &server_or_client_handle)?;
     let connection = handle_number(&connection_handle, "Connection").ok_or_else(invalid_handle)?;
     match endpoint.send(connection, data.0, opcode) {
-        Err(SendError::Expired) if !cx.web_socket_numbers().has_given(connection) => Err(invalid_handle()),
+        Err(SendError::Expired) if !numbers(cx).has_given(connection) => Err(invalid_handle()),
         Err(error) => Err(ApiError::Other(error.to_string())),
         Ok(()) => Ok(()),
     }
@@ -188,8 +194,13 @@ fn set_handler(cx: &Cx, handle: &str, kind: HandlerKind, function: ScriptFunctio
 
 fn endpoint(cx: &Cx, handle: &str) -> Result<Rc<Endpoint>> {
     let number = handle_number(handle, "Server").or_else(|| handle_number(handle, "Client"));
-    let endpoint = number.and_then(|number| cx.web_socket(number));
+    let endpoint = number.and_then(|number| cx.module_state::<WebSockets>().get(number));
     endpoint.filter(|endpoint| endpoint.handle() == handle).ok_or_else(invalid_handle)
+}
+
+/// The numbers of endpoints and connections.
+fn numbers(cx: &Cx) -> Numbers {
+    cx.module_state::<WebSockets>().numbers.clone()
 }
 
 fn invalid_handle() -> ApiError {

@@ -4,6 +4,7 @@ pub(in crate::script) mod args;
 pub(in crate::script) mod by_handle;
 pub(in crate::script) mod cx;
 pub(in crate::script) mod data;
+pub(in crate::script) mod hooks;
 pub(in crate::script) mod module;
 pub(in crate::script) mod registry;
 pub(in crate::script) mod returns;

@@ -1,6 +1,7 @@
 //! What a module is: one description, from which come what scripts call, the reference, editor stubs, and what tools know.
 
 use super::ApiFn;
+use super::hooks::Hooks;
 
 /// A module: `sim`, or what `require` finds under another name.
 ///
@@ -24,6 +25,7 @@ pub struct Module {
     pub old_names: &'static str,
     /// The folder of Lua files whose functions `M.name` are members, each loaded when one of its functions is first used.
     pub lua_members: Option<&'static str>,
+    pub hooks: Hooks,
 }
 
 impl Module {
@@ -39,6 +41,7 @@ impl Module {
             reference: "",
             old_names: "",
             lua_members: None,
+            hooks: Hooks::NONE,
         }
     }
 

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::ApiFn;
+use super::hooks::Hooks;
 use super::module::{Module, pairs};
 use super::states::States;
 use crate::script::error::ApiError;
@@ -123,6 +124,8 @@ pub(crate) struct Registry {
     /// In the order of the list; `sim` is the first.
     namespaces: Vec<Namespace>,
     by_name: HashMap<&'static str, usize>,
+    /// Of all modules, in their order.
+    pub hooks: Vec<Hooks>,
     /// Embedded Lua files by path.
     pub files: HashMap<&'static str, Embedded>,
 }
@@ -136,6 +139,7 @@ impl Registry {
             globals: Vec::new(),
             namespaces: Vec::new(),
             by_name: HashMap::new(),
+            hooks: modules.iter().map(|module| module.hooks).collect(),
             files: files.iter().map(|&(name, source)| (name, Embedded::new(source))).collect(),
         };
         for (place, &module) in modules.iter().enumerate() {

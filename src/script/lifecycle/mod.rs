@@ -244,11 +244,10 @@ impl Sim {
         }
     }
 
-    /// Releases the interpreter, which is closed when its last call has returned, and what goes with it: signals and tubes.
+    /// Releases the interpreter, which is closed when its last call has returned, and the signals of the script.
     fn close(&self, script: &Script) {
         script.runtime.replace(None);
         self.drop_signals_of(script);
-        self.channels.end_script(script.id);
     }
 
     /// `restartOnError` is a one-shot.

@@ -20,7 +20,7 @@ use clock::SimulationState;
 impl Sim {
     /// One iteration of the application's loop: idle, paused or advancing.
     pub(crate) fn loop_iteration(self: &Rc<Self>) {
-        self.deliver_web_sockets();
+        self.run_hooks(|hooks| hooks.start_of_iteration);
         if !self.clock.state().is_advancing() {
             self.dispatch_events();
         }
@@ -223,7 +223,7 @@ impl Sim {
         }
         self.restart_failed_customization_scripts();
         self.app.borrow_mut().consoles.end_simulation();
-        self.channels.end_simulation();
+        self.run_hooks(|hooks| hooks.end_of_simulation);
         self.log_status("Simulation stopped.");
     }
 
