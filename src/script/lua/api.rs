@@ -109,6 +109,11 @@ impl<'a> Stack<'a> {
         Table(slot.0)
     }
 
+    /// The table at `index`, and the value on top: there is one where a table is.
+    pub(super) fn table_and_value(self, index: c_int) -> (Table, Top<'a>) {
+        (self.table(index), Top(self))
+    }
+
     /// Room for one more value. Lua's stack is limited to a million.
     pub(super) fn room(self) -> Room<'a> {
         self.room_for(1)

@@ -16,7 +16,10 @@ impl<F: Fn(Stack<'_>, usize) -> Result<c_int, String> + Copy + 'static> Callback
 pub(crate) fn push_callback<F: Callback>(stack: Stack<'_>, callback: F, number: usize) {
     push_function(stack, Some(number as i64), move |stack| {
         match callback(stack, stack.number_of_function() as usize) {
-            Ok(results) => Exit::Results(results),
+            Ok(results) => {
+                debug_assert!((0..=stack.top()).contains(&results), "results are on the stack");
+                Exit::Results(results)
+            }
             Err(text) => {
                 stack.push_bytes(text.as_bytes());
                 Exit::Raise

@@ -17,7 +17,8 @@ pub(crate) const LONGEST_LIST: usize = 1 << 26;
 impl Stack<'_> {
     /// Replaces the key on top by `table[key]`.
     pub(crate) fn raw_get(self, table: c_int) -> Type {
-        Type::from_raw(api::lua_rawget(self.value(), self.table(table)))
+        let (table, key) = self.table_and_value(table);
+        Type::from_raw(api::lua_rawget(key, table))
     }
 
     /// Raw length of the table at `index`.
@@ -64,20 +65,21 @@ impl Stack<'_> {
 
     /// Pops a value into `table[i]`.
     pub(crate) fn raw_set_index(self, table: c_int, i: i64) {
-        api::lua_rawseti(self.value(), self.table(table), i);
+        let (table, value) = self.table_and_value(table);
+        api::lua_rawseti(value, table, i);
     }
 
     /// Pushes `table[name]`.
     pub(crate) fn raw_get_field(self, table: c_int, name: &str) -> Type {
-        let table = self.table(table);
+        let (table, key) = self.table_and_value(table);
         self.push_bytes(name.as_bytes());
-        Type::from_raw(api::lua_rawget(self.value(), table))
+        Type::from_raw(api::lua_rawget(key, table))
     }
 
     /// Pops a value into `table[name]`.
     pub(crate) fn raw_set_field(self, table: c_int, name: &str) {
-        let table = self.table(table);
-        api::lua_rawset(self.value().with_name(name), table);
+        let (table, value) = self.table_and_value(table);
+        api::lua_rawset(value.with_name(name), table);
     }
 
     /// Pops key and value into the table; nil and NaN keys are dropped.
