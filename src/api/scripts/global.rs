@@ -1,5 +1,7 @@
 //! Global functions: hooks, yield levels, the log.
 
+use std::rc::Rc;
+
 use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
@@ -42,15 +44,15 @@ fn register_script_func_hook(
     let mut hooks = cx.env().hooks.borrow_mut();
     let list = if exec_before { &mut hooks.before } else { &mut hooks.after };
     if system_callback.is_empty() {
-        std::mem::take(list).into_values().for_each(|entries| release(cx, entries));
+        std::mem::take(list).into_values().for_each(|entries| release(cx, &entries));
         return Ok(0);
     }
     let call =
         SysCall::from_name(&system_callback).ok_or_else(|| ApiError::Other("invalid system callback.".into()))?;
     cx.note_callback(call);
-    let entries = list.entry(call).or_default();
+    let entries = Rc::make_mut(list.entry(call).or_default());
     match user_function {
-        ScriptFunction::Name(name) if name.is_empty() => release(cx, std::mem::take(entries)),
+        ScriptFunction::Name(name) if name.is_empty() => release(cx, &std::mem::take(entries)),
         ScriptFunction::Name(name) => return Ok(toggle(entries, name)),
         ScriptFunction::Value(function) => {
             entries.push(Hook { name: String::new(), function: Some(function) });
@@ -75,8 +77,8 @@ fn toggle(entries: &mut Vec<Hook>, name: String) -> i64 {
 }
 
 /// Lets go of the functions of hooks that are gone.
-fn release(cx: &Cx, entries: Vec<Hook>) {
-    entries.into_iter().filter_map(|hook| hook.function).for_each(|function| cx.release_function(function));
+fn release(cx: &Cx, entries: &[Hook]) {
+    entries.iter().filter_map(|hook| hook.function).for_each(|function| cx.release_function(function));
 }
 
 impl FromScript for LevelChange {

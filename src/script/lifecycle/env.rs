@@ -45,11 +45,11 @@ pub(crate) struct Env {
     watched: bool,
 }
 
-/// Functions that run before and after callbacks.
+/// Functions that run before and after callbacks. The lists are shared with the callback that is running, which may change them.
 #[derive(Default)]
 pub(crate) struct Hooks {
-    pub before: BTreeMap<SysCall, Vec<Hook>>,
-    pub after: BTreeMap<SysCall, Vec<Hook>>,
+    pub before: BTreeMap<SysCall, Rc<Vec<Hook>>>,
+    pub after: BTreeMap<SysCall, Rc<Vec<Hook>>>,
 }
 
 /// One hook: a kept function, or the dotted name of a global.

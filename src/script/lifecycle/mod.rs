@@ -150,14 +150,14 @@ impl Sim {
         if call.resumes_threads() {
             outcome.resume_thread(runtime);
         }
-        let before = hooks_of(&env.hooks.borrow().before, call);
-        for hook in before.into_iter().rev() {
-            outcome.call_hook(runtime, &hook, args);
+        let before = env.hooks.borrow().before.get(&call).cloned();
+        for hook in before.iter().flat_map(|hooks| hooks.iter().rev()) {
+            outcome.call_hook(runtime, hook, args);
         }
         outcome.call_function(runtime, call, args);
-        let after = hooks_of(&env.hooks.borrow().after, call);
-        for hook in after {
-            outcome.call_hook(runtime, &hook, args);
+        let after = env.hooks.borrow().after.get(&call).cloned();
+        for hook in after.iter().flat_map(|hooks| hooks.iter()) {
+            outcome.call_hook(runtime, hook, args);
         }
         outcome
     }
@@ -306,10 +306,6 @@ impl Outcome {
             }
         }
     }
-}
-
-fn hooks_of(hooks: &std::collections::BTreeMap<SysCall, Vec<Hook>>, call: SysCall) -> Vec<Hook> {
-    hooks.get(&call).cloned().unwrap_or_default()
 }
 
 /// The callbacks that are there now that the text has run, as bits.
