@@ -47,10 +47,14 @@ fn list(functions: &[Function]) -> String {
     categories.iter().map(|(category, lines)| format!("{category}\n{lines}")).collect::<Vec<_>>().join("\n")
 }
 
-/// The functions of a module with their summaries.
+/// What a module is for, and its functions with their summaries.
 fn list_module(module: &str, functions: &[Function]) -> String {
     let of_module = functions.iter().filter(|function| function.category == module);
-    of_module.map(|function| format!("{:<38} {}\n", function.name, function.summary())).collect()
+    let lines: String = of_module.map(|function| format!("{:<38} {}\n", function.name, function.summary())).collect();
+    match docs::module_summary(module) {
+        "" => lines,
+        summary => format!("{summary}\n\n{lines}"),
+    }
 }
 
 /// The message for an unknown name.

@@ -67,6 +67,11 @@ pub fn module_functions() -> Vec<Function> {
     modules::names().flat_map(|module| module_stubs::of_module(&module)).collect()
 }
 
+/// What a module is for, in a line or two; empty if it does not say.
+pub fn module_summary(module: &str) -> &'static str {
+    modules::summary(module)
+}
+
 /// The names of the modules beside `sim`.
 pub fn module_names() -> Vec<String> {
     modules::names().collect()

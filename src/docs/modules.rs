@@ -121,6 +121,12 @@ pub(super) fn public() -> impl Iterator<Item = (String, &'static str)> {
     files.map(|&(name, source)| (name.to_owned(), source)).chain(native)
 }
 
+/// The first paragraph of what a module's Lua part says about it; empty without a Lua part.
+pub(super) fn summary(module: &str) -> &'static str {
+    let source = public().find(|(name, _)| name.replace('/', ".") == module).map_or("", |(_, source)| source);
+    head(source).split("\n\n").next().unwrap_or_default()
+}
+
 /// The comment a file begins with.
 pub(super) fn head(source: &str) -> &str {
     source.strip_prefix("--[[").and_then(|rest| rest.split_once("]]")).map_or("", |(head, _)| head).trim()

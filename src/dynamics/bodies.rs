@@ -44,11 +44,11 @@ pub(super) struct Body {
     pub local: Pose,
     /// Where a static body goes during this call: from, to.
     sweep: Option<(Pose, Pose)>,
-    /// Whether it slept when the scene was last told of it.
+    /// Whether it slept at the last report to the scene.
     pub slept: bool,
 }
 
-/// What a collider is known by in callbacks: shape, root of its tree, mask.
+/// Identifies a collider in callbacks: shape, root of its tree, mask.
 #[derive(Clone, Copy)]
 pub(super) struct Tag {
     pub shape: Handle,
@@ -199,7 +199,7 @@ fn combine_rule(rule: FrictionRule) -> CoefficientCombineRule {
     }
 }
 
-/// The default mask meets every other one, so that only shapes with another mask need to be asked about.
+/// The default mask collides with every other one, so only other masks need contact filters.
 fn hooks_for(mask: u16) -> ActiveHooks {
     if mask == u16::MAX { ActiveHooks::empty() } else { ActiveHooks::FILTER_CONTACT_PAIRS }
 }
@@ -276,8 +276,8 @@ impl Bodies {
         }
     }
 
-    /// Gives the bodies the forces scripts ask for, in place of those of the sub-step before. rapier looks again at every body it is asked
-    /// to change, so that those without forces are not touched.
+    /// Applies the forces of scripts, in place of those of the last sub-step. rapier processes every body that was changed, so bodies
+    /// without forces are left alone.
     pub(super) fn apply_forces(&self, world: &mut World, scene: &Scene) {
         for (shape, body) in self.iter().filter(|(_, body)| body.build.dynamic) {
             let Ok(shape) = scene.object(shape).and_then(|object| object.shape()) else { continue };

@@ -1,7 +1,7 @@
-//! The contacts of a dynamics call, as scripts can ask for them afterwards.
+//! The contacts of a dynamics call, for scripts that read them later.
 //!
-//! Every sub-step adds to the log while the engine still knows its impulses. What the log keeps is what differs between points; forces
-//! are only worked out when somebody reads them. Contacts of sleepers are kept once, for as long as they sleep.
+//! Every sub-step adds its impulses to the log. The log stores one record per point; forces are computed when they are read. Contacts of
+//! sleeping bodies are stored once, as long as they sleep.
 
 use std::ops::Range;
 use std::rc::Rc;
@@ -132,7 +132,7 @@ impl ContactLog {
 }
 
 impl Resting {
-    /// Finds out again who sleeps when that has changed.
+    /// Updates the set of sleeping bodies if it has changed.
     fn follow(&mut self, world: &World, step: f64) {
         if self.awake.as_ref().is_some_and(|awake| world.awake().eq(awake.iter().copied())) {
             return;

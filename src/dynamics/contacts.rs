@@ -1,4 +1,4 @@
-//! Contacts: who may touch whom, what scripts say about it, and what the links learn of them.
+//! Contacts: collision filters, callbacks of scripts, and the contact impulses that the links need.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,48 +14,48 @@ use super::convert::from_vector;
 use super::world::World;
 use crate::scene::Handle;
 
-/// What scripts say about a pair of shapes that may touch.
+/// The answer of scripts for a pair of shapes that may touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Verdict {
+pub(crate) enum ContactResponse {
     /// The shapes' own materials decide.
     Default,
-    PassThrough,
+    NoCollision,
     Collide {
         friction: f64,
         restitution: f64,
     },
 }
 
-/// Asked once per pair of shapes and sub-step.
-pub(crate) type Judge<'a> = &'a dyn Fn(Handle, Handle) -> Verdict;
+/// Called once per pair of shapes and sub-step.
+pub(crate) type ContactCallback<'a> = &'a dyn Fn(Handle, Handle) -> ContactResponse;
 
 /// The rules of one sub-step.
 pub(super) struct Rules<'a> {
-    judge: Option<Judge<'a>>,
-    verdicts: RefCell<BTreeMap<(Handle, Handle), Verdict>>,
+    callback: Option<ContactCallback<'a>>,
+    responses: RefCell<BTreeMap<(Handle, Handle), ContactResponse>>,
 }
 
 impl<'a> Rules<'a> {
-    pub(super) fn new(judge: Option<Judge<'a>>) -> Self {
-        Self { judge, verdicts: RefCell::default() }
+    pub(super) fn new(callback: Option<ContactCallback<'a>>) -> Self {
+        Self { callback, responses: RefCell::default() }
     }
 
-    fn verdict(&self, a: Tag, b: Tag) -> Verdict {
-        if !masks_meet(a, b) {
-            return Verdict::PassThrough;
+    fn response(&self, a: Tag, b: Tag) -> ContactResponse {
+        if !masks_overlap(a, b) {
+            return ContactResponse::NoCollision;
         }
-        let Some(judge) = self.judge else { return Verdict::Default };
-        let known = self.verdicts.borrow().get(&(a.shape, b.shape)).copied();
+        let Some(callback) = self.callback else { return ContactResponse::Default };
+        let known = self.responses.borrow().get(&(a.shape, b.shape)).copied();
         known.unwrap_or_else(|| {
-            let verdict = judge(a.shape, b.shape);
-            self.verdicts.borrow_mut().insert((a.shape, b.shape), verdict);
-            verdict
+            let response = callback(a.shape, b.shape);
+            self.responses.borrow_mut().insert((a.shape, b.shape), response);
+            response
         })
     }
 }
 
 /// The collision response rule: local masks within a tree, global masks between trees.
-fn masks_meet(a: Tag, b: Tag) -> bool {
+fn masks_overlap(a: Tag, b: Tag) -> bool {
     let bits = if a.root == b.root { 0x00ff } else { 0xff00 };
     a.mask & b.mask & bits != 0
 }
@@ -63,20 +63,20 @@ fn masks_meet(a: Tag, b: Tag) -> bool {
 impl PhysicsHooks for Rules<'_> {
     fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
         let [a, b] = tags(context.colliders, context.collider1, context.collider2)?;
-        (self.verdict(a, b) != Verdict::PassThrough).then(SolverFlags::default)
+        (self.response(a, b) != ContactResponse::NoCollision).then(SolverFlags::default)
     }
 
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
         let Some([a, b]) = tags(context.colliders, context.collider1, context.collider2) else { return };
-        let verdict = self.verdict(a, b);
-        if let (Verdict::Collide { friction, restitution }, Some(contact)) = (verdict, context.rigid_mut()) {
+        let response = self.response(a, b);
+        if let (ContactResponse::Collide { friction, restitution }, Some(contact)) = (response, context.rigid_mut()) {
             *contact.friction = friction;
             *contact.restitution = restitution;
         }
     }
 }
 
-/// What two colliders are known by.
+/// The tags of two colliders.
 pub(super) fn tags(
     colliders: &ColliderSet,
     first: rapier3d_f64::prelude::ColliderHandle,
@@ -85,9 +85,8 @@ pub(super) fn tags(
     Some([Tag::unpack(colliders.get(first)?.user_data), Tag::unpack(colliders.get(second)?.user_data)])
 }
 
-/// Makes the engine ask about every pair, or only about those with masks of their own. Asking costs: rapier then computes resting
-/// contacts anew in every sub-step.
-pub(super) fn ask_about_all(world: &mut World, all: bool) {
+/// Filters all pairs, or only those with masks of their own. With filters, rapier recomputes resting contacts in every sub-step.
+pub(super) fn filter_all_pairs(world: &mut World, all: bool) {
     let hooks = |collider: &Collider| match (all, Tag::unpack(collider.user_data).mask != u16::MAX) {
         (true, _) => ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS,
         (false, true) => ActiveHooks::FILTER_CONTACT_PAIRS,

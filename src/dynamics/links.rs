@@ -186,7 +186,7 @@ impl Link {
         }
     }
 
-    /// Notes the exact solution; rapier's motor gets what is left.
+    /// Stores the exact solution; the rest is left to rapier's motor.
     pub(super) fn set_solution(&mut self, load: &JointLoad, world: &mut World) {
         self.solution = Some(*load);
         let (Some(axis), Some(drive)) = (self.axis(), self.drive) else { return };

@@ -58,13 +58,13 @@ struct Builder {
     places: BTreeMap<Handle, usize>,
     joints: Vec<JointProperties>,
     links: Vec<Handle>,
-    /// Whether a joint asks for rapier's joints, and whether there is a screw, which rapier does not know.
+    /// Whether a joint selects rapier's joints, and whether there is a screw, which rapier lacks.
     asks_rapier: bool,
     has_screw: bool,
 }
 
 impl Mechanisms {
-    /// Lays out the systems for the links there are; mechanisms of which a joint asks for it are left to rapier. `order`: base-to-tip.
+    /// Builds the systems for the links; mechanisms with a joint that selects rapier are left to rapier. `order`: base to tip.
     pub(super) fn rebuild(&mut self, links: &mut Links, order: &[Handle], bodies: &Bodies, world: &mut World) {
         self.all.iter().for_each(|linked| linked.enable_engine_gyration(true, world));
         let builders = builders(links, order, bodies);
@@ -109,7 +109,7 @@ impl Mechanisms {
         }
     }
 
-    /// Puts the bodies back where the links want them, after a sub-step.
+    /// Corrects the positions of the bodies after a sub-step, so that the links hold.
     pub(super) fn correct_positions(&mut self, links: &Links, world: &mut World) {
         self.all.iter_mut().for_each(|linked| linked.correct_positions(links, world));
     }

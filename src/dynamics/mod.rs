@@ -2,17 +2,16 @@
 //!
 //! A dynamics call is divided into sub-steps. [`Dynamics::begin`] brings the engine up to date with the scene, then every sub-step is
 //! [`prepare`](Dynamics::prepare) (static bodies and motors), [`start_sub_step`](Dynamics::start_sub_step), [`SubStep::run`] and
-//! [`finish_sub_step`](Dynamics::finish_sub_step) (the scene learns the result), and [`end`](Dynamics::end) closes the call. Between these the
-//! scene and the dynamics are nobody's, so that scripts may run; while a sub-step runs the scene may be read and written, and the engine
-//! takes notice at the next call.
+//! [`finish_sub_step`](Dynamics::finish_sub_step) (writes the results to the scene), and [`end`](Dynamics::end) closes the call. Between these
+//! neither the scene nor the dynamics is borrowed, so scripts may run. During a sub-step the scene may be read and written; the engine
+//! reads the changes at the next call.
 //!
-//! - `plan`: who takes part, decided over the scene alone; compared with what exists, so that only changes touch the engine.
-//! - `bodies`, `colliders`, `links`: plans made real; `mechanisms`: linked bodies, solved by the crate `articulation`.
-//! - `contacts`: who may touch whom; `motors`: the control law.
-//! - `load`, `contact_log`: what is read back; `frozen`: bodies that could not go on.
+//! - `plan`: the bodies and constraints that the scene needs; compared with those that exist, so that only changes reach the engine.
+//! - `bodies`, `colliders`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`.
+//! - `contacts`: collision filters; `motors`: the control law.
+//! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
 //!
-//! Free bodies that rest fall asleep, which costs nothing and changes nothing that can be read, until something wakes them. No state
-//! outlives the run: the same scene gives the same bytes.
+//! Free bodies at rest fall asleep, which no reading shows. No state outlives the run: the same scene produces the same bytes.
 
 mod bodies;
 mod colliders;
@@ -36,7 +35,7 @@ use rapier3d_f64::math::Vector;
 
 use bodies::Bodies;
 use contact_log::{Contact, ContactLog};
-pub(crate) use contacts::{Judge, Verdict};
+pub(crate) use contacts::{ContactCallback, ContactResponse};
 use frozen::Frozen;
 use links::Links;
 use mechanisms::Mechanisms;
@@ -76,8 +75,8 @@ pub(crate) struct Dynamics {
     /// What the plan was made for.
     known: Option<Mark>,
     call: Option<Call>,
-    /// Whether the engine asks about every pair that may touch.
-    asks: bool,
+    /// Whether every pair that may touch is filtered, not only those with masks of their own.
+    filters_all: bool,
 }
 
 /// A dynamics call in progress.
@@ -109,9 +108,9 @@ pub(crate) struct JointRequest {
 /// Involvement of scripts in a sub-step.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Attention {
-    /// Scripts judge contacts.
-    pub judged: bool,
-    /// Scripts run before, during or after the sub-step, so that they may look at the scene and change it.
+    /// Scripts decide about contacts.
+    pub contact_callbacks: bool,
+    /// Scripts run before, during or after the sub-step, so that they may read and change the scene.
     pub watched: bool,
 }
 
@@ -125,9 +124,9 @@ pub(crate) struct SubStep {
 }
 
 impl SubStep {
-    /// Advances the engine; `judge` decides about pairs of shapes that may touch.
-    pub(crate) fn run(&mut self, judge: Option<Judge<'_>>) {
-        self.world.step(self.step, self.gravity, &contacts::Rules::new(judge));
+    /// Advances the engine; `callback` decides about pairs of shapes that may touch.
+    pub(crate) fn run(&mut self, callback: Option<ContactCallback<'_>>) {
+        self.world.step(self.step, self.gravity, &contacts::Rules::new(callback));
     }
 }
 
@@ -162,7 +161,7 @@ impl Dynamics {
         Ok(self.call)
     }
 
-    /// Makes a new plan when something it depends on has changed.
+    /// Makes a new plan if its inputs have changed.
     fn update_plan(&mut self, scene: &mut Scene) {
         let changed = self.has_new_changes(scene);
         let released = self.frozen.release(scene);
@@ -181,15 +180,15 @@ impl Dynamics {
         links::move_with_joints(&self.links, &plan.links, &self.bodies, world, scene);
         links::apply_plan(&mut self.links, plan.links, &self.bodies, world, scene);
         links::clear_resets(&self.links, scene);
-        contacts::ask_about_all(world, self.asks);
-        let_sleep(&self.bodies, &self.links, world, self.asks);
+        contacts::filter_all_pairs(world, self.filters_all);
+        let_sleep(&self.bodies, &self.links, world, self.filters_all);
         self.contacts.forget_resting();
         self.mechanisms.rebuild(&mut self.links, &scene.all_breadth_first(), &self.bodies, world);
-        // What was just written into the scene asks for no other plan.
+        // Changes made here need no new plan.
         self.has_new_changes(scene);
     }
 
-    /// Whether the scene changed since the last call in a way that can ask for another plan.
+    /// Whether the scene changed since the last call in a way that may need a new plan.
     fn has_new_changes(&mut self, scene: &Scene) -> bool {
         scene.journal().changed_since(self.known.get_or_insert(Mark::new(PLANNED)))
     }
@@ -226,14 +225,14 @@ impl Dynamics {
         }
     }
 
-    /// Readies sub-step number `sub_step` (from 1): forces of scripts, gravity.
+    /// Prepares sub-step number `sub_step` (from 1): forces of scripts, gravity.
     pub(crate) fn start_sub_step(&mut self, scene: &Scene, sub_step: u32, attention: Attention) -> Option<SubStep> {
         let mut world = self.world.take()?;
         let call = self.call?;
-        if self.asks != attention.judged {
-            self.asks = attention.judged;
-            contacts::ask_about_all(&mut world, self.asks);
-            let_sleep(&self.bodies, &self.links, &mut world, self.asks);
+        if self.filters_all != attention.contact_callbacks {
+            self.filters_all = attention.contact_callbacks;
+            contacts::filter_all_pairs(&mut world, self.filters_all);
+            let_sleep(&self.bodies, &self.links, &mut world, self.filters_all);
         }
         // Nobody else can have changed the forces since the first sub-step.
         if sub_step == 1 || attention.watched {

@@ -1,7 +1,7 @@
 //! Which shapes are bodies, and which constraints connect them (spec: dynamics 3).
 //!
-//! Pure decisions over the scene; nothing here knows rapier. A plan is made anew whenever something it depends on has changed, and
-//! compared with what exists.
+//! A function of the scene alone, without rapier. A plan is recomputed when its inputs change, and compared with the bodies and
+//! constraints that exist.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -80,7 +80,7 @@ pub(super) struct Surface {
     pub angular_damping: f64,
 }
 
-/// How the frictions of two shapes become one: as the selected engine does it.
+/// How the selected engine combines the frictions of two shapes.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum FrictionRule {
     Product,

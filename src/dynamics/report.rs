@@ -62,7 +62,7 @@ impl Dynamics {
                 continue;
             };
             let pose = (!is_held(&self.links, scene, shape)).then_some(pose);
-            // A shape that was removed meanwhile has nothing to be told.
+            // The shape may have been removed in the meantime.
             if let Ok(local) = scene.report_body(shape, pose, velocity) {
                 body.local = local;
             }
@@ -153,7 +153,7 @@ fn state(body: &Body, world: &World) -> Option<(Pose, Velocity)> {
 }
 
 fn report_link(scene: &mut Scene, handle: Handle, link: &Link, moving_side: Pose) {
-    // A link that was removed meanwhile has nothing to be told.
+    // The joint may have been removed in the meantime.
     let _ = match link.plan.kind {
         LinkKind::Weld => Ok(()),
         LinkKind::Sensor => scene.report_sensor(handle, moving_side),

@@ -79,7 +79,7 @@ impl World {
             hooks,
             &(),
         );
-        // Only those are touched: rapier looks again at every body somebody may have changed.
+        // Only those are changed: rapier processes every body that may have changed.
         let awake = self.islands.active_bodies();
         let fast = awake.filter(|&handle| self.bodies.get(handle).is_some_and(|rigid| turns_fast(rigid, step)));
         for handle in fast.collect::<Vec<_>>() {

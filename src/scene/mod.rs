@@ -1,7 +1,7 @@
 //! The scene: objects, handles, poses, names. Pure data and maths: no Lua, no physics, no I/O, no clock.
 //!
 //! [`Scene`] owns every object in one store indexed by [`Handle`]. Reading gives `&Object`; every mutation is a method of `Scene` and
-//! is noted in the [`Journal`], so that events, caches and the physics learn of it in one place.
+//! is recorded in the [`Journal`], which events, caches and the physics read.
 
 pub mod appearance;
 pub mod error;

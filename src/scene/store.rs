@@ -1,7 +1,7 @@
-//! The scene: its parts, and the one gate to its objects.
+//! The scene: its parts, and access to its objects.
 //!
 //! Each part owns its data: the objects ([`Objects`]), who refers to whom, the selection, collections, textures. What concerns several
-//! parts, such as adding and removing objects, is a method of [`Scene`], as is everything that is noted in the journal.
+//! parts, such as adding and removing objects, is a method of [`Scene`], as is everything that the journal records.
 
 use super::appearance::texture_mapping::Textures;
 use super::joint::dependency::DependentJoints;
@@ -69,7 +69,7 @@ impl Scene {
         Ok(handle)
     }
 
-    /// Gives an object that comes into the scene its identifiers. A copy keeps the DNA of its original.
+    /// Assigns identifiers to a new object. A copy keeps the DNA of its original.
     fn identify(&mut self, object: &mut Object) {
         object.uid = self.new_uid();
         object.persistent_uid = identity::persistent_uid(object.uid);
@@ -122,7 +122,7 @@ impl Scene {
         Some(result)
     }
 
-    /// A fresh unique identifier; meshes and scripts draw from the same counter.
+    /// A fresh unique identifier; objects, meshes and scripts share the counter.
     pub fn new_uid(&mut self) -> Uid {
         self.last_uid += 1;
         self.last_uid
@@ -136,7 +136,7 @@ impl Scene {
         self.object(handle).is_ok()
     }
 
-    /// Changes one aspect of an object: the one gate for everything that is not a change of the tree.
+    /// Changes one aspect of an object. All changes except those of the tree go through here.
     pub fn modify<R>(&mut self, handle: Handle, field: Field, change: impl FnOnce(&mut Object) -> R) -> SceneResult<R> {
         self.try_modify(handle, field, |object| Ok(change(object)))
     }
@@ -184,7 +184,7 @@ impl Scene {
         self.journal.note(change);
     }
 
-    /// Forgets an object that is in no list any more.
+    /// Removes an object that no list contains any more.
     pub(super) fn erase(&mut self, handle: Handle) {
         let Some(object) = self.objects.remove(handle) else { return };
         if let Kind::Shape(shape) = &object.kind {
@@ -227,7 +227,7 @@ impl Scene {
         result
     }
 
-    /// What changed, for those who follow the scene.
+    /// The journal of changes.
     pub fn journal(&self) -> &Journal {
         &self.journal
     }

@@ -19,6 +19,7 @@ fn api_prints_the_reference() {
     let send = stdout(&run(&["simZMQ.send"]));
     assert!(send.contains("int result = simZMQ.send(string socket, buffer data, int flags)"), "{send}");
     let module = stdout(&run(&["simWS"]));
+    assert!(module.starts_with("WebSocket servers and clients.\n\n"), "{module}");
     assert!(module.contains("simWS.connect") && !module.contains("sim.getObject"), "{module}");
 }
 

@@ -32,7 +32,7 @@ pub(super) struct TubeStatus {
 }
 
 impl Tubes {
-    /// Opens an end and joins it to a lonely one of that name.
+    /// Opens an end and connects it to a free one of that name.
     pub(super) fn open(&mut self, header: i64, name: Vec<u8>, capacity: usize, owner: i64) -> i64 {
         let handle = self.opened;
         self.opened += 1;
@@ -45,7 +45,7 @@ impl Tubes {
         handle
     }
 
-    /// Hands a packet to the other end; None if there is no such tube, false if it has no other end.
+    /// Sends a packet to the other end; None if there is no such tube, false if it has no other end.
     pub(super) fn write(&mut self, handle: i64, packet: Vec<u8>) -> Option<bool> {
         let Some(partner) = self.ends.get(&handle)?.partner.and_then(|partner| self.ends.get_mut(&partner)) else {
             return Some(false);
@@ -69,7 +69,7 @@ impl Tubes {
         Some(TubeStatus { connected: partner.is_some(), to_read: end.packets.len(), written })
     }
 
-    /// Closes an end; the other one is lonely then. False if there was none.
+    /// Closes an end and disconnects the other one. False if there was none.
     pub(super) fn close(&mut self, handle: i64) -> bool {
         let Some(end) = self.ends.remove(&handle) else { return false };
         if let Some(partner) = end.partner.and_then(|partner| self.ends.get_mut(&partner)) {

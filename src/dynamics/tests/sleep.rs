@@ -212,20 +212,20 @@ fn a_link_wakes_and_keeps_awake() {
 }
 
 #[test]
-fn scripts_that_judge_contacts_wake() {
+fn contact_callbacks_wake_bodies() {
     let mut sleeper = Sleeper::new();
     let asked = std::cell::Cell::new(0);
-    let judge = |_, _| {
+    let callback = |_, _| {
         asked.set(asked.get() + 1);
-        Verdict::PassThrough
+        ContactResponse::NoCollision
     };
     let call = sleeper.bench.dynamics.begin(&mut sleeper.bench.scene, STEP).expect("not busy").expect("a body");
     for number in 1..=call.sub_steps {
         sleeper.bench.dynamics.prepare(&sleeper.bench.scene, number);
-        let attention = Attention { judged: true, watched: true };
+        let attention = Attention { contact_callbacks: true, watched: true };
         let mut sub_step =
             sleeper.bench.dynamics.start_sub_step(&sleeper.bench.scene, number, attention).expect("a world");
-        sub_step.run(Some(&judge));
+        sub_step.run(Some(&callback));
         sleeper.bench.dynamics.finish_sub_step(sub_step, &mut sleeper.bench.scene);
     }
     sleeper.bench.dynamics.end(&mut sleeper.bench.scene);

@@ -1,4 +1,4 @@
-//! What is large: the arrays of meshes, which stand in their meshes, and the pixels of textures. Both may be in files beside the scene.
+//! Large values: the arrays of meshes and the pixels of textures. Both may be in files beside the scene.
 
 use super::document::Element;
 use super::read::{Reading, put};

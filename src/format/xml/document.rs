@@ -17,7 +17,7 @@ struct Node {
     parent: Option<usize>,
     children: Vec<usize>,
     attributes: Vec<(String, String)>,
-    /// What stands in it, CDATA sections apart.
+    /// Its text, without CDATA sections.
     pieces: Vec<(bool, String)>,
     begin: usize,
     end: usize,
@@ -212,7 +212,7 @@ impl<'a> Element<'a> {
         self.node().attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
     }
 
-    /// What stands in it. CDATA sections come without the newlines that were added to them; blanks around them do not count.
+    /// Its text. The newlines that were added to CDATA sections are removed; blanks around them do not count.
     pub(super) fn text(self) -> String {
         let pieces = &self.node().pieces;
         let any_data = pieces.iter().any(|(data, _)| *data);

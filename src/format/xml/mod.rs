@@ -29,7 +29,7 @@ pub enum Variant {
 }
 
 impl Variant {
-    /// The variant a file name asks for, and the name without the mark that says so; none for other formats.
+    /// The variant that a file name selects, and the name without its mark; None for other formats.
     pub fn of_name(name: &str) -> (Option<Self>, &str) {
         match name.strip_suffix("@simpleXml") {
             Some(name) => (Some(Self::Simple), name),
@@ -45,7 +45,7 @@ pub fn is_xml(bytes: &[u8]) -> bool {
     text.trim_ascii_start().starts_with(b"<")
 }
 
-/// The scene or model of an XML file. Files it names are looked for in `folder`; out of a buffer there are none.
+/// The scene or model of an XML file. Files that it names are below `folder`; a buffer has none.
 ///
 /// # Errors
 /// What is wrong, with line, column and the names of the elements.

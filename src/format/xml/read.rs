@@ -31,7 +31,7 @@ impl Reading<'_> {
     /// What the element says of a section's fields.
     ///
     /// # Errors
-    /// When a value is not what it should be.
+    /// When a value has the wrong type or form.
     pub(super) fn section(&mut self, name: &str, element: Element<'_>) -> FileResult<Node> {
         element.mark();
         let mut node = Node::Table(Vec::new());
@@ -206,7 +206,7 @@ pub(super) fn get(node: &Node, field: &[Step]) -> Option<Node> {
     }
 }
 
-/// Puts a part into a node. Lists get as long as they must; what is not known yet is zero.
+/// Puts a part into a node. Lists grow as needed; elements that are still unknown are zero.
 pub(super) fn put(node: &mut Node, field: &[Step], value: Node) {
     let Some((step, rest)) = field.split_first() else {
         *node = value;

@@ -1,4 +1,4 @@
-//! All of a scene or model, out of elements and into them: which objects there are, who is whose child, which scripts they have.
+//! A whole scene or model from elements and to elements: objects, the tree, scripts.
 
 use std::collections::BTreeMap;
 
@@ -28,7 +28,7 @@ const CLASSES: [(&str, &str); 14] = [
     ("path", "Path"),
     ("forceSensor", "ForceSensor"),
 ];
-/// Types that become dummies, so that the tree stays whole.
+/// Types that become dummies, so that the tree stays complete.
 const GONE: [&str; 4] = ["mirror", "mill", "marker", "customSceneObject"];
 /// Scripts attached to objects, and their types.
 const ATTACHED: [(&str, i64); 2] = [("childScript", 1), ("customizationScript", 6)];

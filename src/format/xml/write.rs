@@ -67,7 +67,7 @@ impl Item {
     }
 }
 
-/// In a CDATA section, which its own end would end: that stands outside.
+/// In a CDATA section. An end mark in the text is written outside of it.
 fn data(text: &str) -> String {
     let pieces: Vec<String> = text.split("]]>").map(|piece| format!("<![CDATA[\n{piece}\n]]>")).collect();
     pieces.join("]]&gt;")
@@ -181,7 +181,7 @@ pub(super) fn number(value: f64) -> String {
     text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
 }
 
-/// Texts of scripts stand in CDATA sections; what XML cannot hold is coded.
+/// The texts of scripts are CDATA sections; bytes that XML cannot contain are encoded.
 fn text(value: &Node, name: &str, out: &mut Item) {
     let Ok(bytes) = value.bytes() else { return };
     let holdable = |text: &str| !text.chars().any(|c| c.is_control() && !matches!(c, '\t' | '\n' | '\r'));

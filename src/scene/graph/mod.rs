@@ -75,7 +75,7 @@ pub struct OldSource {
     pub auxiliary: i32,
 }
 
-/// What is recorded in one slot; nothing in a gap.
+/// The content of one slot; empty in a gap.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Sample {
     pub raw: Option<f64>,

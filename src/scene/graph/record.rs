@@ -3,7 +3,7 @@
 use super::{Curve, Graph, Sample, Stream, Transformation, TransformationKind};
 
 impl Graph {
-    /// Records what the streams have been given; nothing is a gap. A full graph that is not cyclic records nothing.
+    /// Records the next values of the streams; a stream without one gets a gap. A full graph that is not cyclic records nothing.
     pub fn record(&mut self, time: f64) {
         let most = usize::try_from(self.buffer_size).unwrap_or(0).max(1);
         if self.times.len() >= most && !self.cyclic {
@@ -130,7 +130,7 @@ mod tests {
         Style { id: 0, name, unit: String::new(), colour: [1.0; 3], label: true, linked: true }
     }
 
-    /// The values of a stream that is given these, one each 0.05 s.
+    /// The values of a stream into which these are recorded, one each 0.05 s.
     fn recorded(transformation: Transformation, given: &[Option<f64>]) -> Vec<Option<f64>> {
         let mut graph = Graph::default();
         let id = graph.add_stream(Stream { transformation, ..Stream::new(style("s")) }).unwrap();

@@ -100,7 +100,7 @@ impl Joint {
         self.range = range.clamp(narrowest, pick(RANGE_BOUNDS));
     }
 
-    /// Sets the screw lead (m per turn); refused silently where it means nothing.
+    /// Sets the screw lead (m per turn); ignored where it has no meaning.
     pub fn set_screw_lead(&mut self, lead: f64) {
         if self.is_revolute() && !self.cyclic && self.mode != JointMode::Dynamic {
             self.screw_lead = lead.clamp(-MAX_SCREW_LEAD, MAX_SCREW_LEAD);

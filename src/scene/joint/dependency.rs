@@ -26,7 +26,7 @@ impl DependentJoints {
 }
 
 impl Scene {
-    /// Makes `handle` follow `master` (None: nobody). Spherical joints take no part: nothing happens then. A joint that would close
+    /// Makes `handle` follow `master` (None: independent). Ignored for spherical joints. A joint that would close
     /// a circle loses its own master.
     pub fn set_joint_dependency(
         &mut self,

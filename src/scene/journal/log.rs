@@ -138,7 +138,7 @@ impl Log {
         self.wanted.set(readers.iter().fold(Topics::NONE, |wanted, reader| wanted.and(reader.topics)));
         let end = self.first + self.stored.len() as u64;
         let places = readers.iter().filter_map(|reader| reader.next.upgrade()).map(|next| next.get());
-        // Who is too far behind already will be told that everything changed, and needs none of this.
+        // A cursor that is already too far behind reports that everything changed, and needs none of this.
         let slowest = places.filter(|next| (self.first..end).contains(next)).min().unwrap_or(end);
         let read = (slowest - self.first) as usize;
         let unread = self.stored.len() - read;

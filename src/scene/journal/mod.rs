@@ -4,7 +4,7 @@
 //! notes its change here, whoever makes it. There are two ways to learn of changes:
 //!
 //! - A [`Cursor`] reads the changes themselves, in their order. They are stored only while there is a cursor that wants them, and no
-//!   more than a fixed number: a cursor that is too far behind is told that everything may have changed, as is a new one.
+//!   more than a fixed number: a cursor that is too far behind, or new, reports that everything may have changed.
 //! - A [`Mark`] asks whether anything changed about some topics. Nothing is stored for it, and the answer takes constant time.
 //!
 //! Which data of objects changed is a digest beside the log ([`ChangedNames`]): each name once, however often it was written.
@@ -111,7 +111,7 @@ impl Journal {
         self.log.read(cursor)
     }
 
-    /// Goes past everything: the reader knows the scene as it is now.
+    /// Skips all changes so far.
     pub fn skip(&self, cursor: &mut Cursor) {
         // That all of it may have changed is no news to somebody who has just looked.
         let _ = self.log.read(cursor);

@@ -1,4 +1,4 @@
-//! Bit sets of objects, with the numbers scripts and files use. Bits without a name here are stored and read back as well.
+//! Bit sets of objects, with the numbers that scripts and files use. Bits without a name are stored and read back.
 
 use bitflags::bitflags;
 
@@ -22,7 +22,7 @@ bitflags! {
 }
 
 bitflags! {
-    /// `sim.objectspecialproperty_*`: what sensors and calculations make of an object.
+    /// `sim.objectspecialproperty_*`: how sensors and calculations treat an object.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct SpecialFlags: i64 {
         const COLLIDABLE = 0x1;
@@ -55,7 +55,7 @@ bitflags! {
 }
 
 bitflags! {
-    /// How a user may not move an object by hand.
+    /// Movements that a user interface must not offer.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct ForbiddenMovements: i64 {
         const TRANSLATION_STOPPED = 0x1;
@@ -69,7 +69,7 @@ bitflags! {
 }
 
 bitflags! {
-    /// Axes along or about which a user moves an object by hand.
+    /// Axes along or about which a user interface moves an object.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct PreferredAxes: i64 {
         const TRANSLATION_X = 0x1;
@@ -88,7 +88,7 @@ impl PreferredAxes {
 }
 
 bitflags! {
-    /// What the physics simulates of an object.
+    /// Which parts of an object the physics simulates.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
     pub struct DynamicFlags: i64 {
         const RESPONDABLE = 1;

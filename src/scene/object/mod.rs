@@ -46,7 +46,7 @@ pub struct Object {
     pub layer: Layers,
     /// Of the body; shapes have theirs in their meshes.
     pub colour: Colour,
-    /// How a hand may move it.
+    /// How a user may move it.
     pub movement: Movement,
     /// Number of the colour in the tree, -1 for none. Kept for scripts.
     pub hierarchy_colour: i64,

@@ -1,8 +1,8 @@
-//! Permissions for moving an object by hand. Stored for scripts and files; there is no user interface.
+//! Permissions for moving an object in a user interface. Stored for scripts and files; there is no user interface.
 
 use super::flags::{ForbiddenMovements, PreferredAxes};
 
-/// What a hand may do to an object, and in which steps.
+/// How a user may move an object in an interface, and in which steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Movement {
     pub forbidden: ForbiddenMovements,

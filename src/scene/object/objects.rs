@@ -1,7 +1,7 @@
 //! The objects of a scene by handle and by identifier.
 //!
 //! An object can only be changed by way of [`get_mut`](Objects::get_mut), after which all that hangs on it is taken to have moved, or
-//! [`get_in_place`](Objects::get_in_place), for what moves nothing: so no remembered world pose is ever out of date.
+//! [`get_in_place`](Objects::get_in_place), for changes that move nothing. So no cached world pose is out of date.
 
 use std::collections::BTreeMap;
 

@@ -219,7 +219,7 @@ impl Object {
 }
 
 impl Scene {
-    /// Makes a camera follow an object; handles of nothing mean none.
+    /// Makes a camera track an object; an unknown handle ends the tracking.
     ///
     /// # Errors
     /// When `handle` is no camera.
@@ -238,7 +238,7 @@ impl Scene {
         self.modify(handle, Field::Sensor, |object| object.set_display_int_param(id, value))
     }
 
-    /// Numbers that are not finite change nothing.
+    /// Values that are not finite are ignored.
     pub(in crate::scene) fn set_display_float(&mut self, handle: Handle, id: i64, value: f64) -> SceneResult<bool> {
         if !value.is_finite() {
             return Ok(self.object(handle)?.display_float_param(id).is_some());

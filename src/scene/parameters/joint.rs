@@ -71,7 +71,7 @@ impl Joint {
         })
     }
 
-    /// Sets a float parameter with its side effects; false when joints have no such parameter. NaN changes nothing.
+    /// Sets a float parameter with its side effects; false when joints have no such parameter. NaN is ignored.
     pub fn set_float_param(&mut self, id: i64, value: f64) -> bool {
         if value.is_nan() {
             return self.float_param(id).is_some();

@@ -88,7 +88,7 @@ impl Scene {
         Ok(true)
     }
 
-    /// Sets what an object can be to sensors and checks; any of the five detectable bits stands for all.
+    /// Sets how sensors and calculations treat an object; any of the five detectable bits sets all of them.
     pub fn set_special_property(&mut self, handle: Handle, mut flags: SpecialFlags) -> SceneResult<()> {
         flags.set(SpecialFlags::DETECTABLE, flags.intersects(SpecialFlags::DETECTABLE));
         self.modify(handle, Field::SpecialProperty, |object| object.special_property = flags)

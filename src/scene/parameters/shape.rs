@@ -76,7 +76,7 @@ impl Shape {
         })
     }
 
-    /// Sets a float parameter; false when shapes have no such parameter. NaN changes nothing.
+    /// Sets a float parameter; false when shapes have no such parameter. NaN is ignored.
     pub fn set_float_param(&mut self, id: i64, value: f64) -> bool {
         if value.is_nan() {
             return self.float_param(id).is_some();
@@ -106,7 +106,7 @@ impl TextureMapping {
         }
     }
 
-    /// Infinite values change nothing.
+    /// Infinite values are ignored.
     fn set_param(&mut self, id: i64, value: f64) {
         match id {
             _ if !value.is_finite() => {}

@@ -1,4 +1,4 @@
-//! World poses at hand: each object remembers where it is until it, or something above it, moves.
+//! Cached world poses: an object's is valid until the object, or one above it, moves.
 //!
 //! Changes of place are numbered. A change costs one number, written into the object that moved, however much hangs below it; a
 //! pose is checked when it is asked for, by the largest number from the object up to its root. That walk ends at the first object

@@ -41,7 +41,7 @@ impl ProximitySensor {
             angle_threshold: limit(ProximityOptions::ANGLE_THRESHOLD, 10),
             entity: -1,
             ray_colour: Colour { emission: RAY_GLOW, ..Colour::new([0.0; 3]) },
-            known_faces: None,
+            file_faces: None,
             detection: None,
         }
     }

@@ -11,11 +11,11 @@ use std::f64::consts::FRAC_PI_2;
 use super::Handle;
 use super::appearance::colour::Colour;
 use volume::Volume;
-use volume_faces::KnownFaces;
+use volume_faces::FileFaces;
 
 pub use options::{ProximityOptions, VisionOptions};
 
-/// What a proximity sensor sees with.
+/// A proximity sensor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProximitySensor {
     pub volume: Volume,
@@ -35,13 +35,13 @@ pub struct ProximitySensor {
     pub angle_threshold: f64,
     pub entity: i64,
     pub ray_colour: Colour,
-    /// What the file it is from said bounds the volume.
-    pub known_faces: Option<Box<KnownFaces>>,
-    /// What it found when it was handled last.
+    /// The faces of the volume that its file contains.
+    pub file_faces: Option<Box<FileFaces>>,
+    /// The result of the last handling.
     pub detection: Option<Detection>,
 }
 
-/// What a proximity sensor found, in its own frame.
+/// A detection of a proximity sensor, in its own frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Detection {
     pub object: Handle,
@@ -49,7 +49,7 @@ pub struct Detection {
     pub normal: [f64; 3],
 }
 
-/// What cameras and vision sensors share: how they project.
+/// The projection of a camera or vision sensor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
     pub perspective: bool,
@@ -100,7 +100,7 @@ pub struct VisionSensor {
     pub size: f64,
     pub entity: i64,
     pub render_mode: RenderMode,
-    /// Of the picture where there is nothing.
+    /// Colour of the image where no object is.
     pub background: [f32; 3],
     pub background_from_environment: bool,
     /// The picture comes from scripts.
@@ -121,7 +121,7 @@ impl VisionSensor {
         self.view.resolution.iter().map(|&pixels| pixels as usize).product::<usize>() * 3
     }
 
-    /// Changes the resolution; an earlier picture is gone.
+    /// Changes the resolution and drops the image.
     pub fn set_resolution(&mut self, resolution: [i64; 2]) {
         self.view.set_resolution(resolution);
         (self.image, self.depth) = (Vec::new(), Vec::new());
@@ -167,7 +167,7 @@ impl LightType {
 pub struct Light {
     pub light_type: LightType,
     pub enabled: bool,
-    /// What it sheds.
+    /// The colour of its light.
     pub colour: Colour,
     pub size: f64,
     pub spot_exponent: i64,

@@ -48,7 +48,7 @@ pub struct Volume {
     pub inside_gap: f64,
     pub faces: [i64; 2],
     pub subdivisions: [i64; 2],
-    /// Whatever is nearer keeps the sensor from detecting anything; 0 for no such zone.
+    /// If an object is nearer than this, the sensor detects nothing; 0 for no such zone.
     pub close_threshold: f64,
 }
 

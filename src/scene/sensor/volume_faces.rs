@@ -20,26 +20,26 @@ pub struct VolumeFaces {
     pub close_edges: Vec<f64>,
 }
 
-/// What a file said bounds a volume.
+/// The faces that a file contains, with the volume they belong to.
 #[derive(Debug, Clone, PartialEq)]
-pub struct KnownFaces {
+pub struct FileFaces {
     volume: Volume,
     faces: VolumeFaces,
 }
 
 impl ProximitySensor {
-    /// Keeps what a file says bounds the volume, for as long as the volume is this one. What would be worked out need not be kept.
-    pub fn keep_faces(&mut self, faces: VolumeFaces) {
+    /// Stores the faces a file contains; they are valid until the volume changes. Faces equal to the computed ones are not stored.
+    pub fn set_file_faces(&mut self, faces: VolumeFaces) {
         if faces == self.faces() {
             return;
         }
-        self.known_faces = Some(Box::new(KnownFaces { volume: self.volume.clone(), faces }));
+        self.file_faces = Some(Box::new(FileFaces { volume: self.volume.clone(), faces }));
     }
 
-    /// What bounds the volume: as it was kept, or worked out. The planes of discs and cones, and of volumes with a gap inside, are not
-    /// worked out: there are none then.
+    /// The faces of the volume: those of the file, else computed ones. For discs, cones and volumes with an inside gap, no planes are
+    /// computed.
     pub fn faces(&self) -> VolumeFaces {
-        match self.known_faces.as_deref().filter(|known| known.volume == self.volume) {
+        match self.file_faces.as_deref().filter(|known| known.volume == self.volume) {
             Some(known) => known.faces.clone(),
             None => VolumeFaces {
                 planes_inside: self.volume.planes().concat(),
@@ -107,7 +107,7 @@ mod tests {
     fn what_was_kept_holds_while_the_volume_does() {
         let mut sensor = sensor(VolumeType::Cone);
         let kept = VolumeFaces { planes_outside: vec![1.0; 4], ..VolumeFaces::default() };
-        sensor.keep_faces(kept.clone());
+        sensor.set_file_faces(kept.clone());
         assert_eq!(sensor.faces(), kept);
         sensor.volume.range *= 2.0;
         assert!(sensor.faces().planes_outside.is_empty() && !sensor.faces().edges.is_empty());

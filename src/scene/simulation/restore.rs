@@ -19,7 +19,7 @@ pub struct InitialState {
     kind: InitialKind,
 }
 
-/// What is remembered of the type of an object.
+/// The stored state of the type of an object.
 #[derive(Debug, Clone)]
 enum InitialKind {
     Joint(Box<Joint>),
@@ -28,8 +28,8 @@ enum InitialKind {
 }
 
 impl Scene {
-    /// Every object remembers its state, for the end of the run; those whose model does not want to be reset do not. Models forget
-    /// that wish: it holds for one run.
+    /// Stores the state of every object for the end of the run, except in models with [`ModelFlags::NOT_RESET`]. The flag holds for one
+    /// run and is cleared here.
     pub fn store_initial_state(&mut self) {
         self.in_run = true;
         let objects = self.all_breadth_first();
@@ -49,8 +49,7 @@ impl Scene {
         }
     }
 
-    /// A copy that is made during a run remembers the state it begins with, in case it survives the end. Other new objects do not: they
-    /// stay as the run leaves them.
+    /// Stores the first state of a copy made during a run. Other new objects have no stored state and stay as the run leaves them.
     pub(in crate::scene) fn store_state_of_copy(&mut self, handle: Handle) -> SceneResult<()> {
         if !self.in_run {
             return Ok(());
@@ -61,7 +60,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Takes objects off all layers that do not want to be seen while a simulation runs.
+    /// Removes an object from all layers if it has [`ObjectFlags::HIDDEN_FOR_SIMULATION`].
     fn hide_for_simulation(&mut self, handle: Handle) {
         let hidden = self.object(handle).is_ok_and(|object| {
             object.object_property.contains(ObjectFlags::HIDDEN_FOR_SIMULATION)
@@ -74,7 +73,7 @@ impl Scene {
         }
     }
 
-    /// Those objects whose model does not want to be reset.
+    /// The objects in models with [`ModelFlags::NOT_RESET`].
     fn not_reset(&self, objects: &[Handle]) -> BTreeSet<Handle> {
         objects.iter().copied().filter(|&h| self.calculated_model_property(h).contains(ModelFlags::NOT_RESET)).collect()
     }
@@ -84,8 +83,8 @@ impl Scene {
         self.object(parent).ok().map(Object::uid)
     }
 
-    /// Every object goes back to the state it had at the start of the run, unless its model does not want to. Copies made
-    /// since go back to the state they began with, other new objects stay as they are.
+    /// Restores the state that every object had at the start of the run, except in models with [`ModelFlags::NOT_RESET`]. Copies made
+    /// during the run return to their first state; other new objects stay as they are.
     pub fn restore_initial_state(&mut self) {
         self.in_run = false;
         let objects = self.all_breadth_first();
@@ -146,7 +145,7 @@ impl Scene {
     }
 }
 
-/// A shape that was to touch nothing for a while touches again: that lasts no longer than a run.
+/// Ends a suspension of collisions, which lasts no longer than a run.
 fn end_suspension(object: &mut Object) {
     if let Kind::Shape(shape) = &mut object.kind {
         shape.dynamics.respondable_suspend_count = 0;

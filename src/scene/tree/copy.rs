@@ -56,7 +56,7 @@ impl Scene {
         listed.iter().filter(is_model).flat_map(|&base| self.subtree(base)).collect()
     }
 
-    /// Scripts of the old kind that sit on `handle`: they go with it.
+    /// Attached scripts of `handle`, which are copied with it.
     fn proxy_scripts(&self, handle: Handle) -> Vec<Handle> {
         let children = self.object(handle).map_or(&[][..], Object::children);
         let goes_along = |&&child: &&Handle| {
@@ -165,7 +165,7 @@ fn redirect(object: &mut Object, copies: &BTreeMap<Handle, Handle>) {
     }
 }
 
-/// What a copied sensor looks at: the copy, if there is one, otherwise what the original looks at.
+/// The entity of a copied sensor: the copy of the original's entity, if there is one, else the same entity.
 fn redirected_entity(entity: i64, copies: &BTreeMap<Handle, Handle>) -> i64 {
     Handle::from_raw(entity).and_then(|handle| copies.get(&handle)).map_or(entity, |copy| copy.raw())
 }

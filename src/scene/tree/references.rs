@@ -7,16 +7,16 @@ use crate::scene::{Change, Field, Handle, Kind, Object, Scene, SceneResult};
 /// Lists of handles by tag.
 pub type ReferenceLists = Vec<(String, Vec<i64>)>;
 
-/// What becomes of references when the object that holds them is copied.
+/// How references change when their object is copied.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum References {
-    /// The copy refers to copies, and to nothing where an object was not copied along.
+    /// The copy refers to the copies; references to objects that were not copied become -1.
     Following,
     /// The copy refers to the same objects.
     Original,
 }
 
-/// Objects that may keep handles of others, so that not all have to be asked when one is removed.
+/// Objects that may contain handles of others, so that a removal does not visit all objects.
 #[derive(Debug, Default)]
 pub(in crate::scene) struct Referrers(BTreeSet<Handle>);
 
@@ -30,7 +30,7 @@ impl Referrers {
 }
 
 impl Object {
-    /// Whether other objects' handles are kept here, apart from parent and children.
+    /// Whether this object contains handles of others, apart from parent and children.
     fn refers(&self) -> bool {
         let by_kind = match &self.kind {
             Kind::Joint(joint) => joint.dependency.is_some(),
@@ -76,7 +76,7 @@ impl Object {
 }
 
 impl Scene {
-    /// Sets what `handle` refers to under `tag`; an empty list removes the tag. Handles of nothing become -1.
+    /// Sets what `handle` refers to under `tag`; an empty list removes the tag. Unknown handles become -1.
     pub fn set_references(&mut self, handle: Handle, kind: References, tag: &str, handles: &[i64]) -> SceneResult<()> {
         let known = |raw: i64| {
             self.collections().get(raw).is_ok()
@@ -96,7 +96,7 @@ impl Scene {
         })
     }
 
-    /// Drops what other objects know of the doomed: links, dependencies, selection, collections, referenced handles.
+    /// Removes references to objects that are being removed: links, dependencies, selection, collections, lists of handles.
     pub(in crate::scene) fn forget_references(&mut self, doomed: &BTreeSet<Handle>) {
         if self.selection.forget(doomed) {
             self.note(Change::Selection);

@@ -162,7 +162,7 @@ impl Shape {
         }
     }
 
-    /// The factors a shape can follow: round things stay round, compounds keep their proportions.
+    /// The factors a shape allows: round primitives stay round, compounds keep their proportions.
     fn possible_factors(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let [part] = &self.parts[..] else { return [x; 3] };
         match part.primitive.as_ref().map(|primitive| primitive.kind) {

@@ -45,7 +45,7 @@ impl OcTree {
         old.into_iter().for_each(|(centre, voxel)| self.insert(centre, voxel));
     }
 
-    /// Makes everything larger or smaller.
+    /// Scales all lengths.
     pub fn scale(&mut self, factor: f64) {
         self.voxel_size *= factor;
     }

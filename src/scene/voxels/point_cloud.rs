@@ -49,7 +49,7 @@ impl PointCloud {
         self.points.retain(|point| near.finds(point.position));
     }
 
-    /// Makes everything larger or smaller.
+    /// Scales all lengths.
     pub fn scale(&mut self, factor: f64) {
         self.max_cell_size *= factor;
         self.points.iter_mut().for_each(|point| point.position = point.position.map(|c| factor * c));
@@ -73,7 +73,7 @@ impl Near {
         near
     }
 
-    /// Without tolerance nothing is near.
+    /// With a tolerance of zero no point is near.
     fn add(&mut self, place: [f64; 3]) {
         if self.tolerance > 0.0 {
             self.cells.entry(self.cell(place)).or_default().push(place);

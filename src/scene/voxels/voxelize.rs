@@ -131,7 +131,7 @@ impl Scene {
     /// shape touch, that voxels overlap, or that points are in.
     ///
     /// # Errors
-    /// When the object has no such things, or takes too many cells.
+    /// When the object has no voxels, or they are too many.
     pub fn cells_of(&self, handle: Handle, frame: Handle, edge: f64) -> SceneResult<Vec<Point>> {
         let pose = self.world_pose(frame)?.inverse() * self.world_pose(handle)?;
         let mut grid = Grid::new(edge);
@@ -171,7 +171,7 @@ impl Scene {
     /// A point cloud without the points that lie within `tolerance` metres of an object: of the triangles of a shape, of voxels, or of points.
     ///
     /// # Errors
-    /// When one is no point cloud, or the other has no such things.
+    /// When the first is no point cloud, or the other has no voxels.
     pub fn cloud_without(&self, cloud: Handle, handle: Handle, tolerance: f64) -> SceneResult<PointCloud> {
         let mut rest = self.object(cloud)?.point_cloud()?.clone();
         let pose = self.world_pose(handle)?.inverse() * self.world_pose(cloud)?;

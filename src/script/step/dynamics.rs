@@ -3,7 +3,7 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::{Attention, Call, Dynamics, JointRequest, Trigger, Verdict};
+use crate::dynamics::{Attention, Call, ContactResponse, Dynamics, JointRequest, Trigger};
 use crate::scene::joint::Joint;
 use crate::scene::parameters::engine::Engine;
 use crate::scene::{Data, Handle, Scene};
@@ -91,12 +91,15 @@ impl Sim {
 
     /// One sub-step. Nothing is borrowed while the engine works, because scripts may filter contacts. `driven`: scripts drive joints.
     fn run_sub_step(self: &Rc<Self>, number: u32, driven: bool) {
-        let judged = self.scripts.may_respond_to_any(&CONTACT);
-        let attention = Attention { judged, watched: driven || judged || self.scripts.may_respond_to_any(&DYN) };
+        let contact_callbacks = self.scripts.may_respond_to_any(&CONTACT);
+        let attention = Attention {
+            contact_callbacks,
+            watched: driven || contact_callbacks || self.scripts.may_respond_to_any(&DYN),
+        };
         let started = self.with_dynamics(|dynamics, scene| dynamics.start_sub_step(scene, number, attention));
         let Some(mut sub_step) = started.flatten() else { return };
         let filter = |first: Handle, second: Handle| self.contact_callback(first, second);
-        sub_step.run(judged.then_some(&filter));
+        sub_step.run(contact_callbacks.then_some(&filter));
         let stopped = self.with_dynamics(|dynamics, scene| {
             dynamics.finish_sub_step(sub_step, scene);
             dynamics.take_frozen()
@@ -112,7 +115,7 @@ impl Sim {
         );
     }
 
-    fn contact_callback(self: &Rc<Self>, first: Handle, second: Handle) -> Verdict {
+    fn contact_callback(self: &Rc<Self>, first: Handle, second: Handle) -> ContactResponse {
         let engine = self.scene.borrow().settings().dynamics.engine.engine;
         let data = Data::map([
             ("handle1", first.raw().into()),
@@ -122,7 +125,7 @@ impl Sim {
         let everyone = self.active_scripts_reversed();
         let answer =
             CONTACT.iter().find_map(|&callback| self.first_answer(&everyone, callback, std::slice::from_ref(&data)));
-        answer.map_or(Verdict::Default, |answer| verdict(&answer, engine))
+        answer.map_or(ContactResponse::Default, |answer| response(&answer, engine))
     }
 
     fn force_sensor_triggered(self: &Rc<Self>, trigger: &Trigger) {
@@ -174,7 +177,7 @@ fn joint_data(joint: &Joint, request: &JointRequest, call: Call, number: u32) ->
 
 /// What the table returned by `sysCall_contact` means (spec: dynamics 4): values for the selected engine come first, then
 /// those for Bullet.
-fn verdict(answer: &Data, engine: Engine) -> Verdict {
+fn response(answer: &Data, engine: Engine) -> ContactResponse {
     let number = |engine: &str, name: &str| {
         let nested = answer.field(engine).and_then(|table| table.field(name));
         nested.or_else(|| answer.field(&format!("{engine}.{name}"))).and_then(Data::as_f64)
@@ -186,12 +189,12 @@ fn verdict(answer: &Data, engine: Engine) -> Verdict {
     };
     match (answer.field("ignoreContact"), answer.field("collisionResponse")) {
         (Some(ignore), response) if !ignore.truthy() => match response.is_some_and(Data::truthy) {
-            true => Verdict::Collide {
+            true => ContactResponse::Collide {
                 friction: own(["mu", "kineticFriction"]).or_else(|| number("bullet", "friction")).unwrap_or(1.0),
                 restitution: own(["bounce", "restitution"]).or_else(|| number("bullet", "restitution")).unwrap_or(0.0),
             },
-            false => Verdict::PassThrough,
+            false => ContactResponse::NoCollision,
         },
-        _ => Verdict::Default,
+        _ => ContactResponse::Default,
     }
 }

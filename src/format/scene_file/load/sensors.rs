@@ -73,11 +73,11 @@ pub(super) fn proximity_sensor(context: &Context<'_>, chunk: &file::ProximitySen
             .colour3
             .as_ref()
             .map_or(Colour::new([1.0; 3]), |c| colour(c, Colour::new([1.0; 3]), context.header.serialization < 17)),
-        known_faces: None,
+        file_faces: None,
         detection: None,
     };
     if let Some(faces) = chunk.volume.as_ref().and_then(faces) {
-        sensor.keep_faces(faces);
+        sensor.set_file_faces(faces);
     }
     sensor
 }

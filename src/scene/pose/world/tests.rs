@@ -198,7 +198,7 @@ fn cached_poses_equal_recomputed_ones() {
 }
 
 #[test]
-fn moving_a_parent_looks_at_no_child() {
+fn moving_a_parent_visits_no_child() {
     let mut scene = Scene::new();
     let dummy = |scene: &mut Scene| scene.add("d", Kind::Dummy(Dummy::new(0.01))).unwrap();
     let base = dummy(&mut scene);
@@ -212,6 +212,6 @@ fn moving_a_parent_looks_at_no_child() {
     scene.set_local_pose(base, Pose::translation(1.0, 0.0, 0.0)).unwrap();
     assert!(children.iter().map(|&child| checked(&scene, child)).eq(before));
     assert_eq!(scene.world_pose(children[1]).unwrap(), Pose::translation(1.0, 0.0, 0.0));
-    // The base was looked at on the way: the next child needs no look at it.
+    // The base was checked on the way; the next child need not check it again.
     assert_eq!(checked(&scene, base), scene.objects.moves().last);
 }
