@@ -7,6 +7,7 @@ mod dynamics;
 mod format;
 mod io;
 mod modules;
+mod permissions;
 pub mod scene;
 pub mod script;
 mod simulator;
@@ -16,5 +17,6 @@ pub(crate) mod wire;
 pub use format::scene_file::SceneFile;
 /// What Lua modules in Rust are written with, see [`Simulator::builder`].
 pub use mlua;
+pub use permissions::{Denied, HostRule, Permissions};
 pub use script::{Console, Limits, LogLine, Options, Silent, SimulationState};
 pub use simulator::{Builder, Error, Onlooker, RunLimits, RunTotals, ScriptKind, ScriptRef, Simulator};

@@ -110,3 +110,20 @@ fn scenes_of_coppeliasim_are_run() {
         assert!(row.split(',').any(|value| value.starts_with("0.")), "it simulates: {row}");
     }
 }
+
+#[test]
+fn permissions_of_runs() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let scene = "local sim = require 'sim'
+    function sysCall_init() assert(io.open(sim.getStringProperty(sim.handle_scene, 'scenePath'))) assert(io.open('new', 'w')) end
+    function sysCall_sensing() sim.stopSimulation() end";
+    std::fs::write(dir.path().join("scene.lua"), scene).expect("a file");
+    for (args, expected) in [(&["--no-unsafe"][..], 1), (&["--allow-write=."], 0), (&["--deny-all"], 1)] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+        command.args(["batch", "scene.lua", "--force"]).args(args).current_dir(dir.path());
+        let (code, output) = run_for_code(&mut command, Duration::from_secs(120)).expect("it ends");
+        assert_eq!(code, expected, "{args:?}: {output}");
+    }
+    let rows = table(dir.path(), "results");
+    assert!(rows[1].contains("--allow-read="), "{rows:?}");
+}

@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use swanilda::scene::Data;
-use swanilda::{Options, ScriptKind, ScriptRef, Simulator};
+use swanilda::{Options, Permissions, ScriptKind, ScriptRef, Simulator};
 
 /// A script that does what it is told.
 const SCRIPT: &[u8] = b"
@@ -196,13 +196,13 @@ fn nothing_is_left() {
 }
 
 #[test]
-fn no_programs_with_no_unsafe() {
-    let mut bench = Bench::with(Options { exec_unsafe: false, ..Options::default() });
+fn no_programs_without_permission() {
+    let mut bench = Bench::with(Options { permissions: Permissions::strict(), ..Options::default() });
     for code in
         ["simSubprocess.exec('true', {})", "simSubprocess.execAsync('true', {})", "sim.launchExecutable('true')"]
     {
         let error = bench.error(code);
-        assert!(error.contains("--no-unsafe"), "{code}: {error}");
+        assert!(error.contains("--allow-run"), "{code}: {error}");
     }
 }
 

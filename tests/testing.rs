@@ -387,3 +387,30 @@ fn the_scenes_of_the_project_pass_their_tests() {
     let (code, output) = run_for_code(&mut command, Duration::from_secs(500)).expect("it ends");
     assert_eq!(code, 0, "{output}");
 }
+
+/// Scripts of tests have the permissions of the command line; the scene's folder is that of the test's file.
+#[test]
+fn permissions_of_tests() {
+    let code = simulating(
+        "it('reads beside itself', function() assert.equal('beside', io.open(t.file('beside.txt')):read()) end)
+        it('reads elsewhere', function() assert(io.open('elsewhere.txt')) end)
+        it('writes', function() assert(io.open('written.txt', 'w')) end)
+        it('runs', function() os.execute('exit 0') end)
+        it('runs scenes', function() assert.equal(1, t.run('scene.lua', {loops = 1, start = false}).errors) end)",
+    );
+    let files = [
+        ("tests/a_test.lua", code.as_str()),
+        ("tests/beside.txt", "beside"),
+        ("tests/scene.lua", "assert(io.open('elsewhere.txt'))"),
+        ("elsewhere.txt", "elsewhere"),
+    ];
+    let (code, output) = run(&files, &["--no-unsafe"]);
+    assert!(code == 1 && output.contains("2 passed, 2 failed, 1 error"), "{output}");
+    for option in ["--allow-read=", "--allow-write=", "--allow-run"] {
+        assert!(output.contains(&format!("is not allowed: run with {option}")), "{option}: {output}");
+    }
+    let (_, output) = run(&files, &["--allow-write", "--allow-run", "--filter", "writes", "--filter", "runs"]);
+    assert!(output.contains("3 passed"), "{output}");
+    let (_, output) = run(&files, &["--deny-all"]);
+    assert!(output.contains("0 passed, 2 failed, 3 errors"), "{output}");
+}

@@ -1,5 +1,5 @@
 --[[
-Starts programs. Disabled by `--no-unsafe`.
+Starts programs, where that is allowed (`--allow-run`).
 
     exec(programPath, args, input = '', opts = {})      runs a program and waits for it; ctrl-c ends it with an error.
                                                         Returns exit code, output and error output, at most 256 MiB of each

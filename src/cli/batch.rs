@@ -9,6 +9,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::interrupt::Interrupt;
+use super::permissions::PermissionArgs;
 use super::refuse;
 use super::setup::{named_param, seconds};
 use crate::Options;
@@ -56,6 +57,8 @@ pub(super) struct Args {
     /// Start over and overwrite existing results
     #[arg(long)]
     force: bool,
+    #[command(flatten)]
+    permissions: PermissionArgs,
 }
 
 /// A list of seeds; a type of its own, since clap takes a plain list for a repeated option.
@@ -123,7 +126,7 @@ impl Args {
             simulated: f64::INFINITY,
             memory: (self.memory as usize) << 20,
         };
-        Config::new(jobs, allowance, interrupt.flag())
+        Config { permissions: self.permissions.permissions(), ..Config::new(jobs, allowance, interrupt.flag()) }
     }
 }
 

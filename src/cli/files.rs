@@ -5,13 +5,14 @@ use std::path::Path;
 use crate::format::scene_file::{self, SceneFile};
 use crate::format::scene_folder;
 use crate::format::ttt::File;
+use crate::permissions::Permissions;
 
 /// # Errors
 /// When it cannot be read; in words, with the path.
 pub(super) fn file(path: &Path) -> Result<File, String> {
     let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
     if scene_folder::is_scene(path) {
-        return scene_folder::pack(path).map_err(unreadable);
+        return scene_folder::pack(path, &Permissions::all()).map_err(unreadable);
     }
     scene_file::read_path(path).map_err(unreadable)
 }
@@ -24,5 +25,5 @@ pub(super) fn scene(path: &Path) -> Result<SceneFile, String> {
     if !scene_folder::is_scene(path) {
         return Ok(scene);
     }
-    Ok(scene.with_sources(scene_folder::sources(path).map_err(unreadable)?))
+    Ok(scene.with_sources(scene_folder::sources(path, &Permissions::all()).map_err(unreadable)?))
 }

@@ -23,7 +23,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use session::{interrupt, output, progress, setup};
+use session::{interrupt, output, permissions, progress, setup};
 
 /// Exit code for a wrong command line or a file that cannot be read or written; clap uses the same.
 const USAGE: u8 = 2;

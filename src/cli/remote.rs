@@ -4,7 +4,9 @@ use std::net::{IpAddr, Ipv4Addr, TcpListener};
 
 use super::interrupt::Interrupt;
 use super::output::Output;
+use super::permissions::PermissionArgs;
 use super::setup::Setup;
+use crate::permissions::Permissions;
 use crate::{Options, Simulator};
 
 /// Number of ports to try.
@@ -44,15 +46,14 @@ pub(super) struct Remote {
     /// Additional web origin that may use the WebSocket remote API (`*`: all); may be repeated
     #[arg(long, value_name = "ORIGIN")]
     allow_origin: Vec<String>,
-    /// Address to listen on, for remote APIs and servers of scripts. Clients can do anything a script can; a non-local address implies --no-unsafe
+    /// Address to listen on, for remote APIs and servers of scripts. Clients may do what scripts may; a non-local address implies --no-unsafe
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
-    /// Forbid starting programs and loading native libraries, and file access by remote clients
-    #[arg(long)]
-    no_unsafe: bool,
-    /// Allow clients on other machines to start programs and access files
-    #[arg(long = "unsafe", conflicts_with = "no_unsafe")]
+    /// Allow scripts and clients everything, clients on other machines too
+    #[arg(long = "unsafe", conflicts_with = "PermissionArgs")]
     allow_unsafe: bool,
+    #[command(flatten)]
+    permissions: PermissionArgs,
 }
 
 impl Remote {
@@ -61,12 +62,12 @@ impl Remote {
         self.remote_api.is_some()
     }
 
-    /// The options, restricted by who can connect.
+    /// The options with what scripts may do, which depends on who can connect.
     pub(super) fn guard(&self, options: Options) -> Options {
-        let allowed = !self.no_unsafe && (self.bind.is_loopback() || self.allow_unsafe);
+        let is_open = !self.bind.is_loopback() && !self.allow_unsafe && !self.permissions.is_restricted();
+        let permissions = if is_open { Permissions::strict() } else { self.permissions.permissions() };
         Options {
-            exec_unsafe: allowed,
-            exec_unsafe_ext: allowed,
+            permissions: options.package_dirs.iter().fold(permissions, |set, folder| set.of_scene(folder)),
             listen_address: self.bind,
             web_origins: self.allow_origin.clone(),
             ..options

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::scene_file::{self, SceneFile, ScriptSources};
 use super::scene_folder;
 use super::ttt::{File, FileResult};
+use crate::permissions::Permissions;
 
 /// A scene or model that has been read, from which any number of simulators can be filled.
 #[derive(Debug)]
@@ -32,9 +33,10 @@ impl InputFile {
 
 impl SceneInput {
     /// # Errors
-    /// When it cannot be read; in words, with the path.
-    pub fn read(path: &Path) -> Result<Self, String> {
-        let input = if path.is_dir() { read_folder(path) } else { read_file(path) };
+    /// When it may not or cannot be read; in words, with the path.
+    pub fn read(path: &Path, permissions: &Permissions) -> Result<Self, String> {
+        permissions.check_read(path).map_err(|denied| denied.to_string())?;
+        let input = if path.is_dir() { read_folder(path, permissions) } else { read_file(path, permissions) };
         input.map_err(|reason| format!("cannot read {}: {reason}", path.display()))
     }
 
@@ -47,19 +49,20 @@ impl SceneInput {
     }
 }
 
-fn read_folder(path: &Path) -> Result<SceneInput, String> {
+fn read_folder(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
     if !scene_folder::is_scene(path) {
         return Err("it is a folder, and no unpacked scene: scene.json is missing".into());
     }
-    let file = InputFile { file: scene_folder::pack(path)?, sources: scene_folder::sources(path)? };
+    let file =
+        InputFile { file: scene_folder::pack(path, permissions)?, sources: scene_folder::sources(path, permissions)? };
     Ok(SceneInput::File(Box::new(file)))
 }
 
-fn read_file(path: &Path) -> Result<SceneInput, String> {
+fn read_file(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
     let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
     if !scene_file::is_scene(&bytes) {
         return Ok(SceneInput::Script(bytes));
     }
-    let file = scene_file::read_file(&bytes, path.parent()).map_err(|error| error.to_string())?;
+    let file = scene_file::read_file(&bytes, path.parent(), permissions).map_err(|error| error.to_string())?;
     Ok(SceneInput::File(Box::new(InputFile { file, sources: ScriptSources::default() })))
 }

@@ -3,6 +3,7 @@
 //! Handles, and what a script has fetched but not read, are kept elsewhere.
 
 use std::io::{ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serialport::ClearBuffer;
@@ -39,6 +40,12 @@ impl SerialPort {
         // A device that cannot be emptied is new.
         let _ = device.clear(ClearBuffer::Input);
         Some(Self { path: path.to_owned(), device, patience: patience(baud_rate) })
+    }
+
+    /// The file of a device.
+    pub(crate) fn file(path: &str) -> PathBuf {
+        // Windows knows ports by names in a folder of devices.
+        if cfg!(windows) { Path::new(r"\\.").join(path) } else { path.into() }
     }
 
     /// The device as it was given.

@@ -119,7 +119,7 @@ fn getpid(cx: &Cx, handle: String) -> Result<i64> {
 }
 
 fn program(cx: &Cx, path: String, args: &Table, opts: &Table) -> Result<Program> {
-    cx.require_unsafe()?;
+    cx.permissions().check_run(&path)?;
     let option = |name, default| opts.0.field(name).map_or(default, Data::truthy);
     let working_dir = match opts.0.field("workingDir") {
         None | Some(Data::Nil) => None,

@@ -1,5 +1,6 @@
 //! Errors of API calls and of the host.
 
+use crate::permissions::Denied;
 use crate::scene::SceneError;
 
 pub type ApiResult<T> = std::result::Result<T, ApiError>;
@@ -48,9 +49,9 @@ pub enum ApiError {
     PropertyNotRemovable,
     #[error("invalid property name.")]
     PropertyName,
-    /// The function starts programs or loads native libraries, and that is not allowed.
-    #[error("programs and native libraries are switched off (--no-unsafe).")]
-    Unsafe,
+    /// The simulator's permissions do not allow it.
+    #[error(transparent)]
+    Denied(#[from] Denied),
     /// A name of the reference that is not built here, or not yet.
     #[error("not implemented in Swanilda: {0}")]
     NotImplemented(String),

@@ -24,6 +24,7 @@ use super::runtime::Languages;
 use super::step::clock::Clock;
 use super::test_bench::TestBench;
 use crate::dynamics::Dynamics;
+use crate::permissions::Permissions;
 use crate::scene::{Handle, Scene};
 
 /// How a simulator is set up.
@@ -41,10 +42,8 @@ pub struct Options {
     pub package_dirs: Vec<std::path::PathBuf>,
     /// Lua instructions a thread may run per millisecond of its time slice.
     pub instructions_per_ms: u64,
-    /// Whether scripts may start programs and load native libraries.
-    pub exec_unsafe: bool,
-    /// Whether remote clients may use shell and files themselves, if scripts may.
-    pub exec_unsafe_ext: bool,
+    /// What scripts may do to the world outside: files, programs, the network.
+    pub permissions: Permissions,
     /// Set it to end calls that wait for the world outside: they raise an error.
     pub stop: Arc<AtomicBool>,
     /// What scripts may use up; None: whatever they like.
@@ -66,8 +65,7 @@ impl Default for Options {
             data_dir: None,
             package_dirs: Vec::new(),
             instructions_per_ms: 100_000,
-            exec_unsafe: true,
-            exec_unsafe_ext: true,
+            permissions: Permissions::all(),
             stop: Arc::default(),
             limits: None,
             count_lines: false,

@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use super::Simulator;
 use crate::modules;
+use crate::permissions::Permissions;
 use crate::script::{Console, Languages, LuaLanguage, Options, Silent, Sim, UserModule};
 
 /// Collects what a [`Simulator`] is made of; see [`Simulator::builder`].
@@ -24,6 +25,20 @@ impl Builder {
     /// How the simulator behaves.
     pub fn options(self, options: Options) -> Self {
         Self { options, ..self }
+    }
+
+    /// What scripts may do to the world outside; everything without this.
+    ///
+    /// ```
+    /// use swanilda::{Permissions, ScriptKind, Simulator};
+    ///
+    /// let mut simulator = Simulator::builder().permissions(Permissions::none()).build();
+    /// simulator.add_script(ScriptKind::Customization, "", b"assert(not io.open('Cargo.toml'))")?;
+    /// assert_eq!(simulator.errors(), 0);
+    /// # Ok::<(), swanilda::Error>(())
+    /// ```
+    pub fn permissions(self, permissions: Permissions) -> Self {
+        Self { options: Options { permissions, ..self.options }, ..self }
     }
 
     /// Where prints and log lines go; nowhere without this.

@@ -10,7 +10,7 @@ use crate::{Onlooker, Options, RunLimits, RunTotals, ScriptKind, Simulator};
 
 /// What a test asked for. The scene's own modules are found beside it.
 pub(super) fn run_apart(options: Options, request: &RunRequest) -> Result<RunReport, String> {
-    let input = SceneInput::read(&request.scene)?;
+    let input = SceneInput::read(&request.scene, &options.permissions)?;
     let data = tempfile::tempdir().map_err(|error| format!("no folder for data of scripts: {error}"))?;
     let options = Options { data_dir: Some(data.path().to_owned()), ..options };
     let report = run(options, &input, request, false)?;

@@ -27,6 +27,7 @@ pub use discover::find_files;
 pub use excerpt::Excerpt;
 pub use golden::{Comparison, Difference, Divergence, Verdict};
 
+use crate::permissions::Permissions;
 use crate::script::coverage::LineCounts;
 use plan::Plan;
 use results::Results;
@@ -56,6 +57,8 @@ pub struct Config {
     pub coverage: Option<PathBuf>,
     /// What a test may use up.
     pub allowance: Allowance,
+    /// What scripts may do; the scene's folder is that of the test's file.
+    pub permissions: Permissions,
     /// Becomes true when the user wants an end.
     pub interrupted: Arc<AtomicBool>,
 }
@@ -75,6 +78,7 @@ impl Config {
             artifacts: PathBuf::new(),
             coverage: None,
             allowance,
+            permissions: Permissions::all(),
             interrupted,
         }
     }

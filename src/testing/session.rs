@@ -37,6 +37,8 @@ impl Session {
             limits: Some(Limits { memory: config.allowance.memory }),
             count_lines: config.coverage.is_some(),
             package_dirs: vec![folder.to_owned()],
+            // The file itself is read by Lua.
+            permissions: config.permissions.clone().of_scene(folder).allow_read(file),
             data_dir: data.as_ref().map(|data| data.path().to_owned()),
             ..Options::default()
         };

@@ -3,7 +3,7 @@
 /// The layers from the inside out; a module may import from its own row's modules it belongs to, and from rows above it.
 pub const LAYERS: &[&[&str]] = &[
     &["scene"],
-    &["wire"],
+    &["permissions", "wire"],
     &["dynamics", "format", "io"],
     &["script"],
     &["api"],
@@ -80,6 +80,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("syn", "crates/api-macro"),
     ("tempfile", "src/cli/test"),
     ("tempfile", "src/format"),
+    ("tempfile", "src/permissions/tests.rs"),
     ("tempfile", "src/script/files/app_storage"),
     ("tempfile", "src/testing"),
     ("thiserror", "crates"),

@@ -252,7 +252,7 @@ fn no_unsafe_takes_programs_from_scripts() {
     let tells = "sim = require 'sim'
 for _, call in ipairs{function() os.execute('true') end, function() io.popen('true') end, function() package.loadlib('x', 'y') end} do
     local ok, why = pcall(call)
-    print(ok, why:match('%-%-no%-unsafe') ~= nil)
+    print(ok, why:match('%-%-allow%-') ~= nil)
 end
 print(sim.getBoolParam(sim.boolparam_execunsafe), sim.getBoolProperty(sim.handle_app, 'execUnsafeExt'))
 sim.quitSimulator()";
@@ -277,7 +277,41 @@ fn listening_at_other_addresses_switches_programs_off() {
             "{args:?}"
         );
     }
-    assert_eq!(scene.run(&["--unsafe", "--no-unsafe"]).status.code(), Some(2));
+    for restricted in ["--no-unsafe", "--deny-all", "--allow-read", "--allow-write=x", "--allow-run", "--allow-net=x:1"]
+    {
+        assert_eq!(scene.run(&["--unsafe", restricted]).status.code(), Some(2), "{restricted}");
+    }
+}
+
+/// Each option restricts scripts to the scene's folder and to what it allows.
+#[test]
+fn permissions_of_the_command_line() {
+    let scene = Scene::new(
+        "sim = require 'sim'
+local own = sim.getStringProperty(sim.handle_scene, 'scenePath')
+local outside = package.config:sub(1, 1) == '/' and '/etc/hosts' or 'C:/Windows/win.ini'
+local function open(...) return io.open(...) ~= nil end
+print(open(own), open(outside), open(own .. '.new', 'w'), (pcall(os.execute, 'exit 0')))",
+    );
+    for (args, expected) in [
+        (&[][..], "true, true, true, true"),
+        (&["--no-unsafe"], "true, false, false, false"),
+        (&["--bind", "0.0.0.0"], "true, false, false, false"),
+        (&["--bind", "0.0.0.0", "--allow-run"], "true, false, false, true"),
+        (&["--deny-all"], "false, false, false, false"),
+        (&["--deny-all", "--allow-run"], "false, false, false, true"),
+        (&["--allow-read"], "true, true, false, false"),
+        (&["--allow-read=/etc", "--allow-read=C:/Windows"], "true, true, false, false"),
+        (&["--allow-write"], "true, false, true, false"),
+        (&["--allow-net=127.0.0.1:80"], "true, false, false, false"),
+        (&["--unsafe"], "true, true, true, true"),
+    ] {
+        let output = scene.run(&[&["--no-start", "--empty", "--loops", "1"], args].concat());
+        assert_eq!(stdout(&output).lines().next(), Some(expected), "{args:?}");
+    }
+    for wrong in ["--allow-net=host:port", "--allow-net=:1", "--allow-run=ls"] {
+        assert_eq!(scene.run(&[wrong]).status.code(), Some(2), "{wrong}");
+    }
 }
 
 #[test]

@@ -198,11 +198,12 @@ def page(port):
 
 
 def fence():
-    """--no-unsafe: no files, no programs, but expressions."""
+    """--no-unsafe: no files outside of the scene's folder, no programs, but expressions."""
     with Simulator("--no-remote-api", "--ws-remote-api=0", "--no-unsafe") as sim:
         client = Client(sim.port("WebSocket"))
-        same("files", client.ask(eval="io.open, io.popen, load")["ret"], [])
-        same("programs", client.ask(func="os.execute", args=["true"])["success"], False)
+        same("files", "--allow-read" in client.ask(eval="select(2, io.open('/etc/passwd'))")["ret"][0], True)
+        same("programs", "--allow-run" in client.ask(func="os.execute", args=["true"])["error"], True)
+        same("code", client.ask(eval="load('return 3')()")["ret"], [3])
         same("an expression", client.ask(eval="1 + 1")["ret"], [2])
 
 

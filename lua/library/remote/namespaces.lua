@@ -27,7 +27,7 @@ local function describe(value, simMembers, objects, above)
         local kind = type(member)
         if kind == 'function' then
             out[name] = {func = {}}
-        elseif kind ~= 'table' and member ~= false then -- false: taken from clients
+        elseif kind ~= 'table' then
             out[name] = {const = member}
         elseif kind == 'table' and (objects or not getmetatable(member)) and not above[member] and above.n < DEEPEST then
             out[name] = describe(member, simMembers, objects, above)

@@ -18,7 +18,6 @@ local sim = require('sim')
 local simWS = require('simWS')
 local codecs = require('remote.ws_codecs')
 local namespaces = require('remote.namespaces')
-local load = load -- for expressions of clients, whatever is taken from their reach
 local pack, unpack = table.pack, table.unpack
 
 local MOST_WAITING <const> = 10000 -- requests
@@ -132,7 +131,6 @@ function step() go = true end
 ---------------------------------------------------------------- the add-on
 
 setAutoYield(false)
-if not sim.getBoolProperty(sim.handle_app, 'execUnsafeExt') then require('remote.restrict') end
 
 function sysCall_init()
     sim.setBoolProperty(sim.handle_self, 'restartOnError', true)

@@ -13,7 +13,6 @@ zmqRemoteApi.rpcPort, zmqRemoteApi.autoStart, and zmqRemoteApi.verbose, with whi
 
 local _, native = ...
 local sim = require('sim')
-local load = load -- for chunks of clients, whatever is taken from their reach
 local answers = require('remote.zmq_answers')
 local clients = require('remote.zmq_clients')
 local namespaces = require('remote.namespaces')
@@ -286,7 +285,6 @@ require('remote.zmq_functions')({
 ---------------------------------------------------------------- the add-on
 
 setAutoYield(false)
-if not sim.getBoolProperty(sim.handle_app, 'execUnsafeExt') then require('remote.restrict') end
 
 function sysCall_init()
     sim.setBoolProperty(sim.handle_self, 'restartOnError', true)

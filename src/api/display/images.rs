@@ -1,5 +1,7 @@
 //! `sim.*`: images in memory and in files.
 
+use std::path::Path;
+
 use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
@@ -34,18 +36,19 @@ fn layout(rgba: bool) -> Layout {
 /// @param filename name of the file, or its content
 /// @return image, resolution the top row first
 #[api("sim.loadImage")]
-fn load_image(_cx: &Cx, options: i64, filename: Bytes) -> Result<(Bytes, IntPair)> {
+fn load_image(cx: &Cx, options: i64, filename: Bytes) -> Result<(Bytes, IntPair)> {
     let file = match Picture::is_file(&filename.0) {
         true => filename.0,
-        false => read_file(&filename.0)?,
+        false => read_file(cx, &filename.0)?,
     };
     let picture = Picture::decode(&file, layout(options & option::RGBA != 0)).map_err(failure)?;
     let resolution = IntPair(picture.resolution());
     Ok((Bytes(picture.into_bytes()), resolution))
 }
 
-pub(in crate::api) fn read_file(name: &[u8]) -> Result<Vec<u8>> {
+pub(in crate::api) fn read_file(cx: &Cx, name: &[u8]) -> Result<Vec<u8>> {
     let name = String::from_utf8_lossy(name);
+    cx.permissions().check_read(Path::new(&*name))?;
     std::fs::read(&*name).map_err(|error| ApiError::Other(format!("cannot read {name}: {error}.")))
 }
 
@@ -59,7 +62,7 @@ pub(in crate::api) fn read_file(name: &[u8]) -> Result<Vec<u8>> {
 /// @return serializedImage
 #[api("sim.saveImage")]
 fn save_image(
-    _cx: &Cx,
+    cx: &Cx,
     image: Bytes,
     resolution: [f64; 2],
     options: i64,
@@ -79,11 +82,12 @@ fn save_image(
     if stem.is_empty() {
         return Ok(Some(Bytes(file)));
     }
-    write_file(&filename, &file)?;
+    write_file(cx, &filename, &file)?;
     Ok(None)
 }
 
-fn write_file(name: &str, content: &[u8]) -> Result<()> {
+fn write_file(cx: &Cx, name: &str, content: &[u8]) -> Result<()> {
+    cx.permissions().check_write(Path::new(name))?;
     std::fs::write(name, content).map_err(|error| ApiError::Other(format!("cannot write {name}: {error}.")))
 }
 

@@ -19,7 +19,7 @@ fn launch_executable(
     #[default(String::new())] parameters: String,
     #[default(1)] _show_status: i64,
 ) -> Result<()> {
-    cx.require_unsafe()?;
+    cx.permissions().check_run(&filename)?;
     let program = Program { path: filename, args: words(&parameters), search_path: true, ..Program::default() };
     program.launch().map_err(|error| ApiError::Other(format!("cannot launch {}: {error}.", program.path)))
 }

@@ -10,7 +10,7 @@ use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::format::scene_file::{SceneFile, read_file};
 use crate::format::scene_input::SceneInput;
 use crate::scene::{Data, Handle, SceneError, special};
-use crate::script::{SceneSource, write_named};
+use crate::script::SceneSource;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, save_scene, close_scene, load_model, save_model];
 
@@ -34,8 +34,8 @@ fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
             ));
         }
         FileOrBytes::Name(name) if name.is_empty() => (SceneSource::Default, None),
-        FileOrBytes::Name(name) => (named_scene(&name)?, Some(absolute(&name))),
-        FileOrBytes::Bytes(bytes) => (scene_source("the buffer", bytes, None)?, None),
+        FileOrBytes::Name(name) => (named_scene(cx, &name)?, Some(absolute(&name))),
+        FileOrBytes::Bytes(bytes) => (scene_source(cx, "the buffer", bytes, None)?, None),
     };
     cx.switch_scene(source, path)?;
     Ok(1)
@@ -52,9 +52,8 @@ fn load_model(cx: &mut Cx, filename_or_buffer: Data, #[default(false)] only_thum
         return Err(ApiError::Other("thumbnails of models are not implemented in Swanilda.".into()));
     }
     let file = match FileOrBytes::new(filename_or_buffer)? {
-        FileOrBytes::Name(name) if Path::new(&name).is_dir() => unpacked(&name)?,
-        FileOrBytes::Name(name) => scene_file(&name, &read(&name)?, folder_of(&name))?,
-        FileOrBytes::Bytes(bytes) => scene_file("the buffer", &bytes, None)?,
+        FileOrBytes::Name(name) => named_model(cx, &name)?,
+        FileOrBytes::Bytes(bytes) => scene_file(cx, "the buffer", &bytes, None)?,
     };
     let root = cx.load_model(file)?;
     Ok(root.map_or(special::WORLD, Handle::raw))
@@ -83,7 +82,7 @@ fn save_model(cx: &mut Cx, model_base_handle: Handle, #[default(None)] filename:
     }
     let file = cx.model_file(model_base_handle)?;
     let Some(filename) = filename else { return Ok(Data::Buffer(file.write())) };
-    write_named(&file, &filename)?;
+    cx.write_named(&file, &filename)?;
     Ok(Data::Int(1))
 }
 
@@ -104,38 +103,48 @@ impl FileOrBytes {
     }
 }
 
-fn read(name: &str) -> Result<Vec<u8>> {
+fn read(cx: &Cx, name: &str) -> Result<Vec<u8>> {
+    cx.permissions().check_read(Path::new(name))?;
     std::fs::read(name).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => ApiError::Other("file does not exist.".into()),
         _ => ApiError::Other(format!("'{name}' could not be read: {error}.")),
     })
 }
 
-fn named_scene(name: &str) -> Result<SceneSource> {
-    if Path::new(name).is_dir() {
-        return Ok(SceneSource::File(Box::new(unpacked(name)?)));
+fn named_scene(cx: &Cx, name: &str) -> Result<SceneSource> {
+    if is_folder(cx, name)? {
+        return Ok(SceneSource::File(Box::new(unpacked(cx, name)?)));
     }
-    scene_source(name, read(name)?, folder_of(name))
+    scene_source(cx, name, read(cx, name)?, folder_of(name))
+}
+
+fn named_model(cx: &Cx, name: &str) -> Result<SceneFile> {
+    if is_folder(cx, name)? { unpacked(cx, name) } else { scene_file(cx, name, &read(cx, name)?, folder_of(name)) }
+}
+
+fn is_folder(cx: &Cx, name: &str) -> Result<bool> {
+    cx.permissions().check_read(Path::new(name))?;
+    Ok(Path::new(name).is_dir())
 }
 
 /// A folder made by `swanilda unpack`.
-fn unpacked(name: &str) -> Result<SceneFile> {
-    match SceneInput::read(Path::new(name)).map_err(ApiError::Other)? {
+fn unpacked(cx: &Cx, name: &str) -> Result<SceneFile> {
+    match SceneInput::read(Path::new(name), cx.permissions()).map_err(ApiError::Other)? {
         SceneInput::File(file) => file.scene().map_err(|error| ApiError::Other(format!("{name}: {error}"))),
         SceneInput::Script(_) => Err(ApiError::Other(format!("{name} is no scene."))),
     }
 }
 
 /// A scene of CoppeliaSim is known by its bytes, a Lua scene by its name.
-fn scene_source(name: &str, bytes: Vec<u8>, folder: Option<&Path>) -> Result<SceneSource> {
+fn scene_source(cx: &Cx, name: &str, bytes: Vec<u8>, folder: Option<&Path>) -> Result<SceneSource> {
     match Path::new(name).extension().and_then(|extension| extension.to_str()) {
         Some("lua") => Ok(SceneSource::Script(bytes)),
-        _ => Ok(SceneSource::File(Box::new(scene_file(name, &bytes, folder)?))),
+        _ => Ok(SceneSource::File(Box::new(scene_file(cx, name, &bytes, folder)?))),
     }
 }
 
-fn scene_file(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<SceneFile> {
-    let file = read_file(bytes, folder).and_then(SceneFile::new);
+fn scene_file(cx: &Cx, name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<SceneFile> {
+    let file = read_file(bytes, folder, cx.permissions()).and_then(SceneFile::new);
     file.map_err(|error| ApiError::Other(format!("{name}: {error}")))
 }
 

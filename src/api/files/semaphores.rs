@@ -5,6 +5,7 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fs::File;
+use std::path::PathBuf;
 
 use fs4::{FileExt, TryLockError};
 
@@ -29,8 +30,7 @@ impl Held {
         if key.len() > LONGEST_KEY {
             return Err(format!("the key is longer than {LONGEST_KEY} bytes."));
         }
-        let hex: String = key.iter().map(|byte| format!("{byte:02x}")).collect();
-        let path = std::env::temp_dir().join(format!("swanilda-semaphore-{hex}"));
+        let path = path_of(key);
         let failed = |error| format!("cannot use {}: {error}", path.display());
         let file = File::options().create(true).truncate(false).write(true).open(&path).map_err(failed)?;
         match FileExt::try_lock(&file) {
@@ -43,11 +43,17 @@ impl Held {
     }
 }
 
+fn path_of(key: &[u8]) -> PathBuf {
+    let hex: String = key.iter().map(|byte| format!("{byte:02x}")).collect();
+    std::env::temp_dir().join(format!("swanilda-semaphore-{hex}"))
+}
+
 /// Waits until no other program holds the semaphore; at once if this simulator does already.
 ///
 /// # Errors
 /// When the key is too long, its file cannot be made, or the user wants the program to end.
 pub(in crate::api) fn acquire(cx: &mut Cx, key: &[u8]) -> Result<()> {
+    cx.permissions().check_write(&path_of(key))?;
     let held = cx.module_state::<Held>();
     let acquired = cx.wait_for(None, || held.try_acquire(key).transpose())?;
     acquired.transpose().map(drop).map_err(ApiError::Other)

@@ -33,6 +33,7 @@ const NOTHING_TO_SEND: i64 = -5;
 
 #[api("sim._serialOpen")]
 fn serial_open(cx: &mut Cx, port_string: String, baud_rate: Number) -> Result<i64> {
+    cx.permissions().check_device(&SerialPort::file(&port_string))?;
     let ports = cx.module_state::<Ports>();
     let mut ports = ports.0.borrow_mut();
     if ports.values().any(|port| port.path() == port_string) {

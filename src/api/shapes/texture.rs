@@ -51,7 +51,7 @@ fn create_texture(
 ) -> Result<(Handle, i64, IntPair)> {
     let texture = match file_name.as_str() {
         "" => blank(resolution.unwrap_or([USUAL_SIDE; 2]))?,
-        name => of_file(name, resolution.filter(|_| fixed_resolution.0 != 0))?,
+        name => of_file(cx, name, resolution.filter(|_| fixed_resolution.0 != 0))?,
     };
     let [width, height] = texture.size();
     let plane = plane_sizes.unwrap_or([1.0, f64::from(height) / f64::from(width)]);
@@ -78,8 +78,8 @@ fn blank(resolution: [f64; 2]) -> Result<Texture> {
 }
 
 /// The image of a file, named after it; files begin with the top row.
-fn of_file(name: &str, resolution: Option<[f64; 2]>) -> Result<Texture> {
-    let picture = Picture::decode(&read_file(name.as_bytes())?, Layout::Rgba).map_err(failure)?;
+fn of_file(cx: &Cx, name: &str, resolution: Option<[f64; 2]>) -> Result<Texture> {
+    let picture = Picture::decode(&read_file(cx, name.as_bytes())?, Layout::Rgba).map_err(failure)?;
     let picture = match resolution {
         Some(size) => picture.scaled(size.map(|side| side as i64), false, Layout::Rgba).map_err(failure)?,
         None => picture,

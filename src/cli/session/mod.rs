@@ -2,6 +2,7 @@
 
 pub(super) mod interrupt;
 pub(super) mod output;
+pub(super) mod permissions;
 pub(super) mod progress;
 pub(super) mod setup;
 

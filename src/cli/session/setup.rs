@@ -8,6 +8,7 @@ use super::progress::Progress;
 use crate::format::scene_file::{self, SceneFile};
 use crate::format::scene_input::SceneInput;
 use crate::format::ttt::FileError;
+use crate::permissions::Permissions;
 use crate::script::log::verbosity;
 use crate::{Options, ScriptKind, Simulator};
 
@@ -172,7 +173,7 @@ fn name_of(path: &Path) -> String {
 
 fn read_scene(path: &Path) -> Result<Scene, String> {
     let unreadable = |error: FileError| format!("cannot read {}: {error}", path.display());
-    match SceneInput::read(path)? {
+    match SceneInput::read(path, &Permissions::all())? {
         SceneInput::Script(code) => Ok(Scene::Script((name_of(path), code))),
         SceneInput::File(file) => Ok(Scene::File(Box::new(file.scene().map_err(unreadable)?))),
     }

@@ -6,6 +6,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use super::interrupt::Interrupt;
+use super::permissions::PermissionArgs;
 use super::setup::seconds;
 use crate::Options;
 use crate::testing::{self, Allowance, Config, Summary};
@@ -83,6 +84,8 @@ pub(super) struct Args {
     init: bool,
     #[command(flatten)]
     reports: ReportArgs,
+    #[command(flatten)]
+    permissions: PermissionArgs,
 }
 
 /// Runs the tests; the exit code reports the outcome.
@@ -155,6 +158,7 @@ impl Args {
                 simulated: self.sim_timeout,
                 memory: (self.memory as usize) << 20,
             },
+            permissions: self.permissions.permissions(),
             interrupted: interrupt.flag(),
         }
     }

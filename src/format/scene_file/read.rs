@@ -4,18 +4,19 @@ use std::path::Path;
 
 use crate::format::ttt::{self, File, FileError, FileResult};
 use crate::format::xml;
+use crate::permissions::Permissions;
 
 /// True where the bytes begin as a scene or model does, binary or XML.
 pub fn is_scene(bytes: &[u8]) -> bool {
     ttt::is_binary(bytes) || xml::is_xml(bytes)
 }
 
-/// What a file holds. XML may name files beside it, which are looked for in `folder`.
+/// What a file holds. XML may name files beside it, which are looked for in `folder`, where they may be read.
 ///
 /// # Errors
 /// What is wrong with the bytes, and where.
-pub fn read_file(bytes: &[u8], folder: Option<&Path>) -> FileResult<File> {
-    if xml::is_xml(bytes) { xml::read(bytes, folder) } else { File::read(bytes) }
+pub fn read_file(bytes: &[u8], folder: Option<&Path>, permissions: &Permissions) -> FileResult<File> {
+    if xml::is_xml(bytes) { xml::read(bytes, folder, permissions) } else { File::read(bytes) }
 }
 
 /// The file at a path.
@@ -24,5 +25,5 @@ pub fn read_file(bytes: &[u8], folder: Option<&Path>) -> FileResult<File> {
 /// In words.
 pub fn read_path(path: &Path) -> Result<File, String> {
     let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
-    read_file(&bytes, path.parent()).map_err(|error: FileError| error.to_string())
+    read_file(&bytes, path.parent(), &Permissions::all()).map_err(|error: FileError| error.to_string())
 }

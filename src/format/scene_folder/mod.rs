@@ -14,6 +14,7 @@ use crate::format::ttt::chunks::{MeshData, MeshNode};
 use crate::format::ttt::mesh_arrays::MeshArrays;
 use crate::format::ttt::node::{Node, NodeResult, at};
 use crate::format::ttt::tree::{Class, MeshTree};
+use crate::permissions::Permissions;
 use names::Names;
 
 /// The file with the tree.
@@ -62,30 +63,26 @@ pub fn unpack(file: &File, folder: &Path) -> NodeResult<()> {
 ///
 /// # Errors
 /// What is wrong, and where in the tree.
-pub fn pack(folder: &Path) -> NodeResult<File> {
-    let mut tree = tree(folder)?;
-    bring_in(folder, &mut tree)?;
+pub fn pack(folder: &Path, permissions: &Permissions) -> NodeResult<File> {
+    let inside = Inside { folder, permissions };
+    let mut tree = inside.tree()?;
+    inside.bring_in(&mut tree)?;
     let mut file = at(TREE, File::from_node(&tree))?;
-    put_meshes(folder, &mut file)?;
+    inside.put_meshes(&mut file)?;
     Ok(file)
 }
 
 /// Which files of an unpacked scene hold the texts of its scripts.
 ///
 /// # Errors
-/// When the tree of the folder cannot be read.
-pub fn sources(folder: &Path) -> NodeResult<ScriptSources> {
-    let tree = tree(folder)?;
+/// When the tree of the folder may not or cannot be read.
+pub fn sources(folder: &Path, permissions: &Permissions) -> NodeResult<ScriptSources> {
+    let tree = Inside { folder, permissions }.tree()?;
     let list = |name: &str| match tree.get("contents").and_then(|contents| contents.get(name)) {
         Some(Node::List(items)) => items.iter().map(|item| Some(path_of(folder, source(item)?))).collect(),
         _ => Vec::new(),
     };
     Ok(ScriptSources { objects: list("objects"), attached: list("scripts") })
-}
-
-fn tree(folder: &Path) -> NodeResult<Node> {
-    let text = String::from_utf8(read(folder, TREE)?).map_err(|error| error.to_string());
-    at(TREE, text.and_then(|text| Node::parse(&text)))
 }
 
 fn path_of(folder: &Path, name: &str) -> String {
@@ -142,29 +139,64 @@ impl Outside<'_> {
     }
 }
 
-/// A file of the folder; never one outside of it.
-fn read(folder: &Path, name: &str) -> NodeResult<Vec<u8>> {
-    if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
-        return Err(format!("`{name}` is not in the folder"));
-    }
-    let path = folder.join(name);
-    std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))
+/// What is read beside the tree.
+struct Inside<'a> {
+    folder: &'a Path,
+    permissions: &'a Permissions,
 }
 
-/// Puts files in the places of their names.
-fn bring_in(folder: &Path, node: &mut Node) -> NodeResult<()> {
-    match node {
-        Node::Table(entries) => {
-            if let [(key, Node::Text(name))] = entries.as_slice()
-                && key == "file"
-            {
-                *node = Node::Bytes(read(folder, name)?);
-                return Ok(());
-            }
-            entries.iter_mut().try_for_each(|(_, item)| bring_in(folder, item))
+impl Inside<'_> {
+    /// A file of the folder; never one outside of it, except by a link to what may be read.
+    fn read(&self, name: &str) -> NodeResult<Vec<u8>> {
+        if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
+            return Err(format!("`{name}` is not in the folder"));
         }
-        Node::List(items) => items.iter_mut().try_for_each(|item| bring_in(folder, item)),
-        _ => Ok(()),
+        let path = self.folder.join(name);
+        self.permissions.read_file(&path).map_err(|error| format!("{}: {error}", path.display()))
+    }
+
+    fn tree(&self) -> NodeResult<Node> {
+        let text = String::from_utf8(self.read(TREE)?).map_err(|error| error.to_string());
+        at(TREE, text.and_then(|text| Node::parse(&text)))
+    }
+
+    /// Puts files in the places of their names.
+    fn bring_in(&self, node: &mut Node) -> NodeResult<()> {
+        match node {
+            Node::Table(entries) => {
+                if let [(key, Node::Text(name))] = entries.as_slice()
+                    && key == "file"
+                {
+                    *node = Node::Bytes(self.read(name)?);
+                    return Ok(());
+                }
+                entries.iter_mut().try_for_each(|(_, item)| self.bring_in(item))
+            }
+            Node::List(items) => items.iter_mut().try_for_each(|item| self.bring_in(item)),
+            _ => Ok(()),
+        }
+    }
+
+    fn put_meshes(&self, file: &mut File) -> NodeResult<()> {
+        let mut arrays = MeshArrays::default();
+        let mut known = std::collections::HashMap::new();
+        let mut any = false;
+        for_each_mesh(file, &mut |data| {
+            let Some(number) = data.vertices_at else { return Ok(()) };
+            any = true;
+            let places = match known.get(&number) {
+                Some(places) => *places,
+                None => {
+                    let name = mesh_name(number);
+                    let places = arrays.add(at(&name, self.read(&name).and_then(|text| obj::read(&text)))?);
+                    *known.entry(number).or_insert(places)
+                }
+            };
+            [data.vertices_at, data.indices_at, data.normals_at, data.edges_at] = places;
+            Ok(())
+        })?;
+        file.contents.mesh_pool = any.then_some(arrays.pool);
+        Ok(())
     }
 }
 
@@ -204,28 +236,6 @@ fn take_meshes(file: &mut File) -> NodeResult<Vec<String>> {
     Ok(texts)
 }
 
-fn put_meshes(folder: &Path, file: &mut File) -> NodeResult<()> {
-    let mut arrays = MeshArrays::default();
-    let mut known = std::collections::HashMap::new();
-    let mut any = false;
-    for_each_mesh(file, &mut |data| {
-        let Some(number) = data.vertices_at else { return Ok(()) };
-        any = true;
-        let places = match known.get(&number) {
-            Some(places) => *places,
-            None => {
-                let name = mesh_name(number);
-                let places = arrays.add(at(&name, read(folder, &name).and_then(|text| obj::read(&text)))?);
-                *known.entry(number).or_insert(places)
-            }
-        };
-        [data.vertices_at, data.indices_at, data.normals_at, data.edges_at] = places;
-        Ok(())
-    })?;
-    file.contents.mesh_pool = any.then_some(arrays.pool);
-    Ok(())
-}
-
 /// The array at a place.
 fn find<T>(list: &[T], place: Option<i32>) -> Option<&T> {
     list.get(usize::try_from(place?).ok()?)
@@ -243,14 +253,15 @@ mod tests {
             let file = File::read(&std::fs::read(&path).unwrap()).unwrap();
             let folder = tempfile::tempdir().unwrap();
             unpack(&file, folder.path()).unwrap_or_else(|e| panic!("{what}: {e}"));
-            let packed = pack(folder.path()).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let packed = pack(folder.path(), &Permissions::all()).unwrap_or_else(|e| panic!("{what}: {e}"));
             let (mut a, mut b) = (file, packed.clone());
             assert_eq!(take_meshes(&mut a).unwrap(), take_meshes(&mut b).unwrap(), "{what}: other meshes");
             // As text, since numbers that are none differ from themselves.
             assert!(a.to_node().print() == b.to_node().print(), "{what}: another tree");
             let again = tempfile::tempdir().unwrap();
             unpack(&packed, again.path()).unwrap();
-            assert_eq!(read(folder.path(), TREE).unwrap(), read(again.path(), TREE).unwrap(), "{what}");
+            let tree = |folder: &Path| std::fs::read(folder.join(TREE)).unwrap();
+            assert_eq!(tree(folder.path()), tree(again.path()), "{what}");
         }
     }
 
@@ -260,13 +271,14 @@ mod tests {
         std::fs::write(folder.path().join("mine.txt"), "x").unwrap();
         let file = File::read(&std::fs::read(&own_files()[0]).unwrap()).unwrap();
         assert!(unpack(&file, folder.path()).unwrap_err().contains("not empty"));
-        assert!(pack(folder.path()).is_err());
+        assert!(pack(folder.path(), &Permissions::all()).is_err());
     }
 
     #[test]
     fn nothing_outside_of_the_folder_is_read() {
         for name in ["/etc/passwd", "../scene.json", "a/../../b", "."] {
-            assert!(read(Path::new("."), name).unwrap_err().contains("not in the folder"), "{name}");
+            let inside = Inside { folder: Path::new("."), permissions: &Permissions::all() };
+            assert!(inside.read(name).unwrap_err().contains("not in the folder"), "{name}");
         }
     }
 }

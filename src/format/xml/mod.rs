@@ -18,6 +18,7 @@ mod tests;
 use std::path::Path;
 
 use super::ttt::{File, FileResult};
+use crate::permissions::Permissions;
 use document::Document;
 use side_files::SideFiles;
 
@@ -45,12 +46,12 @@ pub fn is_xml(bytes: &[u8]) -> bool {
     text.trim_ascii_start().starts_with(b"<")
 }
 
-/// The scene or model of an XML file. Files that it names are below `folder`; a buffer has none.
+/// The scene or model of an XML file. Files that it names are below `folder`, where they may be read; a buffer has none.
 ///
 /// # Errors
 /// What is wrong, with line, column and the names of the elements.
-pub fn read(bytes: &[u8], folder: Option<&Path>) -> FileResult<File> {
-    scene::read(&Document::parse(bytes)?, SideFiles(folder))
+pub fn read(bytes: &[u8], folder: Option<&Path>, permissions: &Permissions) -> FileResult<File> {
+    scene::read(&Document::parse(bytes)?, SideFiles { folder, permissions })
 }
 
 /// A file of the savers as XML.

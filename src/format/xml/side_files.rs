@@ -2,20 +2,28 @@
 
 use std::path::{Component, Path};
 
-/// The folder of a scene; none for a scene out of a buffer.
+use crate::permissions::Permissions;
+
+/// Those of one scene.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct SideFiles<'a>(pub Option<&'a Path>);
+pub(super) struct SideFiles<'a> {
+    /// The folder of the scene; none for a scene out of a buffer.
+    pub folder: Option<&'a Path>,
+    /// Links may lead out of it.
+    pub permissions: &'a Permissions,
+}
 
 impl SideFiles<'_> {
     /// # Errors
     /// In words.
     pub(super) fn read(self, name: &str) -> Result<Vec<u8>, String> {
-        let folder = self.0.ok_or_else(|| format!("the file '{name}' beside the scene is not in the buffer"))?;
+        let folder = self.folder.ok_or_else(|| format!("the file '{name}' beside the scene is not in the buffer"))?;
         let path = Path::new(name);
         if name.is_empty() || !path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
             return Err(format!("the file '{name}' is not in the folder of the scene"));
         }
-        std::fs::read(folder.join(path)).map_err(|error| format!("the file '{name}' cannot be read: {error}"))
+        let read = self.permissions.read_file(&folder.join(path));
+        read.map_err(|error| format!("the file '{name}' cannot be read: {error}"))
     }
 }
 
@@ -51,12 +59,16 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         std::fs::create_dir(folder.path().join("inner")).unwrap();
         std::fs::write(folder.path().join("mesh.bin"), "x").unwrap();
-        assert_eq!(SideFiles(Some(folder.path())).read("./mesh.bin").unwrap(), b"x");
+        let all = Permissions::all();
+        let of = |folder| SideFiles { folder, permissions: &all };
+        assert_eq!(of(Some(folder.path())).read("./mesh.bin").unwrap(), b"x");
         let inner = folder.path().join("inner");
         for name in ["../mesh.bin", "", "/etc/passwd", "a/../../mesh.bin"] {
-            assert!(SideFiles(Some(&inner)).read(name).unwrap_err().contains("not in the folder"), "{name}");
+            assert!(of(Some(&inner)).read(name).unwrap_err().contains("not in the folder"), "{name}");
         }
-        assert!(SideFiles(None).read("mesh.bin").is_err());
+        assert!(of(None).read("mesh.bin").is_err());
+        let none = SideFiles { folder: Some(folder.path()), permissions: &Permissions::none() };
+        assert!(none.read("mesh.bin").unwrap_err().contains("--allow-read"));
     }
 
     #[test]

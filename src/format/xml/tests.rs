@@ -1,14 +1,22 @@
 //! Round trips of scenes through XML.
 
+use std::path::Path;
+
 use super::{Variant, read, write};
 use crate::format::scene_file::tests::{assert_same, load, own_files, real_files};
 use crate::format::scene_file::{Loaded, SceneFile, save};
+use crate::format::ttt::{File, FileResult};
+use crate::permissions::Permissions;
 use crate::scene::Scene;
+
+fn read_all(bytes: &[u8], folder: Option<&Path>) -> FileResult<File> {
+    read(bytes, folder, &Permissions::all())
+}
 
 fn through(bytes: &[u8], variant: Variant, what: &str) -> (Scene, Scene) {
     let (first, loaded) = load(bytes);
     let text = write(&save::scene(&first, &loaded.scripts).unwrap(), variant);
-    let file = read(text.as_bytes(), None).unwrap_or_else(|e| panic!("{what}: {e}"));
+    let file = read_all(text.as_bytes(), None).unwrap_or_else(|e| panic!("{what}: {e}"));
     assert_eq!(file.skipped, [], "{what}");
     let mut second = Scene::new();
     let again = SceneFile::new(file).unwrap_or_else(|e| panic!("{what}: {e}")).add_to(&mut second, true).unwrap();
@@ -61,7 +69,7 @@ fn kinds() -> Vec<u8> {
 
 #[test]
 fn every_kind_of_the_simple_variant_is_understood() {
-    let file = read(&kinds(), None).unwrap();
+    let file = read_all(&kinds(), None).unwrap();
     let skipped: Vec<&str> = file.skipped.iter().map(|skipped| skipped.path.as_str()).collect();
     assert_eq!(skipped, ["CoppeliaSim/mirror"]);
     let mut scene = Scene::new();
@@ -111,7 +119,7 @@ fn every_kind_of_the_simple_variant_is_understood() {
 
 /// Loads what can be loaded; what is wrong says so.
 fn load_damaged(bytes: &[u8]) -> Result<(), String> {
-    let file = read(bytes, None).map_err(|error| error.to_string())?;
+    let file = read_all(bytes, None).map_err(|error| error.to_string())?;
     let file = SceneFile::new(file).map_err(|error| error.to_string())?;
     let mut scene = Scene::new();
     let loaded = file.add_to(&mut scene, true).unwrap();
@@ -168,9 +176,9 @@ fn what_is_wrong_is_told_with_its_place() {
     let depth = 200;
     let compounds = ["<compound>".repeat(depth), "</compound>".repeat(depth)].concat();
     assert_wrong(&format!("<shape>{compounds}</shape>"), "nested too deeply");
-    let error = read(b"<CoppeliaSim><filetype>exhaustiveScene</filetype></CoppeliaSim>", None).unwrap_err();
+    let error = read_all(b"<CoppeliaSim><filetype>exhaustiveScene</filetype></CoppeliaSim>", None).unwrap_err();
     assert!(error.to_string().contains("`prgVer` is missing"), "{error}");
-    assert!(read(b"<html></html>", None).unwrap_err().to_string().contains("no scene or model"));
+    assert!(read_all(b"<html></html>", None).unwrap_err().to_string().contains("no scene or model"));
 }
 
 #[test]
@@ -198,14 +206,14 @@ fn arrays_and_pictures_beside_the_scene_are_read() {
              <data_base64Coded><file name='s_texture.bin'/></data_base64Coded></texture></CoppeliaSim>"
         )
     };
-    let file = read(scene("s_mesh.bin").as_bytes(), Some(folder.path())).unwrap();
+    let file = read_all(scene("s_mesh.bin").as_bytes(), Some(folder.path())).unwrap();
     assert_eq!(file.contents.textures[0].pixels.as_ref().unwrap().0, [7, 8, 9]);
     assert_eq!(file.skipped, []);
     assert!(SceneFile::new(file).is_ok());
     for (name, what) in [("s_mesh.dae", "not"), ("../s_mesh.bin", "not in the folder"), ("s_texture.bin", "too short")]
     {
-        let error = read(scene(name).as_bytes(), Some(folder.path())).unwrap_err().to_string();
+        let error = read_all(scene(name).as_bytes(), Some(folder.path())).unwrap_err().to_string();
         assert!(error.contains(what), "{error}");
     }
-    assert!(read(scene("s_mesh.bin").as_bytes(), None).is_err());
+    assert!(read_all(scene("s_mesh.bin").as_bytes(), None).is_err());
 }

@@ -101,7 +101,7 @@ fn aside<T: Send + 'static>(stop: &AtomicBool, question: impl FnOnce() -> T + Se
 }
 
 /// The number of a port; None for the name of a service.
-fn port(service: &str) -> Result<Option<u16>, Failure> {
+pub(crate) fn port(service: &str) -> Result<Option<u16>, Failure> {
     match service.parse::<f64>() {
         Ok(number) if number.fract() == 0.0 && (0.0..=65535.0).contains(&number) => Ok(Some(number as u16)),
         Ok(_) => Err(Failure::words("service not supported for socket type")),

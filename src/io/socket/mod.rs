@@ -15,7 +15,7 @@ mod wait;
 pub(crate) use address::{Family, Place};
 pub(crate) use datagram::Datagram;
 pub(crate) use failure::Failure;
-pub(crate) use lookup::{Lookup, host_name, name_of, numeric};
+pub(crate) use lookup::{Lookup, host_name, name_of, numeric, port};
 pub(crate) use options::{OptionValue, option, set_option};
 pub(crate) use reader::Pattern;
 pub(crate) use stream::{Role, Stream};

@@ -218,6 +218,11 @@ impl Stream {
         }
     }
 
+    /// Whether it has no address yet; the system chooses one when it becomes a server.
+    pub(crate) fn is_unbound(&self) -> bool {
+        self.local().is_ok_and(|place| matches!(place, Place::Net(address) if address.port() == 0))
+    }
+
     pub(crate) fn local(&self) -> Result<Place, Failure> {
         Ok(Place::of(&self.opened()?.local_addr()?))
     }

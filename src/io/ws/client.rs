@@ -40,6 +40,11 @@ impl Request {
         };
         Ok(Self { handshake, host, port, connection })
     }
+
+    /// Host and port.
+    pub(crate) fn place(&self) -> (&str, u16) {
+        (&self.host, self.port)
+    }
 }
 
 /// Connects, and converses until the connection ends.

@@ -13,6 +13,7 @@ use std::time::{Duration, SystemTime};
 use api_macro::api;
 
 use super::{ApiFn, Cx, Module, Result, functions};
+use crate::permissions::Denied;
 use crate::scene::{Data, Key};
 use crate::script::Results;
 use lock::system_words;
@@ -36,7 +37,9 @@ fn outcome(result: io::Result<()>) -> Results {
 }
 
 fn failure(text: &str, error: &io::Error) -> Results {
-    Results(vec![Data::Nil, Data::text(text), Data::Int(error.raw_os_error().unwrap_or_default().into())])
+    let is_denied = error.kind() == io::ErrorKind::PermissionDenied;
+    let number = error.raw_os_error().unwrap_or(if is_denied { Denied::ERRNO } else { 0 });
+    Results(vec![Data::Nil, Data::text(text), Data::Int(number.into())])
 }
 
 fn path_text(path: io::Result<std::path::PathBuf>) -> Results {
@@ -54,8 +57,9 @@ fn current_dir(_cx: &Cx) -> Result<Results> {
 
 /// Changes the working directory of the process.
 #[api("lfs.chdir")]
-fn change_dir(_cx: &Cx, path: String) -> Result<Results> {
-    Ok(match std::env::set_current_dir(&path) {
+fn change_dir(cx: &Cx, path: String) -> Result<Results> {
+    let allowed = cx.permissions().check_redirect("changing the working directory");
+    Ok(match allowed.map_err(io::Error::from).and_then(|()| std::env::set_current_dir(&path)) {
         Ok(()) => outcome(Ok(())),
         Err(error) => {
             failure(&format!("Unable to change working directory to '{path}'\n{}\n", system_words(&error)), &error)
@@ -65,20 +69,32 @@ fn change_dir(_cx: &Cx, path: String) -> Result<Results> {
 
 /// Makes a folder.
 #[api("lfs.mkdir")]
-fn make_dir(_cx: &Cx, path: String) -> Result<Results> {
-    Ok(outcome(fs::create_dir(path)))
+fn make_dir(cx: &Cx, path: String) -> Result<Results> {
+    Ok(outcome(changed_entry(cx, &path).and_then(|()| fs::create_dir(path))))
 }
 
 /// Removes an empty folder.
 #[api("lfs.rmdir")]
-fn remove_dir(_cx: &Cx, path: String) -> Result<Results> {
-    Ok(outcome(fs::remove_dir(path)))
+fn remove_dir(cx: &Cx, path: String) -> Result<Results> {
+    Ok(outcome(changed_entry(cx, &path).and_then(|()| fs::remove_dir(path))))
+}
+
+fn changed_entry(cx: &Cx, path: &str) -> io::Result<()> {
+    Ok(cx.permissions().check_write_entry(Path::new(path))?)
 }
 
 /// Makes a hard link, or a symbolic one.
 #[api("lfs.link")]
-fn link(_cx: &Cx, old: String, new: String, #[default(false)] symbolic: bool) -> Result<Results> {
-    Ok(outcome(if symbolic { symbolic_link(&old, &new) } else { fs::hard_link(old, new) }))
+fn link(cx: &Cx, old: String, new: String, #[default(false)] symbolic: bool) -> Result<Results> {
+    let allowed = if symbolic {
+        cx.permissions().check_redirect("making symbolic links")
+    } else {
+        // What is written by its new name changes under its old one too.
+        let (old, new) = (Path::new(&old), Path::new(&new));
+        cx.permissions().check_rename(old, new)
+    };
+    let allowed = allowed.map_err(io::Error::from);
+    Ok(outcome(allowed.and_then(|()| if symbolic { symbolic_link(&old, &new) } else { fs::hard_link(old, new) })))
 }
 
 #[cfg(unix)]
@@ -97,10 +113,11 @@ fn symbolic_link(old: &str, new: &str) -> io::Result<()> {
 
 /// Sets the times of access and change, in seconds since 1970.
 #[api("lfs.touch")]
-fn touch(_cx: &Cx, path: String, access: f64, modification: f64) -> Result<Results> {
+fn touch(cx: &Cx, path: String, access: f64, modification: f64) -> Result<Results> {
     let set = || {
+        cx.permissions().check_write(Path::new(&path))?;
         let times = FileTimes::new().set_accessed(time(access)?).set_modified(time(modification)?);
-        fs::File::open(path)?.set_times(times)
+        fs::File::open(&path)?.set_times(times)
     };
     Ok(outcome(set()))
 }
@@ -113,14 +130,24 @@ fn time(seconds: f64) -> io::Result<SystemTime> {
 
 /// File attributes as a table; of a link itself unless `follow`.
 #[api("lfs.attributes")]
-fn attributes(_cx: &Cx, path: String, follow: bool) -> Result<Results> {
-    let known = if follow { fs::metadata(&path) } else { fs::symlink_metadata(&path) };
+fn attributes(cx: &Cx, path: String, follow: bool) -> Result<Results> {
+    let known = if follow { followed(cx, Path::new(&path)) } else { not_followed(cx, Path::new(&path)) };
     Ok(match known {
         Ok(metadata) => Results(vec![Data::Map(fields(&path, &metadata))]),
         Err(error) => {
             failure(&format!("cannot obtain information from file '{path}': {}", system_words(&error)), &error)
         }
     })
+}
+
+fn followed(cx: &Cx, path: &Path) -> io::Result<Metadata> {
+    cx.permissions().check_inspect(path)?;
+    fs::metadata(path)
+}
+
+fn not_followed(cx: &Cx, path: &Path) -> io::Result<Metadata> {
+    cx.permissions().check_inspect_link(path)?;
+    fs::symlink_metadata(path)
 }
 
 fn fields(path: &str, metadata: &Metadata) -> Vec<(Key, Data)> {
@@ -205,8 +232,9 @@ fn permissions(mode: u32) -> String {
 
 /// The names in a folder, sorted, beginning with `.` and `..`.
 #[api("lfs.list")]
-fn list(_cx: &Cx, path: String) -> Result<Results> {
-    let names = fs::read_dir(&path).and_then(|entries| {
+fn list(cx: &Cx, path: String) -> Result<Results> {
+    let allowed = cx.permissions().check_inspect(Path::new(&path)).map_err(io::Error::from);
+    let names = allowed.and_then(|()| fs::read_dir(&path)).and_then(|entries| {
         entries.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned())).collect::<io::Result<Vec<_>>>()
     });
     Ok(match names {
@@ -221,8 +249,9 @@ fn list(_cx: &Cx, path: String) -> Result<Results> {
 
 /// The absolute path without links and dots.
 #[api("lfs.realpath")]
-fn real_path(_cx: &Cx, path: String) -> Result<Results> {
-    Ok(path_text(Path::new(&path).canonicalize()))
+fn real_path(cx: &Cx, path: String) -> Result<Results> {
+    let allowed = cx.permissions().check_inspect(Path::new(&path)).map_err(io::Error::from);
+    Ok(path_text(allowed.and_then(|()| Path::new(&path).canonicalize())))
 }
 
 /// The folder for temporary files.

@@ -45,6 +45,7 @@ pub(super) const REMOTE: &[ApiFn] = functions![start_remote];
 fn start(cx: &mut Cx, listen_port: i64) -> Result<String> {
     let port = u16::try_from(listen_port).map_err(|_| ApiError::Other(format!("invalid port: {listen_port}")))?;
     let address = cx.options().listen_address;
+    cx.permissions().check_net(&address.to_string(), Some(port))?;
     serve(cx, TcpListener::bind((address, port)), WsPages::All)
         .map_err(|error| unusable(&format!("{address}:{port}"), &error))
 }
@@ -99,6 +100,8 @@ fn connect(cx: &mut Cx, uri: String) -> Result<String> {
     let numbers = numbers(cx);
     let refused = |reason: String| ApiError::Other(format!("Could not create connection: {reason}"));
     let request = WsRequest::new(&uri, &String::from_utf8_lossy(&agent), numbers.next()).map_err(refused)?;
+    let (host, port) = request.place();
+    cx.permissions().check_net(host, Some(port))?;
     let event_loop = cx.event_loop().map_err(|error| refused(error.to_string()))?;
     let socket = WsEndpoint::connect(event_loop, request, numbers);
     Ok(endpoints::add(cx, Role::Client, socket).handle())

@@ -2,6 +2,7 @@
 //!
 //! No call waits but `poll` and `ctx_term`, which end with the program; how blocking functions wait is said in Lua, which can yield.
 
+mod access;
 mod contexts;
 mod messages;
 mod objects;

@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use api_macro::api;
 
+use super::access::{check_endpoint, check_option};
 use super::int;
 use super::objects::objects;
 use crate::io::zmq::{self, Errno, Message, Socket};
@@ -37,6 +38,7 @@ fn close(cx: &Cx, socket: String) -> Result<i64> {
 #[api("simZMQ.bind")]
 fn bind(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
     let objects = objects(cx);
+    check_endpoint(cx, &endpoint)?;
     Ok(objects.done(objects.socket(cx, &socket)?.bind(&endpoint)))
 }
 
@@ -59,6 +61,7 @@ fn unbind(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
 #[api("simZMQ.connect")]
 fn connect(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
     let objects = objects(cx);
+    check_endpoint(cx, &endpoint)?;
     Ok(objects.done(objects.socket(cx, &socket)?.connect(&endpoint)))
 }
 
@@ -82,6 +85,7 @@ fn disconnect(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
 #[api("simZMQ.setsockopt")]
 fn setsockopt(cx: &Cx, socket: String, option_name: Number, option_value: Bytes) -> Result<i64> {
     let objects = objects(cx);
+    check_option(cx, int(option_name), &option_value.0)?;
     Ok(objects.done(objects.socket(cx, &socket)?.set(int(option_name), &option_value.0)))
 }
 

@@ -4,7 +4,7 @@ use api_macro::api;
 
 use super::methods::{Done, places, with_places};
 use super::results::{Outcome, done};
-use super::{AnySocket, Shared, class, prefix, stop};
+use super::{AnySocket, Shared, access, class, prefix, stop};
 use crate::api::{ApiFn, Args, Cx, FromScript, Result, functions};
 use crate::io::socket::{Datagram, Failure, Family, Place, Wait, numeric};
 use crate::scene::Data;
@@ -105,10 +105,13 @@ fn sendto(
 ) -> Result<Outcome<f64>> {
     let mut datagram = object.0.borrow_mut();
     let place = if datagram.family == Family::Unix {
+        access::check_local(cx, &host.0)?;
         Place::Path(host.0)
     } else {
         let missing = || ApiError::BadArgument { position: 4, reason: "string expected, got no value".into() };
-        match numeric(&host.text(), &port.ok_or_else(missing)?.text(), datagram.family) {
+        let port = port.ok_or_else(missing)?;
+        access::check_place(cx, datagram.family, &host.text(), &port.text())?;
+        match numeric(&host.text(), &port.text(), datagram.family) {
             Ok(address) => Place::Net(address),
             Err(failure) => return Ok(Outcome(Err(failure))),
         }

@@ -4,6 +4,7 @@ use std::net::SocketAddr;
 
 use api_macro::api;
 
+use super::access::check_lookup;
 use super::results::Outcome;
 use super::stop;
 use crate::api::{ApiFn, Cx, Result, functions};
@@ -34,6 +35,7 @@ fn not_found(failure: Failure) -> Failure {
 #[api("socket.core.dns:toip")]
 fn toip(cx: &Cx, host: LuaString) -> Result<Outcome<Results>> {
     let host = host.text();
+    check_lookup(cx, &host)?;
     let found = addresses(cx, &host, "0", Family::Inet).map_err(not_found);
     Ok(Outcome(found.map(|found| {
         let ips: Vec<String> = found.iter().map(|address| address.ip().to_string()).collect();
@@ -44,6 +46,7 @@ fn toip(cx: &Cx, host: LuaString) -> Result<Outcome<Results>> {
 /// The name of a host, and what is known of it.
 #[api("socket.core.dns:tohostname")]
 fn tohostname(cx: &Cx, host: LuaString) -> Result<Outcome<Results>> {
+    check_lookup(cx, &host.text())?;
     let named = addresses(cx, &host.text(), "0", Family::Inet).and_then(|found| {
         let (name, _) = name_of(found[0], stop(cx))?;
         Ok((name, found[0].ip().to_string()))
@@ -59,6 +62,7 @@ fn getaddrinfo(cx: &Cx, host: LuaString) -> Result<Outcome<Data>> {
         let family = if address.is_ipv6() { "inet6" } else { "inet" };
         Data::map([("family", Data::text(family)), ("addr", Data::text(&address.ip().to_string()))])
     };
+    check_lookup(cx, &host.text())?;
     let found = addresses(cx, &host.text(), "0", Family::Any);
     Ok(Outcome(found.map(|found| Data::Array(found.into_iter().map(entry).collect()))))
 }
@@ -69,6 +73,7 @@ fn getnameinfo(cx: &Cx, host: Option<LuaString>, service: Option<LuaString>) -> 
     let text = |given: &Option<LuaString>| given.as_ref().map(|given| given.text().into_owned());
     let (host, service) = (text(&host), text(&service));
     let asked = host.as_deref().unwrap_or("127.0.0.1");
+    check_lookup(cx, asked)?;
     let found = addresses(cx, asked, service.as_deref().unwrap_or("0"), Family::Any);
     let named = found.and_then(|found| {
         found.into_iter().map(|address| name_of(address, stop(cx))).collect::<Found<Vec<(String, String)>>>()

@@ -3,7 +3,7 @@
 use api_macro::api;
 
 use super::results::{Outcome, done};
-use super::{AnySocket, Sockets, descriptor};
+use super::{AnySocket, Sockets, access, descriptor};
 use crate::api::{ApiFn, Cx, Result, functions};
 use crate::io::socket::{Failure, Family, Place, Socket, Timeout};
 use crate::scene::Data;
@@ -173,10 +173,12 @@ pub(super) fn places(
     service: Option<&LuaString>,
 ) -> Result<std::result::Result<Vec<Place>, Failure>> {
     if family == Family::Unix {
+        access::check_local(cx, &host.0)?;
         return Ok(Ok(vec![Place::Path(host.0.clone())]));
     }
     let missing = || ApiError::BadArgument { position: 3, reason: "string expected, got no value".into() };
     let service = service.ok_or_else(missing)?;
+    access::check_place(cx, family, &host.text(), &service.text())?;
     let lookup = crate::io::socket::Lookup { family, datagrams, stop: super::stop(cx) };
     let found = lookup.resolve(&host.text(), &service.text());
     Ok(found.map(|found| found.into_iter().map(Place::Net).collect()))

@@ -3,6 +3,7 @@
 //! Scripts hold userdata that name a socket by its number; the sockets are kept for the script's state and go with it. The Lua files
 //! `lua/network/socket/*.lua` make classes of these functions.
 
+mod access;
 mod datagram;
 mod dns;
 mod methods;

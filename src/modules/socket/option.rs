@@ -62,14 +62,12 @@ fn data(value: OptionValue) -> Data {
 
 /// Changes an option.
 #[api("socket.core.any:setoption")]
-fn setoption(
-    _cx: &Cx,
-    object: AnySocket,
-    option: LuaString,
-    #[default(Data::Nil)] value: Data,
-) -> Result<Outcome<f64>> {
+fn setoption(cx: &Cx, object: AnySocket, option: LuaString, #[default(Data::Nil)] value: Data) -> Result<Outcome<f64>> {
     let name = option.text();
     let value = typed(&name, &value)?;
+    if let OptionValue::Membership { group, .. } = &value {
+        cx.permissions().check_net(group, None)?;
+    }
     let Some(socket) = object.socket() else { return Ok(failed("setsockopt failed")) };
     match socket::set_option(&socket, &name, &value) {
         Some(Ok(())) => Ok(Outcome(Ok(1.0))),

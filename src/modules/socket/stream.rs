@@ -7,7 +7,7 @@ use api_macro::api;
 
 use super::methods::{Done, places, with_places};
 use super::results::{Created, Outcome, Received, Sent, done};
-use super::{AnySocket, Shared, Sockets, class, prefix, role_name, stop};
+use super::{AnySocket, Shared, Sockets, access, class, prefix, role_name, stop};
 use crate::api::{ApiFn, Args, Cx, FromScript, Result, functions};
 use crate::io::socket::{Pattern, Role, Stream, Wait};
 use crate::script::Source;
@@ -82,7 +82,11 @@ fn connect(cx: &Cx, object: Any, host: LuaString, port: Option<LuaString>) -> Re
 
 /// Becomes a server.
 #[api("socket.core.stream:listen")]
-fn listen(_cx: &Cx, object: Master, backlog: Option<LuaNumber>) -> Result<Done> {
+fn listen(cx: &Cx, object: Master, backlog: Option<LuaNumber>) -> Result<Done> {
+    let family = object.stream.borrow().family;
+    if object.stream.borrow().is_unbound() {
+        access::check_place(cx, family, "*", "0")?;
+    }
     let backlog = backlog.map_or(BACKLOG, |backlog| backlog.0).clamp(0.0, i32::MAX.into());
     Ok(done(object.stream.borrow_mut().listen(backlog as i32)))
 }

@@ -4,7 +4,7 @@ use api_macro::api;
 
 use super::results::{Created, Outcome};
 use super::stream::Client;
-use super::{Sockets, class, stop};
+use super::{Sockets, access, class, stop};
 use crate::api::{ApiFn, Cx, Result, functions};
 use crate::io::socket::{TlsSettings, Verify, Wait};
 use crate::scene::Data;
@@ -26,7 +26,9 @@ fn wrap(cx: &Cx, object: Client) -> Result<Outcome<Created>> {
 fn dohandshake(cx: &Cx, object: Client, settings: Table) -> Result<Outcome<bool>> {
     let mut stream = object.stream.borrow_mut();
     let wait = Wait::begin(stream.timeout, stop(cx));
-    let ready = if stream.is_tls() { Ok(()) } else { stream.wrap(&tls_settings(&settings.0)) };
+    let settings = tls_settings(&settings.0);
+    access::check_files(cx, &settings)?;
+    let ready = if stream.is_tls() { Ok(()) } else { stream.wrap(&settings) };
     Ok(Outcome(ready.and_then(|()| stream.shake_hands(&wait)).map(|()| true)))
 }
 

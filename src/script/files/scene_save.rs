@@ -39,13 +39,26 @@ impl Sim {
     pub(crate) fn save_scene(self: &Rc<Self>, name: &str) -> ApiResult<()> {
         self.check_unlocked()?;
         let (_, path) = Variant::of_name(name);
+        self.options.permissions.check_write(Path::new(path))?;
         let info = Data::map([("file", Data::text(path)), ("regularSave", true.into())]);
         self.broadcast(SysCall::BeforeSave, std::slice::from_ref(&info));
-        write_named(&self.scene_file()?, name)?;
+        self.write_named(&self.scene_file()?, name)?;
         let path = std::path::absolute(path).map_or_else(|_| path.to_owned(), |p| p.to_string_lossy().into_owned());
         self.scene.borrow_mut().modify_settings(|settings| settings.path = path);
         self.broadcast(SysCall::AfterSave, &[info]);
         Ok(())
+    }
+
+    /// Writes a file in the format of its name: XML where it ends so, in the simple variant with `@simpleXml` behind it.
+    ///
+    /// # Errors
+    /// When the file may not or cannot be written.
+    pub(crate) fn write_named(&self, file: &File, name: &str) -> ApiResult<()> {
+        let (variant, path) = Variant::of_name(name);
+        self.options.permissions.check_write(Path::new(path))?;
+        let bytes = variant.map_or_else(|| file.write(), |variant| xml::write(file, variant).into_bytes());
+        write_whole(Path::new(path), &bytes)
+            .map_err(|error| crate::script::ApiError::Other(format!("'{path}' could not be written: {error}.")))
     }
 
     fn check_unlocked(&self) -> ApiResult<()> {
@@ -70,15 +83,4 @@ impl Sim {
         });
         saved.collect()
     }
-}
-
-/// Writes a file in the format of its name: XML where it ends so, in the simple variant with `@simpleXml` behind it.
-///
-/// # Errors
-/// When the file cannot be written.
-pub(crate) fn write_named(file: &File, name: &str) -> ApiResult<()> {
-    let (variant, path) = Variant::of_name(name);
-    let bytes = variant.map_or_else(|| file.write(), |variant| xml::write(file, variant).into_bytes());
-    write_whole(Path::new(path), &bytes)
-        .map_err(|error| crate::script::ApiError::Other(format!("'{path}' could not be written: {error}.")))
 }

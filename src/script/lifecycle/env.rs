@@ -9,6 +9,7 @@ use super::budget::Budget;
 use super::instance::Script;
 use super::random::Random;
 use super::yields::Yields;
+use crate::permissions::Permissions;
 use crate::script::binding::registry::Registry;
 use crate::script::binding::states::States;
 use crate::script::calls::callback::SysCall;
@@ -38,6 +39,8 @@ pub(crate) struct Env {
     pub events_wanted: Rc<Cell<bool>>,
     /// What modules keep for the script; it goes with the state.
     pub module_states: States,
+    /// What the script may do to the world outside.
+    pub permissions: Permissions,
     /// The memory of the state.
     pub budget: Rc<Budget>,
     warned: RefCell<HashSet<&'static str>>,
@@ -74,6 +77,7 @@ impl Env {
             event_filters: RefCell::default(),
             events_wanted: Rc::clone(&sim.events.listening),
             module_states: States::default(),
+            permissions: sim.options.permissions.clone(),
             budget: Rc::clone(&sim.scripts.budget),
             warned: RefCell::default(),
             warned_deprecated: RefCell::default(),

@@ -117,7 +117,7 @@ impl Stack<'_> {
     }
 
     /// `chunk:line: ` of the Lua function that called; nothing when that is none.
-    fn place_of_call(self) -> String {
+    pub(super) fn place_of_call(self) -> String {
         api::luaL_where(self.large_room(), 1);
         let place = self.text(-1).unwrap_or_default();
         self.pop(1);

@@ -21,7 +21,19 @@ pub(super) mod guarded {
     pub const SET_UPVALUE: usize = 7;
     pub const LOAD: usize = 8;
     pub const LOAD_FILE: usize = 9;
-    pub const COUNT: usize = 10;
+    pub const LOAD_LIBRARY: usize = 10;
+    pub const IO_OPEN: usize = 11;
+    pub const IO_LINES: usize = 12;
+    pub const IO_INPUT: usize = 13;
+    pub const IO_OUTPUT: usize = 14;
+    pub const IO_POPEN: usize = 15;
+    pub const IO_TMPFILE: usize = 16;
+    pub const OS_EXECUTE: usize = 17;
+    pub const OS_GETENV: usize = 18;
+    pub const OS_REMOVE: usize = 19;
+    pub const OS_RENAME: usize = 20;
+    pub const OS_TMPNAME: usize = 21;
+    pub const COUNT: usize = 22;
 }
 
 /// What follows a guard.
@@ -34,6 +46,8 @@ pub(super) enum Next {
     Return(c_int),
     /// Argument 1 is bad for this reason.
     Refuse(&'static CStr),
+    /// The value on top is raised.
+    Raise,
 }
 
 /// A function that looks at the arguments of a call before Lua's function does; not a closure with values.
@@ -55,6 +69,7 @@ pub(super) fn install<const FUNCTION: usize, F: Guard>(stack: Stack<'_>, name: &
     push_function(stack, None, move |stack| match (guard(stack), ORIGINALS[FUNCTION].get()) {
         (Next::Return(results), _) => Exit::Results(results),
         (Next::Refuse(reason), _) => Exit::Refuse(reason),
+        (Next::Raise, _) => Exit::Raise,
         (Next::Original, Some(&original)) => Exit::Original(original, None),
         (Next::OriginalThen(then), Some(&original)) => Exit::Original(original, Some(then)),
         (_, None) => Exit::Results(0),

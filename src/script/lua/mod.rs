@@ -24,23 +24,23 @@ mod file;
 mod functions;
 mod guard;
 mod object;
+mod permissions;
 mod pool;
 mod seal;
 mod stack;
 mod state;
 mod tables;
-mod text_only;
 
 pub(crate) use callback::{Callback, push_callback};
 pub(crate) use calls::{LuaError, MULTIPLE, compile};
 pub(crate) use coroutine::{HOOK_INTERVAL, Verdict, hasten_count_hook, install_coroutine_hooks, set_count_hook};
 pub(crate) use debug_library::restrict_debug;
 pub(crate) use object::Object;
+pub(crate) use permissions::restrict_libraries;
 pub(crate) use seal::seal_argument;
 pub(crate) use stack::{Stack, Type};
 pub(crate) use state::State;
 pub(crate) use tables::LONGEST_LIST;
-pub(crate) use text_only::refuse_bytecode;
 
 use super::lifecycle::budget::Budget;
 

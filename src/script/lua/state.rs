@@ -32,8 +32,8 @@ impl Drop for Foundation {
 impl State {
     /// A new state whose memory comes out of the budget of `env`, which can be had back from every coroutine through [`Stack::owner`].
     pub(crate) fn new(env: Rc<Env>) -> Self {
-        // SAFETY: what makes this unsafe is what scripts may load: native libraries and bytecode. They may as in the original, or, with
-        // `Options::exec_unsafe` off, start-up takes both away before a script runs.
+        // SAFETY: what makes this unsafe is what scripts may load: native libraries and bytecode. They may as in the original, or,
+        // where `Options::permissions` do not allow native code, start-up takes both away before a script runs.
         let lua = unsafe { Lua::unsafe_new_with(StdLib::NONE, LuaOptions::default()) };
         if env.budget.is_limited() {
             // From here on mlua expects memory to be refused, and allocates in protected calls only. The limit itself is the budget's.

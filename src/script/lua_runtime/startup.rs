@@ -24,6 +24,10 @@ pub(super) fn fill(sim: &Rc<Sim>, state: &State, user_modules: &[UserModule]) ->
     threads::install(stack);
     lua::install_coroutine_hooks(stack, threads::on_count);
     lua::restrict_debug(stack, state.lua())?;
+    let is_restricted = !sim.options.permissions.is_all();
+    if is_restricted {
+        lua::restrict_libraries(stack);
+    }
     user_modules::install(user_modules, sim, stack)?;
     install_package(sim, stack);
     install_globals(sim, stack);
@@ -32,9 +36,10 @@ pub(super) fn fill(sim: &Rc<Sim>, state: &State, user_modules: &[UserModule]) ->
     stack.push_int(stack.owner().script.id);
     stack.set_global("sim_script_handle");
     load_module(stack, sim, "base").and_then(|()| stack.protected_call(0, 0))?;
-    if !sim.options.exec_unsafe {
-        lua::refuse_bytecode(stack);
-        load_module(stack, sim, "no_unsafe").and_then(|()| stack.protected_call(0, 0))?;
+    if is_restricted {
+        load_module(stack, sim, "restricted")?;
+        stack.push_bool(sim.options.permissions.can_load_native());
+        stack.protected_call(1, 0)?;
     }
     if sim.options.count_lines {
         coverage::install(sim, stack)?;
@@ -61,7 +66,7 @@ fn scrambled(seed: u32) -> i64 {
 
 /// Modules that CoppeliaSim has not, or no longer, and files that are no modules: a script's own file of that name goes first.
 const LAST: &[&str] =
-    &["base", "cbor", "class", "deprecate", "json", "main", "no_exit", "no_unsafe", "old_calls", "say", "seal"];
+    &["base", "cbor", "class", "deprecate", "json", "main", "no_exit", "old_calls", "restricted", "say", "seal"];
 
 /// Puts the scene's folders first into `package.path` and `package.cpath`, and the embedded library into `package.searchers`.
 fn install_package(sim: &Sim, stack: Stack<'_>) {

@@ -9,6 +9,7 @@ use super::super::Config;
 use super::super::apart;
 use super::super::case::{Outcome, Status, TestCase};
 use crate::format::scene_input::SceneInput;
+use crate::permissions::Permissions;
 use crate::scene::object::script_object::ScriptType;
 use crate::script::test_bench::{RunReport, RunRequest};
 use crate::{Limits, Options};
@@ -36,7 +37,7 @@ impl Scene {
     /// # Errors
     /// When it cannot be read, or is a damaged file of CoppeliaSim.
     pub(super) fn read(path: &Path) -> Result<Self, String> {
-        let input = SceneInput::read(path)?;
+        let input = SceneInput::read(path, &Permissions::all())?;
         if let SceneInput::File(file) = &input {
             // Told before anything runs.
             file.scene().map_err(|error| format!("cannot read {}: {error}", path.display()))?;
@@ -47,12 +48,14 @@ impl Scene {
 
 /// Runs a scene to its end. Setting `stop` ends it wherever it is.
 pub(in super::super) fn simulate(config: &Config, job: &Job, stop: &Arc<AtomicBool>) -> Outcome {
+    let folder = job.scene.path.parent();
     let options = Options {
         seed: job.case.seed,
         stop: Arc::clone(stop),
         limits: Some(Limits { memory: config.allowance.memory }),
         named_params: job.params.clone(),
-        package_dirs: job.scene.path.parent().map(Path::to_owned).into_iter().collect(),
+        package_dirs: folder.map(Path::to_owned).into_iter().collect(),
+        permissions: folder.into_iter().fold(config.permissions.clone(), Permissions::of_scene),
         ..Options::default()
     };
     let mut outcome = Outcome::new(Arc::clone(&job.case), Status::Passed, "");

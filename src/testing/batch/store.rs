@@ -12,6 +12,7 @@ use serde_json::{Map, Value, json};
 
 use super::{Batch, Row, Run};
 use crate::format::scene_input::SceneInput;
+use crate::permissions::Permissions;
 
 /// Why a folder is of no use.
 #[derive(Debug, thiserror::Error)]
@@ -121,7 +122,7 @@ impl Store {
 /// What makes a batch the same: the scene's contents, the runs and their limits.
 fn describe(batch: &Batch) -> Result<String, String> {
     let sweeps: Vec<Value> = batch.sweeps.iter().map(|(name, values)| json!([name, values])).collect();
-    let scene = SceneInput::read(&batch.scene)?.bytes();
+    let scene = SceneInput::read(&batch.scene, &Permissions::all())?.bytes();
     let description = json!({
         "scene": batch.scene.display().to_string(), "checksum": format!("{:016x}", checksum(&scene)), "seeds": batch.seeds,
         "sweeps": sweeps, "fixed": batch.fixed, "time": batch.time, "version": env!("CARGO_PKG_VERSION"),

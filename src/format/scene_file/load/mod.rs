@@ -20,6 +20,7 @@ use std::collections::BTreeMap;
 use super::{Loaded, LoadedScript, ScriptCode, ScriptSources, read_file};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{File, FileError, FileKind, FileResult, Header};
+use crate::permissions::Permissions;
 use crate::scene::object::dummy::{Dummy, LinkType};
 use crate::scene::pose::placement::is_place;
 use crate::scene::shape::Shape;
@@ -50,7 +51,7 @@ impl SceneFile {
     /// # Errors
     /// What is wrong with the bytes, and where.
     pub fn read(bytes: &[u8]) -> FileResult<Self> {
-        Self::new(read_file(bytes, None)?)
+        Self::new(read_file(bytes, None, &Permissions::none())?)
     }
 
     /// # Errors

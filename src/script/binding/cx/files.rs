@@ -34,6 +34,14 @@ impl Cx<'_> {
         self.sim.save_scene(name)
     }
 
+    /// Writes a file in the format of its name: XML where it ends so, in the simple variant with `@simpleXml` behind it.
+    ///
+    /// # Errors
+    /// When the file may not or cannot be written.
+    pub(crate) fn write_named(&self, file: &File, name: &str) -> ApiResult<()> {
+        self.sim.write_named(file, name)
+    }
+
     /// Replaces the scene on behalf of the calling script. With a file, its path becomes that of the scene.
     ///
     /// # Errors

@@ -16,6 +16,7 @@ use std::cell::{Ref, RefMut};
 use std::rc::Rc;
 use std::time::Duration;
 
+use crate::permissions::Permissions;
 use crate::scene::Scene;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::env::Env;
@@ -62,12 +63,9 @@ impl<'a> Cx<'a> {
         &self.sim.options
     }
 
-    /// For functions that start programs or load native libraries.
-    ///
-    /// # Errors
-    /// When scripts may not do that.
-    pub(crate) fn require_unsafe(&self) -> ApiResult<()> {
-        if self.sim.options.exec_unsafe { Ok(()) } else { Err(ApiError::Unsafe) }
+    /// What scripts may do to the world outside. Whoever calls the operating system for a script asks first.
+    pub(crate) fn permissions(&self) -> &Permissions {
+        &self.sim.options.permissions
     }
 
     /// Whether the user wants the program to end.

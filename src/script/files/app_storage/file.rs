@@ -10,6 +10,7 @@ use std::time::Duration;
 use fs4::{FileExt, TryLockError};
 
 use super::{Blocks, Contents};
+use crate::permissions::{Denied, Permissions};
 use crate::scene::{CustomData, Data, Edit, Key};
 use crate::script::step::wall_clock;
 use crate::wire::cbor;
@@ -29,6 +30,8 @@ pub(in crate::script::files::app_storage) enum Failure {
     TooNew(PathBuf),
     #[error("the app storage {} cannot be used: {error}.", path.display())]
     Unusable { path: PathBuf, error: std::io::Error },
+    #[error("the app storage cannot be used: {0}")]
+    Denied(#[from] Denied),
     #[error("there is no folder for the app storage: name one (--data-dir).")]
     NoFolder,
 }
@@ -36,6 +39,25 @@ pub(in crate::script::files::app_storage) enum Failure {
 /// Where the system keeps data of the user's programs.
 pub(in crate::script::files::app_storage) fn user_folder() -> Option<PathBuf> {
     Some(directories::ProjectDirs::from("", "", "swanilda")?.data_dir().to_owned())
+}
+
+/// # Errors
+/// When scripts may not read the file in `folder`.
+pub(in crate::script::files::app_storage) fn check_read(
+    folder: &Path,
+    permissions: &Permissions,
+) -> Result<(), Failure> {
+    Ok(permissions.check_read(&folder.join(NAME))?)
+}
+
+/// # Errors
+/// When scripts may not change the file in `folder`.
+pub(in crate::script::files::app_storage) fn check_write(
+    folder: &Path,
+    permissions: &Permissions,
+) -> Result<(), Failure> {
+    check_read(folder, permissions)?;
+    Ok(permissions.check_write(&folder.join(NAME))?)
 }
 
 /// What the file in `folder` holds; a missing file holds nothing.

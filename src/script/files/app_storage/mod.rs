@@ -8,6 +8,7 @@ mod file;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use crate::permissions::Permissions;
 use crate::scene::{CustomData, Edit, Edited};
 use crate::script::log::verbosity;
 use crate::script::sim::Sim;
@@ -48,6 +49,7 @@ pub(crate) struct AppStorage {
     loaded: bool,
     contents: Contents,
     dirty: BTreeSet<Dirty>,
+    permissions: Permissions,
     /// Saving failed, and nothing was changed since: it would fail again.
     failed: bool,
     /// What the user should know.
@@ -91,6 +93,11 @@ impl AppStorage {
     /// Storage in `folder`; None for the folder where the system keeps data of the user's programs.
     pub(crate) fn new(folder: Option<&Path>) -> Self {
         Self { folder: folder.map(Path::to_owned).or_else(file::user_folder), ..Self::default() }
+    }
+
+    /// The same with the permissions of the scripts that use it.
+    pub(crate) fn restricted(self, permissions: &Permissions) -> Self {
+        Self { permissions: permissions.clone(), ..self }
     }
 
     pub(crate) fn custom_data(&mut self) -> &CustomData {
@@ -137,7 +144,7 @@ impl AppStorage {
             return;
         }
         let Some(folder) = &self.folder else { return };
-        match file::read(folder) {
+        match file::check_read(folder, &self.permissions).and_then(|()| file::read(folder)) {
             Ok(contents) => self.contents = contents,
             Err(failure) => self.report(failure),
         }
@@ -156,8 +163,10 @@ impl AppStorage {
         }
         let saved = match &self.folder {
             None => Err(Failure::NoFolder),
-            Some(folder) => file::update(folder, |contents| {
-                self.dirty.iter().for_each(|item| contents.copy_item(item, &self.contents));
+            Some(folder) => file::check_write(folder, &self.permissions).and_then(|()| {
+                file::update(folder, |contents| {
+                    self.dirty.iter().for_each(|item| contents.copy_item(item, &self.contents));
+                })
             }),
         };
         match saved {

@@ -55,7 +55,7 @@ impl AppData {
         let named_params = params.map(|(name, value)| (name.clone(), value.as_bytes().to_vec())).collect();
         Self {
             named_params,
-            storage: AppStorage::new(options.data_dir.as_deref()),
+            storage: AppStorage::new(options.data_dir.as_deref()).restricted(&options.permissions),
             random: Random::new(options.seed),
             ..Self::default()
         }
@@ -70,8 +70,8 @@ pub(in crate::script::property) const APP: &[Accessor] = subject_properties! {
         s.sim.set_event_protocol(protocol);
     };
     "processId": i64, |_s| i64::from(std::process::id());
-    "execUnsafe": bool, |s| s.sim.options.exec_unsafe;
-    "execUnsafeExt": bool, |s| s.sim.options.exec_unsafe && s.sim.options.exec_unsafe_ext;
+    "execUnsafe": bool, |s| s.sim.options.permissions.can_run();
+    "execUnsafeExt": bool, |s| s.sim.options.permissions.can_run();
     "consoleVerbosity": i64, |s| s.sim.log.verbosity(), |s, level| s.sim.log.set_verbosity(level);
 };
 

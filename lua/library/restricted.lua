@@ -1,26 +1,21 @@
 --[[
-Removes functions that start programs or load native libraries from a fresh Lua state, and makes `require` refuse bytecode; runs after base.lua
-with --no-unsafe. `load` and `loadfile` refuse bytecode already.
+With restricted permissions, makes `dofile` and `require` load files by `loadfile`, which has the permissions in front, and takes the searchers
+of native libraries out where native code is not allowed. Runs after base.lua. Internal.
 ]]
 
-local function forbid(library, name)
-    library[name] = function() error('programs and native libraries are switched off (--no-unsafe).', 2) end
-end
-
-forbid(os, 'execute')
-forbid(io, 'popen')
-forbid(package, 'loadlib')
-
--- Those of native libraries stand after that of Lua files, which is the third.
-table.remove(package.searchers, 5)
-table.remove(package.searchers, 4)
-
+local nativeAllowed = ...
 local error, loadfile, searchpath = error, loadfile, package.searchpath
 
 function dofile(name)
     local chunk, reason = loadfile(name)
     if not chunk then error(reason, 0) end
     return chunk()
+end
+
+-- Those of native libraries stand after that of Lua files, which is the third.
+if not nativeAllowed then
+    table.remove(package.searchers, 5)
+    table.remove(package.searchers, 4)
 end
 
 -- The searcher for Lua files, by its place: `package.preload`, Swanilda's library, then Lua files.
