@@ -19,14 +19,17 @@ use tokio::net::TcpStream;
 use tokio::net::tcp::{OwnedReadHalf, OwnedWriteHalf};
 use tokio::sync::Notify;
 use tokio::task::JoinSet;
+use tokio::time::Instant;
 
 use super::event_loop::{Deliver, EventLoop, Inbox, Task};
 use super::zmtp::{self, Decoder, Said};
 
-/// Requests that may wait for the simulator; clients have one each, so more are a sign of something else.
-const MOST_REQUESTS: usize = 1024;
-/// Limit of connections; further ones are rejected.
-const MOST_CONNECTIONS: usize = 512;
+/// What may wait for the simulator: of each connection a request and its end.
+const MOST_ARRIVALS: usize = 2 * LIMITS.connections + 1;
+/// Bytes read of a connection whose request waits for its turn: the end of the connection shows behind them.
+const MOST_AHEAD: usize = 1 << 20;
+/// Those of a server.
+const LIMITS: Limits = Limits { connections: 512, silence: Duration::from_secs(10) };
 /// Bytes that may wait for a client to read them, beyond the answer that made it so many.
 const MOST_UNREAD: usize = 64 << 20;
 /// How long a client may take to introduce itself.
@@ -38,6 +41,14 @@ const CHUNK: usize = 64 << 10;
 
 /// A connection, as long as it lasts.
 pub(crate) type Peer = u64;
+
+#[derive(Clone, Copy)]
+struct Limits {
+    /// At most so many connections; further ones take the place of a silent one, or are rejected.
+    connections: usize,
+    /// A connection that has asked nothing for so long is silent.
+    silence: Duration,
+}
 
 /// What came in.
 #[derive(Debug, PartialEq, Eq)]
@@ -64,8 +75,21 @@ struct Connections(Mutex<HashMap<Peer, Arc<Connection>>>);
 struct Connection {
     stream: OwnedWriteHalf,
     outgoing: Mutex<Outgoing>,
-    /// Wakes the connection's task when there is something to send.
+    /// Wakes the connection's task when there is something to send, or when it is its turn.
     more: Notify,
+    state: Mutex<State>,
+}
+
+/// What a connection is waiting for.
+struct State {
+    /// Its request waits for the simulator. The next one has to wait as well, so that all connections have their turn.
+    is_queued: bool,
+    /// More has come in meanwhile.
+    has_more: bool,
+    /// Its request has no answer yet.
+    is_asking: bool,
+    /// When it asked or was answered last.
+    last_active: Instant,
 }
 
 #[derive(Default)]
@@ -84,17 +108,33 @@ impl ZmqServer {
     /// # Errors
     /// When the listener cannot be used.
     pub(crate) fn start(event_loop: Rc<EventLoop>, listener: TcpListener, stop: Arc<AtomicBool>) -> io::Result<Self> {
+        Self::start_limited(event_loop, listener, stop, LIMITS)
+    }
+
+    fn start_limited(
+        event_loop: Rc<EventLoop>,
+        listener: TcpListener,
+        stop: Arc<AtomicBool>,
+        limits: Limits,
+    ) -> io::Result<Self> {
         listener.set_nonblocking(true)?;
         let listener = event_loop.block_on(async { tokio::net::TcpListener::from_std(listener) })?;
-        let (deliver, inbox) = event_loop.inbox(MOST_REQUESTS);
+        let (deliver, inbox) = event_loop.inbox(MOST_ARRIVALS);
         let connections = Arc::<Connections>::default();
-        let accepting = event_loop.spawn(accept_all(listener, connections.clone(), deliver));
+        let accepting = event_loop.spawn(accept_all(listener, connections.clone(), deliver, limits));
         Ok(Self { event_loop, inbox: inbox.into(), connections, stop, _accepting: accepting })
     }
 
-    /// The next of what came in; waits for it at most that long.
+    /// The next of what came in; waits for it at most that long. Requests of connections that are gone are dropped.
     pub(crate) fn receive(&self, patience: Duration) -> Option<Incoming> {
-        self.event_loop.fetch(&mut self.inbox.borrow_mut(), patience)
+        loop {
+            let incoming = self.event_loop.fetch(&mut self.inbox.borrow_mut(), patience)?;
+            let Incoming::Request(peer, _) = &incoming else { return Some(incoming) };
+            if let Some(connection) = self.connections.lock().get(peer) {
+                connection.leave_queue();
+                return Some(incoming);
+            }
+        }
     }
 
     /// Whether the program is about to end, so that waits must end.
@@ -118,11 +158,57 @@ impl Connections {
     fn lock(&self) -> MutexGuard<'_, HashMap<Peer, Arc<Connection>>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
+
+    /// Ends the connection that has been silent for longest; false when none has been for that long.
+    fn end_silent(&self, silence: Duration) -> bool {
+        let now = Instant::now();
+        let connections = self.lock();
+        let silent = connections.values().filter_map(|connection| Some((connection.silent_since()?, connection)));
+        match silent.min_by_key(|(since, _)| *since) {
+            Some((since, connection)) if now.duration_since(since) >= silence => {
+                connection.give_up();
+                true
+            }
+            _ => false,
+        }
+    }
 }
 
 impl Connection {
     fn new(stream: OwnedWriteHalf) -> Self {
-        Self { stream, outgoing: Mutex::default(), more: Notify::new() }
+        let state = State { is_queued: false, has_more: false, is_asking: false, last_active: Instant::now() };
+        Self { stream, outgoing: Mutex::default(), more: Notify::new(), state: state.into() }
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A request is going to wait for the simulator.
+    fn enter_queue(&self) {
+        *self.state() = State { is_queued: true, has_more: false, is_asking: true, last_active: Instant::now() };
+    }
+
+    /// The simulator has the request.
+    fn leave_queue(&self) {
+        let mut state = self.state();
+        state.is_queued = false;
+        // Usually the next request comes after the answer, which wakes the task by itself.
+        if state.has_more {
+            self.more.notify_one();
+        }
+    }
+
+    /// None while it waits for an answer.
+    fn silent_since(&self) -> Option<Instant> {
+        let state = self.state();
+        (!state.is_asking && !self.outgoing().given_up).then_some(state.last_active)
+    }
+
+    /// Its task ends and says so.
+    fn give_up(&self) {
+        self.outgoing().given_up = true;
+        self.more.notify_one();
     }
 
     fn outgoing(&self) -> MutexGuard<'_, Outgoing> {
@@ -130,12 +216,14 @@ impl Connection {
     }
 
     fn answer(&self, content: &[u8]) {
+        let mut state = self.state();
+        (state.is_asking, state.last_active) = (false, Instant::now());
+        drop(state);
         let mut outgoing = self.outgoing();
         let bytes = zmtp::answer(&outgoing.envelope, content);
         if self.send(&mut outgoing, &bytes).is_err() {
-            // Its task ends and tells.
-            outgoing.given_up = true;
-            self.more.notify_one();
+            drop(outgoing);
+            self.give_up();
         }
     }
 
@@ -228,6 +316,21 @@ impl Receiver {
         Ok(())
     }
 
+    /// Waits until the simulator has the request before. What comes in meanwhile is stored, up to a limit, to see the end of the connection.
+    async fn wait_for_turn(&mut self, connection: &Connection) -> io::Result<()> {
+        loop {
+            connection.state().has_more = self.decoder.stored() > 0;
+            if !connection.state().is_queued {
+                return Ok(());
+            }
+            if self.decoder.stored() < MOST_AHEAD {
+                self.move_on(connection).await?;
+            } else {
+                connection.wait_to_send().await?;
+            }
+        }
+    }
+
     /// What the peer asks next; pings are answered here.
     async fn hear(&mut self, connection: &Connection) -> io::Result<zmtp::Request> {
         loop {
@@ -241,13 +344,18 @@ impl Receiver {
 }
 
 /// Serves every connection in a task of its own, as long as this one lives.
-async fn accept_all(listener: tokio::net::TcpListener, connections: Arc<Connections>, deliver: Deliver<Incoming>) {
+async fn accept_all(
+    listener: tokio::net::TcpListener,
+    connections: Arc<Connections>,
+    deliver: Deliver<Incoming>,
+    limits: Limits,
+) {
     let mut tasks = JoinSet::new();
     let mut last = 0;
     loop {
         tokio::select! {
             accepted = listener.accept() => match accepted {
-                Ok((stream, _)) if tasks.len() < MOST_CONNECTIONS => {
+                Ok((stream, _)) if tasks.len() < limits.connections || connections.end_silent(limits.silence) => {
                     last += 1;
                     tasks.spawn(serve(stream, last, connections.clone(), deliver.clone()));
                 }
@@ -274,7 +382,11 @@ async fn serve(stream: TcpStream, peer: Peer, connections: Arc<Connections>, del
     connections.lock().insert(peer, connection.clone());
     while let Ok(request) = receiver.hear(&connection).await {
         connection.outgoing().envelope = request.envelope;
+        connection.enter_queue();
         deliver.deliver(Incoming::Request(peer, request.content)).await;
+        if receiver.wait_for_turn(&connection).await.is_err() {
+            break;
+        }
     }
     connections.lock().remove(&peer);
     deliver.deliver(Incoming::Gone(peer)).await;
@@ -286,10 +398,14 @@ mod tests {
     use std::io::{Read, Write};
 
     fn server() -> (ZmqServer, std::net::SocketAddr) {
+        limited(LIMITS)
+    }
+
+    fn limited(limits: Limits) -> (ZmqServer, std::net::SocketAddr) {
         let listener = TcpListener::bind("127.0.0.1:0").expect("a port is free");
         let address = listener.local_addr().expect("it is bound");
         let event_loop = Rc::new(EventLoop::new().expect("an event loop"));
-        (ZmqServer::start(event_loop, listener, Arc::default()).expect("the listener is good"), address)
+        (ZmqServer::start_limited(event_loop, listener, Arc::default(), limits).expect("the listener is good"), address)
     }
 
     fn connect(address: std::net::SocketAddr) -> std::net::TcpStream {
@@ -337,5 +453,58 @@ mod tests {
             server.reply(1, &[0; 1 << 20]);
         }
         assert_eq!(next(&server), Some(Incoming::Gone(1)));
+    }
+
+    const HI: &[u8] = b"\x01\0\0\x02hi";
+
+    fn peer_of(incoming: Option<Incoming>) -> Peer {
+        match incoming {
+            Some(Incoming::Request(peer, _)) => peer,
+            other => panic!("no request: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn connections_take_turns() {
+        let (server, address) = server();
+        let mut greedy = connect(address);
+        greedy.write_all(&HI.repeat(100)).expect("the server reads");
+        assert_eq!(peer_of(next(&server)), 1);
+        let mut modest = connect(address);
+        modest.write_all(HI).expect("the server reads");
+        let peers: Vec<Peer> = (0..20).map(|_| peer_of(next(&server))).take_while(|&peer| peer == 1).collect();
+        assert!(peers.len() < 20, "one connection goes before all others");
+        for _ in 0..99 - peers.len() {
+            assert_eq!(peer_of(next(&server)), 1);
+        }
+    }
+
+    #[test]
+    fn requests_of_connections_that_are_gone_are_dropped() {
+        let (server, address) = server();
+        let mut client = connect(address);
+        client.write_all(&HI.repeat(1000)).expect("the server reads");
+        drop(client);
+        let requests = (0..).map_while(|_| next(&server).filter(|incoming| *incoming != Incoming::Gone(1))).count();
+        assert!(requests < 10, "{requests}");
+    }
+
+    #[test]
+    fn silent_connections_make_room() {
+        let (server, address) = limited(Limits { connections: 2, silence: Duration::ZERO });
+        let (mut first, mut second) = (connect(address), connect(address));
+        for (client, peer) in [(&mut first, 1), (&mut second, 2)] {
+            client.write_all(HI).expect("the server reads");
+            assert_eq!(peer_of(next(&server)), peer);
+        }
+        // Both wait for their answers.
+        drop(connect(address));
+        assert_eq!(server.receive(Duration::from_millis(20)), None);
+        server.reply(2, b"ho");
+        let mut third = connect(address);
+        third.write_all(HI).expect("the server reads");
+        let mut arrivals = [next(&server), next(&server)];
+        arrivals.sort_by_key(|incoming| matches!(incoming, Some(Incoming::Request(..))));
+        assert!(matches!(arrivals, [Some(Incoming::Gone(2)), Some(Incoming::Request(3, _))]), "{arrivals:?}");
     }
 }

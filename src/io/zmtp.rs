@@ -129,6 +129,11 @@ impl Decoder {
         self.bytes.extend_from_slice(bytes);
     }
 
+    /// How many bytes wait to be decoded.
+    pub(super) fn stored(&self) -> usize {
+        self.bytes.len() - self.used
+    }
+
     /// Continues the handshake as far as the received bytes allow.
     ///
     /// # Errors

@@ -6,6 +6,7 @@ import socket
 import struct
 import sys
 import threading
+import time
 
 import cbor2
 
@@ -101,6 +102,29 @@ def improper(peer):
         connection.close()
 
 
+def greedy(peer):
+    """Connections that send many requests at once do not hold up the others, and what they have sent goes with them."""
+    slow = cbor2.dumps({"uuid": "greedy", "eval": "for _ = 1, 1e5 do end"})
+    crowd = [connect(GREETING, READY, frame(slow) * 2000) for _ in range(20)]
+    begun = time.monotonic()
+    same("a request among them", peer.call("string.rep", "ab", 2), {"ret": ["abab"]})
+    same("it waits for one of each at most", time.monotonic() - begun < 3, True)
+    for connection in crowd:
+        connection.close()
+    peer.call("string.rep", "ab", 2)
+    begun = time.monotonic()
+    same("a request after them", peer.call("string.rep", "ab", 2), {"ret": ["abab"]})
+    same("it waits for nobody", time.monotonic() - begun < 1, True)
+
+
+def many_names(peer):
+    """A connection that calls itself something else all the time takes no places of others."""
+    for number in range(11_000):
+        peer.uuid = f"name {number}"
+        same("an answer", peer.ask(eval="return 1"), {"ret": [1]})
+    same("another client", Peer("newcomer").call("string.rep", "ab", 2), {"ret": ["abab"]})
+
+
 def come_and_go(count):
     request = frame(cbor2.dumps({"uuid": "brief", "func": "string.rep", "args": ["a", 1]}))
     for index in range(count):
@@ -139,6 +163,8 @@ def main():
     twenty_clients()
     large_messages(peer)
     improper(peer)
+    greedy(peer)
+    many_names(Peer("many"))
     if PROCESS.exists():
         nothing_is_left(peer)
     same("still there", peer.call("string.rep", "ab", 2), {"ret": ["abab"]})

@@ -18,6 +18,7 @@ local sim = require('sim')
 local simWS = require('simWS')
 local codecs = require('remote.ws_codecs')
 local namespaces = require('remote.namespaces')
+local load = load -- for expressions of clients, whatever one of them puts in its place
 local pack, unpack = table.pack, table.unpack
 
 local MOST_WAITING <const> = 10000 -- requests

@@ -13,6 +13,7 @@ zmqRemoteApi.rpcPort, zmqRemoteApi.autoStart, and zmqRemoteApi.verbose, with whi
 
 local _, native = ...
 local sim = require('sim')
+local load = load -- for chunks of clients, whatever one of them puts in its place
 local answers = require('remote.zmq_answers')
 local clients = require('remote.zmq_clients')
 local namespaces = require('remote.namespaces')
@@ -249,6 +250,14 @@ local function receive(peer, bytes)
     handleSafely(peer, request)
 end
 
+-- A connection is gone, and with it what it has sent.
+local function forgetPeer(peer)
+    clients.forgetPeer(peer)
+    for i = #held, 1, -1 do
+        if held[i].peer == peer then table.remove(held, i) end
+    end
+end
+
 -- The next of what has arrived; waits up to `patience` seconds. Tells whether there was anything.
 local function serveOne(patience)
     if held[1] and not asking then
@@ -258,7 +267,7 @@ local function serveOne(patience)
     end
     local peer, bytes = native.receive(patience)
     if not peer then return false end
-    if bytes then receive(peer, bytes) else clients.forgetPeer(peer) end
+    if bytes then receive(peer, bytes) else forgetPeer(peer) end
     return true
 end
 

@@ -13,11 +13,13 @@ local M = {}
 
 local LIFE <const> = 600 -- seconds a silent client is remembered
 local MOST_CLIENTS <const> = 10000
+local MOST_OF_PEER <const> = 16 -- clients by one connection, which may be a proxy
 local MOST_TASKS <const> = 200
 local LONGEST_NAME <const> = 1000
 
 local clients = {} -- in the order they came
 local byUuid = {}
+local ofPeer = {} -- lists of clients by connection
 
 M.all = clients
 
@@ -27,8 +29,22 @@ local function removeFrom(list, item)
     end
 end
 
-local function newClient(request, now)
+-- A connection that names itself anew all the time takes the places of its own names only.
+local function makeRoom(peer)
+    local known = ofPeer[peer]
+    if not known or #known < MOST_OF_PEER then return end
+    local oldest
+    for _, client in ipairs(known) do
+        local isIdle = #client.tasks == 0 and #client.asks == 0 and next(client.peers, next(client.peers)) == nil
+        if isIdle and (not oldest or client.seen < oldest.seen) then oldest = client end
+    end
+    if not oldest then error('too many clients by one connection', 0) end
+    M.forget(oldest)
+end
+
+local function newClient(request, peer)
     if #request.uuid > LONGEST_NAME then error('the uuid is too long', 0) end
+    makeRoom(peer)
     if #clients >= MOST_CLIENTS then error('too many clients', 0) end
     local client = {
         uuid = request.uuid,
@@ -48,8 +64,13 @@ end
 
 --- The client a request comes from.
 function M.of(request, peer, now)
-    local client = byUuid[request.uuid] or newClient(request, now)
-    client.seen, client.peers[peer] = now, true
+    local client = byUuid[request.uuid] or newClient(request, peer)
+    client.seen = now
+    if not client.peers[peer] then
+        client.peers[peer] = true
+        ofPeer[peer] = ofPeer[peer] or {}
+        table.insert(ofPeer[peer], client)
+    end
     return client
 end
 
@@ -58,20 +79,19 @@ function M.isKnown(client) return byUuid[client.uuid] == client end
 function M.forget(client)
     removeFrom(clients, client)
     byUuid[client.uuid] = nil
+    for peer in pairs(client.peers) do removeFrom(ofPeer[peer] or {}, client) end
 end
 
 --- A connection is gone, and with it what came by it.
 function M.forgetPeer(peer)
-    for i = #clients, 1, -1 do
-        local client = clients[i]
-        if client.peers[peer] then
-            client.peers[peer] = nil
-            for j = #client.tasks, 1, -1 do
-                if client.tasks[j].owner == peer then table.remove(client.tasks, j) end
-            end
-            if not next(client.peers) then M.forget(client) end
+    for _, client in ipairs(ofPeer[peer] or {}) do
+        client.peers[peer] = nil
+        for j = #client.tasks, 1, -1 do
+            if client.tasks[j].owner == peer then table.remove(client.tasks, j) end
         end
+        if not next(client.peers) then M.forget(client) end
     end
+    ofPeer[peer] = nil
 end
 
 function M.forgetExpired(now)
