@@ -9,6 +9,7 @@ use crate::format::scene_folder;
 use crate::format::ttt::File;
 use crate::format::xml::{self, Variant};
 use crate::scene::Scene;
+use crate::script::readable_bytes;
 
 /// Unpack a scene or model into a folder: tree as JSON, scripts as Lua files, meshes as OBJ files
 #[derive(clap::Args)]
@@ -37,7 +38,7 @@ pub(super) fn pack(args: &PackArgs) -> ExitCode {
         let (variant, path) = Variant::of_name(args.file.to_str().unwrap_or_default());
         let (path, bytes) = match variant {
             Some(variant) => (Path::new(path), xml::write(&as_saved(file)?, variant).into_bytes()),
-            None => (args.file.as_path(), file.write()),
+            None => (args.file.as_path(), readable_bytes(&file, None).map_err(|error| error.to_string())?),
         };
         write_whole(path, &bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))
     });

@@ -33,6 +33,8 @@ pub enum ApiError {
     MainOrSimulationScriptOnly,
     #[error("too many nested calls between scripts: {0} is the limit. Is a script calling itself without end?")]
     TooDeep(usize),
+    #[error("a table is nested deeper than {0} levels, and cannot be copied.")]
+    TooNested(usize),
     #[error("target does not exist.")]
     NoSuchTarget,
     #[error("property is unknown.")]

@@ -53,6 +53,7 @@ pub(crate) use calls::handler::Handler;
 pub(crate) use calls::handler::HeldFunction;
 pub(crate) use events::Filters;
 pub(crate) use files::app_storage::Section;
+pub(crate) use files::scene_save::readable_bytes;
 pub(crate) use files::scene_switch::SceneSource;
 #[cfg(test)]
 pub(crate) use lifecycle::env::Env;

@@ -7,6 +7,7 @@ use std::rc::Rc;
 
 use super::calls::callback::SysCall;
 use super::coverage::LineCounts;
+use super::error::ApiError;
 use super::lifecycle::env::{Env, Hook};
 use super::sim::Sim;
 use crate::scene::Data;
@@ -188,6 +189,12 @@ impl ScriptError {
 pub(crate) enum CallError {
     NoSuchFunction,
     Script(ScriptError),
+}
+
+impl From<ApiError> for ScriptError {
+    fn from(error: ApiError) -> Self {
+        Self::new(error.to_string())
+    }
 }
 
 impl From<ScriptError> for CallError {

@@ -33,6 +33,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("directories", "src/script/files/app_storage"),
     ("dns_lookup", "src/io/socket"),
     ("fs4", "src/api/files"),
+    ("fs4", "src/format/scene_file/write.rs"),
     ("fs4", "src/script"),
     ("futures", "src/io"),
     ("geometry", "crates/articulation"),

@@ -6,6 +6,7 @@ use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::format::picture::{Layout, Picture, PictureError};
+use crate::format::scene_file::write_whole;
 use crate::script::{Bytes, IntPair};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_image, save_image, get_scaled_image, transform_image];
@@ -88,7 +89,7 @@ fn save_image(
 
 fn write_file(cx: &Cx, name: &str, content: &[u8]) -> Result<()> {
     cx.permissions().check_write(Path::new(name))?;
-    std::fs::write(name, content).map_err(|error| ApiError::Other(format!("cannot write {name}: {error}.")))
+    write_whole(Path::new(name), content).map_err(|error| ApiError::Other(format!("cannot write {name}: {error}.")))
 }
 
 /// An image in another size.

@@ -10,7 +10,7 @@ use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::format::scene_file::{SceneFile, read_file};
 use crate::format::scene_input::SceneInput;
 use crate::scene::{Data, Handle, SceneError, special};
-use crate::script::SceneSource;
+use crate::script::{SceneSource, readable_bytes};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, save_scene, close_scene, load_model, save_model];
 
@@ -65,7 +65,7 @@ fn load_model(cx: &mut Cx, filename_or_buffer: Data, #[default(false)] only_thum
 /// @return result 1, or a buffer with the bytes
 #[api("sim.saveScene")]
 fn save_scene(cx: &mut Cx, #[default(None)] filename: Option<String>) -> Result<Data> {
-    let Some(filename) = filename else { return Ok(Data::Buffer(cx.scene_file()?.write())) };
+    let Some(filename) = filename else { return Ok(Data::Buffer(readable_bytes(&cx.scene_file()?, None)?)) };
     cx.save_scene(&filename)?;
     Ok(Data::Int(1))
 }
@@ -81,7 +81,7 @@ fn save_model(cx: &mut Cx, model_base_handle: Handle, #[default(None)] filename:
         return Err(SceneError::NotAModel.into());
     }
     let file = cx.model_file(model_base_handle)?;
-    let Some(filename) = filename else { return Ok(Data::Buffer(file.write())) };
+    let Some(filename) = filename else { return Ok(Data::Buffer(readable_bytes(&file, None)?)) };
     cx.write_named(&file, &filename)?;
     Ok(Data::Int(1))
 }

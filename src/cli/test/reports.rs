@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::paint::ColorChoice;
 use super::terminal::{Terminal, Wishes};
-use crate::format::scene_file::write_whole;
+use crate::format::scene_file::{is_special, link_target, write_whole};
 use crate::testing::report::{html, json, junit, tap};
 use crate::testing::{Outcome, Reporter, Summary, TestCase};
 
@@ -133,16 +133,6 @@ fn say(text: &str) {
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
 }
 
-/// Pipes and devices are written directly; files are replaced atomically.
-fn is_special(file: &Path) -> bool {
-    fs::metadata(file).is_ok_and(|data| !data.is_file() && !data.is_dir())
-}
-
-/// Where a link leads: the link stays one.
-fn followed(file: &Path) -> PathBuf {
-    fs::canonicalize(file).unwrap_or_else(|_| file.to_owned())
-}
-
 fn check(file: &Path) -> Result<(), String> {
     let failed = |error: std::io::Error| format!("cannot write {}: {error}", file.display());
     if file.is_dir() {
@@ -151,12 +141,11 @@ fn check(file: &Path) -> Result<(), String> {
     if is_special(file) {
         return Ok(());
     }
-    let target = followed(file);
+    let target = link_target(file);
     let folder = target.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     fs::create_dir_all(folder).and_then(|()| tempfile::NamedTempFile::new_in(folder)).map(drop).map_err(failed)
 }
 
 fn write(file: &Path, bytes: &[u8]) -> Result<(), String> {
-    let written = if is_special(file) { fs::write(file, bytes) } else { write_whole(&followed(file), bytes) };
-    written.map_err(|error| format!("cannot write {}: {error}", file.display()))
+    write_whole(file, bytes).map_err(|error| format!("cannot write {}: {error}", file.display()))
 }

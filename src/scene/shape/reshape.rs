@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use geometry::BoundingBox;
+use geometry::LARGEST_COORDINATE;
 use geometry::Mesh;
 use geometry::PrimitiveKind;
 use geometry::mass::compute_mass_and_inertia;
@@ -27,6 +28,18 @@ impl Shape {
         let mut mesh = Mesh::default();
         self.parts.iter().for_each(|part| mesh.append(&part.mesh, &part.pose));
         mesh
+    }
+
+    /// Whether the shape, scaled by `factor`, would still be small enough for a file.
+    ///
+    /// # Errors
+    /// When it would not be.
+    pub fn check_extent(&self, factor: f64) -> SceneResult<()> {
+        let centre = self.bounding_box.pose.translation.vector;
+        let lengths = self.bounding_box.size.iter().chain(centre.as_slice());
+        let places = self.parts.iter().flat_map(|part| part.pose.translation.vector.as_slice());
+        let fits = lengths.chain(places).all(|length| (length * factor).abs() <= LARGEST_COORDINATE);
+        if fits { Ok(()) } else { Err(too_large()) }
     }
 
     /// Whether this is one primitive whose frame cannot be moved within it.
@@ -133,16 +146,27 @@ fn stretch_part(part: &mut Part, box_frame: &Pose, factors: [f64; 3]) {
     }
 }
 
+pub(in crate::scene) fn too_large() -> SceneError {
+    SceneError::Refused(format!(
+        "the object would be larger than {LARGEST_COORDINATE:e} m, which scene files cannot hold."
+    ))
+}
+
 impl Scene {
     /// Changes the geometry of a shape; the physics rebuilds its body.
     ///
     /// # Errors
-    /// When the object is no shape, or `change` refuses.
+    /// When the object is no shape, `change` refuses, or the shape became larger than files can hold. The shape stays as it was then.
     pub fn reshape<R>(&mut self, handle: Handle, change: impl FnOnce(&mut Shape) -> SceneResult<R>) -> SceneResult<R> {
         self.try_modify(handle, Field::Geometry, |object| {
-            let result = change(object.shape_mut()?)?;
-            object.dynamics_reset = true;
-            Ok(result)
+            let shape = object.shape_mut()?;
+            let before = shape.clone();
+            let result = change(shape).and_then(|result| shape.check_extent(1.0).map(|()| result));
+            match &result {
+                Ok(_) => object.dynamics_reset = true,
+                Err(_) => *shape = before,
+            }
+            result
         })
     }
 

@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use geometry::LARGEST_COORDINATE;
 use geometry::Mesh;
 use geometry::PrimitiveKind;
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -10,6 +11,7 @@ use crate::scene::joint::{Control, Joint, JointType};
 use crate::scene::pose::placement::is_place;
 use crate::scene::sensor::View;
 use crate::scene::sensor::volume::Volume;
+use crate::scene::shape::reshape::too_large;
 use crate::scene::shape::{Part, Shape};
 use crate::scene::{Field, Handle, Kind, Object, Pose, Scene, SceneError, SceneResult};
 
@@ -20,11 +22,11 @@ impl Scene {
     /// Scales objects, their masses too, and with `positions` also where they are in their parents' frames.
     ///
     /// # Errors
-    /// When an object does not exist or the factor is too small; nothing is scaled then.
+    /// When an object does not exist, the factor is too small, or an object would become too large; nothing is scaled then.
     pub fn scale_objects(&mut self, handles: &[Handle], factor: f64, positions: bool) -> SceneResult<()> {
         check_factors(&[factor])?;
         for &handle in handles {
-            self.object(handle)?;
+            self.object(handle)?.check_scaling(factor)?;
         }
         for &handle in handles {
             self.modify(handle, Field::Geometry, |object| {
@@ -44,9 +46,10 @@ impl Scene {
     /// use the first factor where several have to be the same.
     ///
     /// # Errors
-    /// When the object does not exist or a factor is too small.
+    /// When the object does not exist, a factor is too small, or the object would become too large.
     pub fn scale_object(&mut self, handle: Handle, factors: [f64; 3]) -> SceneResult<()> {
         check_factors(&factors)?;
+        self.object(handle)?.check_scaling(factors.into_iter().fold(0.0, f64::max))?;
         self.modify(handle, Field::Geometry, |object| match &mut object.kind {
             Kind::Shape(shape) => {
                 let factors = shape.possible_factors(factors);
@@ -63,6 +66,14 @@ fn check_factors(factors: &[f64]) -> SceneResult<()> {
 }
 
 impl Object {
+    /// Whether the object can be scaled, and a file still hold it.
+    fn check_scaling(&self, factor: f64) -> SceneResult<()> {
+        if self.size_factor * factor > LARGEST_COORDINATE {
+            return Err(too_large());
+        }
+        self.shape().map_or(Ok(()), |shape| shape.check_extent(factor))
+    }
+
     /// Scales all lengths, and what follows from them.
     fn scale(&mut self, factor: f64) {
         self.size_factor *= factor;

@@ -194,19 +194,19 @@ scalars! {
     bool, "bool", |args| Ok(args.source.truthy(args.position));
     String, "string", |args| Ok(String::from_utf8_lossy(&Bytes::from_script(args)?.0).into_owned());
     Number, "int", |args| Ok(Number(args.number()? as i64));
-    Bytes, "buffer", |args| match args.source.data(args.position) {
+    Bytes, "buffer", |args| match args.source.data(args.position)? {
         Data::Text(bytes) | Data::Buffer(bytes) => Ok(Bytes(bytes)),
         Data::Int(_) | Data::Float(_) => Ok(Bytes(args.source.text(args.position).unwrap_or_default())),
         _ => Err(args.not_a("string/buffer")),
     };
-    Data, "any", |args| Ok(args.source.data(args.position));
+    Data, "any", |args| args.source.data(args.position);
     Frame, "int", |args| Ok(Frame::from_raw(args.number()? as i64)?);
     Handle, "int", |args| Handle::from_raw(args.number()? as i64).ok_or(crate::scene::SceneError::NoSuchObject.into());
     ObjectRef, "int", |args| ObjectRef::from_raw(args.number()? as i64);
     Handles, "int[]", |args| args.integers().map(Handles);
     Vec<f64>, "float[]", |args| args.numbers();
     Vec<i64>, "int[]", |args| args.integers();
-    Table, "table", |args| match args.source.data(args.position) {
+    Table, "table", |args| match args.source.data(args.position)? {
         data @ (Data::Array(_) | Data::Map(_)) => Ok(Table(data)),
         _ => Err(args.not_a("table")),
     };
@@ -220,7 +220,7 @@ scalars! {
         _ => Err(args.expected("string")),
     };
     LuaNumber, "float", |args| args.number().map(LuaNumber).map_err(|_| args.expected("number"));
-    Rest, "any...", |args| Ok(Rest((args.position..=args.count).map(|at| args.source.data(at)).collect()));
+    Rest, "any...", |args| (args.position..=args.count).map(|at| args.source.data(at)).collect::<Result<_, _>>().map(Rest);
 }
 
 macro_rules! number_arrays {

@@ -3,6 +3,7 @@
 use std::ffi::{CStr, c_int, c_void};
 
 use crate::scene::{Data, Key};
+use crate::script::error::{ApiError, ApiResult};
 use crate::script::lua::{Stack, Type};
 use crate::script::runtime::FunctionRef;
 
@@ -19,11 +20,14 @@ pub(crate) const BUFFER_FIELD_NAME: &CStr = c"swanilda.buffer_field";
 /// Room is made for so many entries before they are seen.
 const MAX_HINT: usize = 1 << 10;
 
-/// How deep a table may be nested; deeper parts become empty tables.
+/// How deep a table may be nested.
 const MAX_DEPTH: usize = 100;
 
 /// Copies the value at `index`. Nothing is shared, metamethods are not called, a table within itself becomes an empty table.
-pub(crate) fn read_data(stack: Stack<'_>, index: c_int) -> Data {
+///
+/// # Errors
+/// When a table is nested deeper than [`MAX_DEPTH`] levels.
+pub(crate) fn read_data(stack: Stack<'_>, index: c_int) -> ApiResult<Data> {
     read(stack, index, &mut Vec::new())
 }
 
@@ -33,8 +37,8 @@ pub(crate) fn read_function(stack: Stack<'_>, index: c_int) -> FunctionRef {
     stack.keep_function()
 }
 
-fn read(stack: Stack<'_>, index: c_int, above: &mut Vec<*const c_void>) -> Data {
-    match stack.kind(index) {
+fn read(stack: Stack<'_>, index: c_int, above: &mut Vec<*const c_void>) -> ApiResult<Data> {
+    Ok(match stack.kind(index) {
         Type::None | Type::Nil => Data::Nil,
         Type::Boolean => Data::Bool(stack.truthy(index)),
         Type::Number => match stack.integer(index) {
@@ -42,12 +46,12 @@ fn read(stack: Stack<'_>, index: c_int, above: &mut Vec<*const c_void>) -> Data 
             None => Data::Float(stack.number(index).unwrap_or_default()),
         },
         Type::String => Data::Text(stack.bytes(index).unwrap_or_default()),
-        Type::Table => read_table(stack, stack.absolute(index), above),
+        Type::Table => return read_table(stack, stack.absolute(index), above),
         Type::Function => Data::Text(opaque("FUNCTION", stack, index)),
         Type::UserData => Data::Text(opaque("USERDATA", stack, index)),
         Type::LightUserData => Data::Text(opaque("LIGHTUSERDATA", stack, index)),
         Type::Thread => Data::Text(opaque("THREAD", stack, index)),
-    }
+    })
 }
 
 /// What cannot leave its state arrives as a text that names it.
@@ -55,13 +59,16 @@ fn opaque(word: &str, stack: Stack<'_>, index: c_int) -> Vec<u8> {
     format!("<{word} {:p}>", stack.pointer(index)).into_bytes()
 }
 
-fn read_table(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) -> Data {
+fn read_table(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) -> ApiResult<Data> {
     if let Some(bytes) = read_buffer(stack, table) {
-        return Data::Buffer(bytes);
+        return Ok(Data::Buffer(bytes));
     }
     let address = stack.pointer(table);
-    if above.len() >= MAX_DEPTH || above.contains(&address) || !stack.reserve(8) {
-        return Data::Array(Vec::new());
+    if above.contains(&address) {
+        return Ok(Data::Array(Vec::new()));
+    }
+    if above.len() >= MAX_DEPTH || !stack.reserve(8) {
+        return Err(ApiError::TooNested(MAX_DEPTH));
     }
     above.push(address);
     let data = read_entries(stack, table, above);
@@ -87,7 +94,7 @@ pub(crate) fn read_buffer(stack: Stack<'_>, table: c_int) -> Option<Vec<u8>> {
     bytes
 }
 
-fn read_entries(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) -> Data {
+fn read_entries(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) -> ApiResult<Data> {
     let len = stack.raw_len(table);
     // A table with holes may claim any length.
     let mut entries = Vec::with_capacity(len.min(MAX_HINT));
@@ -96,13 +103,13 @@ fn read_entries(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) 
     while cursor.advance() {
         let key = read_key(stack, cursor.key());
         array = array && matches!(key, Key::Int(i) if i >= 1 && i as usize <= len);
-        entries.push((key, read(stack, cursor.value(), above)));
+        entries.push((key, read(stack, cursor.value(), above)?));
     }
     if !array || entries.len() != len {
-        return Data::Map(entries);
+        return Ok(Data::Map(entries));
     }
     entries.sort_by_key(|(key, _)| if let Key::Int(i) = key { *i } else { 0 });
-    Data::Array(entries.into_iter().map(|(_, value)| value).collect())
+    Ok(Data::Array(entries.into_iter().map(|(_, value)| value).collect()))
 }
 
 fn read_key(stack: Stack<'_>, index: c_int) -> Key {

@@ -31,7 +31,9 @@ pub trait Source<'a>: Copy {
     fn list_len(self, position: c_int) -> usize;
     fn number_at(self, position: c_int, i: i64) -> Option<f64>;
     fn integer_at(self, position: c_int, i: i64) -> Option<i64>;
-    fn data(self, position: c_int) -> Data;
+    /// # Errors
+    /// When a table is nested too deeply.
+    fn data(self, position: c_int) -> ApiResult<Data>;
     /// # Errors
     /// Where there are no functions.
     fn function(self, position: c_int) -> ApiResult<FunctionRef>;
@@ -82,7 +84,7 @@ impl<'a> Source<'a> for Stack<'a> {
         Stack::integer_at(self, position, i)
     }
 
-    fn data(self, position: c_int) -> Data {
+    fn data(self, position: c_int) -> ApiResult<Data> {
         read_data(self, position)
     }
 
@@ -186,8 +188,8 @@ impl<'a> Source<'a> for Values<'a> {
         self.element(position, i).and_then(integer_of)
     }
 
-    fn data(self, position: c_int) -> Data {
-        self.get(position).cloned().unwrap_or(Data::Nil)
+    fn data(self, position: c_int) -> ApiResult<Data> {
+        Ok(self.get(position).cloned().unwrap_or(Data::Nil))
     }
 
     fn function(self, _: c_int) -> ApiResult<FunctionRef> {

@@ -3,13 +3,13 @@
 use std::path::Path;
 use std::rc::Rc;
 
-use crate::format::scene_file::{LoadedScript, save, write_whole};
+use crate::format::scene_file::{LoadedScript, SceneFile, save, write_whole};
 use crate::format::ttt::File;
 use crate::format::xml::{self, Variant};
 use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Data, Handle, SceneError};
 use crate::script::calls::callback::SysCall;
-use crate::script::error::ApiResult;
+use crate::script::error::{ApiError, ApiResult};
 use crate::script::sim::Sim;
 
 impl Sim {
@@ -52,13 +52,12 @@ impl Sim {
     /// Writes a file in the format of its name: XML where it ends so, in the simple variant with `@simpleXml` behind it.
     ///
     /// # Errors
-    /// When the file may not or cannot be written.
+    /// When the file may not or cannot be written, or could not be loaded again. A file of that name is as it was then.
     pub(crate) fn write_named(&self, file: &File, name: &str) -> ApiResult<()> {
         let (variant, path) = Variant::of_name(name);
         self.options.permissions.check_write(Path::new(path))?;
-        let bytes = variant.map_or_else(|| file.write(), |variant| xml::write(file, variant).into_bytes());
-        write_whole(Path::new(path), &bytes)
-            .map_err(|error| crate::script::ApiError::Other(format!("'{path}' could not be written: {error}.")))
+        write_whole(Path::new(path), &readable_bytes(file, variant)?)
+            .map_err(|error| ApiError::Other(format!("'{path}' could not be written: {error}.")))
     }
 
     fn check_unlocked(&self) -> ApiResult<()> {
@@ -82,5 +81,17 @@ impl Sim {
             })
         });
         saved.collect()
+    }
+}
+
+/// The bytes of a file, binary or XML, once they were read back: what cannot be loaded again must not replace what can.
+///
+/// # Errors
+/// When they cannot be read.
+pub(crate) fn readable_bytes(file: &File, variant: Option<Variant>) -> ApiResult<Vec<u8>> {
+    let bytes = variant.map_or_else(|| file.write(), |variant| xml::write(file, variant).into_bytes());
+    match SceneFile::read(&bytes) {
+        Ok(_) => Ok(bytes),
+        Err(error) => Err(ApiError::Other(format!("not saved, since it could not be loaded again: {error}"))),
     }
 }

@@ -56,17 +56,30 @@ impl Stack<'_> {
     pub(crate) fn protected_call(self, arguments: c_int, results: c_int) -> Result<(), LuaError> {
         let handler = self.top() - arguments;
         assert!(arguments >= 0 && handler > 0, "only what is there can be called");
-        assert!(results <= 0 || api::lua_checkstack(self, results) != 0, "stack overflow");
-        push_function(self, None, message_handler);
+        self.push_message_handler();
         self.insert(handler);
+        let outcome = self.call_above(handler, arguments, results);
+        self.remove(handler);
+        outcome
+    }
+
+    /// Pushes what adds the traceback to errors, for [`call_above`](Self::call_above); returns its index.
+    pub(crate) fn push_message_handler(self) -> c_int {
+        push_function(self, None, message_handler);
+        self.top()
+    }
+
+    /// Like [`protected_call`](Self::protected_call), with a message handler that is on the stack already, anywhere below the function.
+    pub(crate) fn call_above(self, handler: c_int, arguments: c_int, results: c_int) -> Result<(), LuaError> {
+        let function = self.top() - arguments;
+        assert!(arguments >= 0 && 0 < handler && handler < function, "only what is there can be called");
+        assert!(results <= 0 || api::lua_checkstack(self, results) != 0, "stack overflow");
         let budget = self.budget();
         let before = budget.enter(false);
         // SAFETY: the handler, the function and its arguments are on the stack, which has room for the results. Every error is caught.
         let status = unsafe { ffi::lua_pcall(self.raw(), arguments, results, handler) };
         budget.leave(before);
-        let outcome = if status == ffi::LUA_OK { Ok(()) } else { Err(self.pop_error()) };
-        self.remove(handler);
-        outcome
+        if status == ffi::LUA_OK { Ok(()) } else { Err(self.pop_error()) }
     }
 
     fn pop_error(self) -> LuaError {

@@ -105,12 +105,16 @@ impl Interpreter for LuaInterpreter {
 
     fn call_callback(&self, call: SysCall, args: &[Data]) -> Result<CallbackResult, ScriptError> {
         self.on_stack(|stack| {
+            // This is the hot path: what lies below the function stays there until the end.
+            let handler = stack.push_message_handler();
+            stack.push_globals();
             let base = stack.top();
-            if stack.push_global(call.name()) != Type::Function {
+            if stack.raw_get_field(base, call.name()) != Type::Function {
                 return Ok(CallbackResult::NotDefined);
             }
-            stack.protected_call(push_args(stack, args)?, MULTIPLE)?;
-            Ok(CallbackResult::Returned((stack.top() > base).then(|| data::read_data(stack, -1))))
+            stack.call_above(handler, push_args(stack, args)?, MULTIPLE)?;
+            let value = (stack.top() > base).then(|| data::read_data(stack, -1)).transpose()?;
+            Ok(CallbackResult::Returned(value))
         })
     }
 
@@ -232,7 +236,8 @@ fn push_named(stack: Stack<'_>, name: &str) -> Option<i32> {
 /// Calls what is on the stack above `base` and reads its results.
 fn collect(stack: Stack<'_>, base: i32, arguments: i32) -> Result<Vec<Data>, LuaError> {
     stack.protected_call(arguments, MULTIPLE)?;
-    Ok((base + 1..=stack.top()).map(|index| data::read_data(stack, index)).collect())
+    let results = (base + 1..=stack.top()).map(|index| data::read_data(stack, index));
+    results.collect::<Result<_, _>>().map_err(|error| LuaError { text: error.to_string() })
 }
 
 fn load_expression_or_chunk(stack: Stack<'_>, code: &[u8]) -> Result<(), LuaError> {

@@ -62,21 +62,33 @@ pub enum MeshError {
     /// A coordinate is NaN or infinite.
     #[error("invalid data.")]
     NotFinite,
+    /// A coordinate is beyond [`LARGEST_COORDINATE`].
+    #[error("invalid data: a coordinate is beyond {LARGEST_COORDINATE:e}, which scene files cannot hold.")]
+    TooLarge,
+}
+
+/// The largest coordinate of a mesh, metres. Scene files hold 32-bit numbers, which end at 3e38; products of a few coordinates must
+/// fit into 64 bits.
+pub const LARGEST_COORDINATE: f64 = 1e30;
+
+fn check_coordinates(coordinates: &[f64]) -> Result<(), MeshError> {
+    if !coordinates.iter().all(|c| c.is_finite()) {
+        return Err(MeshError::NotFinite);
+    }
+    if coordinates.iter().all(|c| c.abs() <= LARGEST_COORDINATE) { Ok(()) } else { Err(MeshError::TooLarge) }
 }
 
 impl Mesh {
     /// Mesh with flat normals.
     ///
     /// # Errors
-    /// [`MeshError::Empty`], [`MeshError::IndexOutOfRange`] and [`MeshError::NotFinite`].
+    /// [`MeshError::Empty`], [`MeshError::IndexOutOfRange`], [`MeshError::NotFinite`] and [`MeshError::TooLarge`].
     pub fn new(vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         let count = vertices.len();
         if count == 0 || triangles.is_empty() {
             return Err(MeshError::Empty);
         }
-        if !vertices.as_flattened().iter().all(|c| c.is_finite()) {
-            return Err(MeshError::NotFinite);
-        }
+        check_coordinates(vertices.as_flattened())?;
         if let Some(index) = triangles.as_flattened().iter().find(|i| **i as usize >= count) {
             return Err(MeshError::IndexOutOfRange { index: i64::from(*index), vertices: count });
         }
@@ -111,13 +123,11 @@ impl Mesh {
     /// Normals, 9 numbers per triangle.
     ///
     /// # Errors
-    /// [`MeshError::NormalCount`] when there are too few, [`MeshError::NotFinite`].
+    /// [`MeshError::NormalCount`] when there are too few, [`MeshError::NotFinite`], [`MeshError::TooLarge`].
     pub fn set_normals(&mut self, normals: &[f64]) -> Result<(), MeshError> {
         let (found, expected) = (normals.len(), 9 * self.triangles.len());
         let used = normals.get(..expected).ok_or(MeshError::NormalCount { found, expected })?;
-        if !used.iter().all(|c| c.is_finite()) {
-            return Err(MeshError::NotFinite);
-        }
+        check_coordinates(used)?;
         self.normals = used.as_chunks().0.to_vec();
         Ok(())
     }
