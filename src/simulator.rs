@@ -6,8 +6,6 @@ mod journal_tests;
 #[cfg(test)]
 mod language_tests;
 mod run;
-#[cfg(test)]
-mod save_tests;
 
 use std::cell::{Ref, RefMut};
 use std::net::{SocketAddr, TcpListener};

@@ -1,14 +1,13 @@
 //! Saving never replaces a file by one that could not be loaded.
 
 use geometry::Mesh;
-
-use crate::scene::shape::Shape;
-use crate::scene::{Data, Kind};
-use crate::simulator::Simulator;
+use swanilda::scene::shape::Shape;
+use swanilda::scene::{Data, Kind};
+use swanilda::{Options, Simulator};
 
 #[test]
 fn what_could_not_be_loaded_again_replaces_no_file() {
-    let mut sim = Simulator::new(crate::Options::default());
+    let mut sim = Simulator::new(Options::default());
     let corners = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let mut mesh = Mesh::new(corners, vec![[0, 1, 2]]).unwrap();
     mesh.vertices[0][0] = 1e39;
