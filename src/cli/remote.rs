@@ -4,7 +4,7 @@ use std::net::{IpAddr, Ipv4Addr, TcpListener};
 
 use super::interrupt::Interrupt;
 use super::output::Output;
-use super::permissions::PermissionArgs;
+use super::permissions::{HEADING, PermissionArgs};
 use super::setup::Setup;
 use crate::permissions::Permissions;
 use crate::{Options, Simulator};
@@ -50,7 +50,7 @@ pub(super) struct Remote {
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
     /// Allow scripts and clients everything, clients on other machines too
-    #[arg(long = "unsafe", conflicts_with = "PermissionArgs")]
+    #[arg(long = "unsafe", help_heading = HEADING, conflicts_with = "PermissionArgs")]
     allow_unsafe: bool,
     #[command(flatten)]
     permissions: PermissionArgs,

@@ -9,7 +9,10 @@ use imports::{
     code_lines, crate_paths, dependencies, has_word, is_test, module_of, module_path, names_crate, read, relative,
     rooms_used, root, sources, sources_of_crates, without_tests, without_texts,
 };
-use rules::{FUNCTIONS_FOR_SCRIPTS, LAYERS, LUA_NAMES, LUA_ROOMS, OWNERS, ROOMS, Rooms, UNSAFE};
+use rules::{
+    FUNCTIONS_FOR_SCRIPTS, LAYERS, LUA_NAMES, LUA_ROOMS, NO_PERMISSION_NEEDED, OWNERS, ROOMS, Rooms, SYSTEM_CALLS,
+    UNSAFE,
+};
 
 #[test]
 fn imports_point_inwards() {
@@ -113,6 +116,22 @@ fn functions_for_scripts_reach_the_simulator_through_their_context() {
         wrong.extend(code_lines(&text).filter(hold).map(|line| format!("{}: {}", file.display(), line.trim())));
     }
     assert!(wrong.is_empty(), "add a narrow accessor to `Cx` instead:\n{}", wrong.join("\n"));
+}
+
+/// Files, programs and sockets: code that reaches them for a script asks for permission in the same file (docs/PERMISSIONS.md).
+#[test]
+fn who_calls_the_operating_system_asks_for_permission() {
+    let layers = ["api", "modules", "script"];
+    let mut wrong = Vec::new();
+    for file in sources().into_iter().filter(|file| module_of(file).is_some_and(|layer| layers.contains(&&*layer))) {
+        let text = without_tests(&read(&file));
+        let calls = SYSTEM_CALLS.iter().filter(|call| code_lines(&text).any(|line| line.contains(**call)));
+        if !text.contains("ermissions") && !NO_PERMISSION_NEEDED.iter().any(|(name, _)| relative(&file).ends_with(name))
+        {
+            wrong.extend(calls.map(|call| format!("{}: {call}", file.display())));
+        }
+    }
+    assert!(wrong.is_empty(), "ask `cx.permissions()` first:\n{}", wrong.join("\n"));
 }
 
 /// What belongs to one part is a field of that part: `Sim` only puts the parts together.

@@ -210,3 +210,22 @@ pub const FUNCTIONS_FOR_SCRIPTS: &[&str] = &["src/api", "src/modules"];
 
 /// The edges to libraries written in C.
 pub const UNSAFE: &[&str] = &["src/script/lua", "src/io/zmq/libzmq.rs"];
+
+/// What a script may need a permission for, as code writes it.
+pub const SYSTEM_CALLS: &[&str] = &[
+    "std::fs",
+    "File::",
+    "OpenOptions",
+    "Command::",
+    "TcpListener::bind",
+    "TcpStream",
+    "UdpSocket",
+    "SerialPort::open",
+    "Program {",
+    "WsEndpoint::connect",
+    "env::set_current_dir",
+];
+
+/// Files that contain such words and ask nobody, with the reason.
+pub const NO_PERMISSION_NEEDED: &[(&str, &str)] =
+    &[("src/script/coverage/text.rs", "what is read shows in the report for the user only, as line numbers")];

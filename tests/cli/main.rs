@@ -309,7 +309,9 @@ print(open(own), open(outside), open(own .. '.new', 'w'), (pcall(os.execute, 'ex
         let output = scene.run(&[&["--no-start", "--empty", "--loops", "1"], args].concat());
         assert_eq!(stdout(&output).lines().next(), Some(expected), "{args:?}");
     }
-    for wrong in ["--allow-net=host:port", "--allow-net=:1", "--allow-run=ls"] {
+    for wrong in
+        ["--allow-net=host:port", "--allow-net=:1", "--allow-net=", "--allow-read=", "--allow-write=", "--allow-run=ls"]
+    {
         assert_eq!(scene.run(&[wrong]).status.code(), Some(2), "{wrong}");
     }
 }

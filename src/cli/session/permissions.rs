@@ -5,30 +5,32 @@ use std::str::FromStr;
 
 use crate::permissions::{HostRule, Permissions};
 
+/// Where the help text lists them.
+pub(in crate::cli) const HEADING: &str = "Permissions of scripts and remote clients (default: everything)";
+
 /// What scripts and remote clients may do: everything without these options.
 #[derive(Debug, Clone, Default, clap::Args)]
-#[command(next_help_heading = "Permissions of scripts and remote clients (default: everything)")]
 pub(in crate::cli) struct PermissionArgs {
     /// Allow reading the scene's folder, and nothing else but what other options allow
-    #[arg(long)]
+    #[arg(long, help_heading = HEADING)]
     no_unsafe: bool,
     /// Allow nothing, not even reading the scene's folder, but what other options allow
-    #[arg(long, conflicts_with = "no_unsafe")]
+    #[arg(long, help_heading = HEADING, conflicts_with = "no_unsafe")]
     deny_all: bool,
     /// Allow reading files in DIR, or all files; may be repeated. This and the next four options imply --no-unsafe, unless --deny-all is given
-    #[arg(long, value_name = "DIR", num_args = 0..=1, require_equals = true, default_missing_value = "", value_parser = scope::<PathBuf>)]
+    #[arg(long, help_heading = HEADING, value_name = "DIR", num_args = 0..=1, require_equals = true, default_missing_value = EVERYTHING, value_parser = scope::<PathBuf>)]
     allow_read: Vec<Scope<PathBuf>>,
     /// Allow writing files in DIR, or all files; may be repeated
-    #[arg(long, value_name = "DIR", num_args = 0..=1, require_equals = true, default_missing_value = "", value_parser = scope::<PathBuf>)]
+    #[arg(long, help_heading = HEADING, value_name = "DIR", num_args = 0..=1, require_equals = true, default_missing_value = EVERYTHING, value_parser = scope::<PathBuf>)]
     allow_write: Vec<Scope<PathBuf>>,
     /// Allow connecting to and listening at HOST or HOST:PORT, or using the whole network; may be repeated
-    #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, require_equals = true, default_missing_value = "", value_parser = scope::<HostRule>)]
+    #[arg(long, help_heading = HEADING, value_name = "HOST:PORT", num_args = 0..=1, require_equals = true, default_missing_value = EVERYTHING, value_parser = scope::<HostRule>)]
     allow_net: Vec<Scope<HostRule>>,
     /// Allow starting programs
-    #[arg(long)]
+    #[arg(long, help_heading = HEADING)]
     allow_run: bool,
     /// Allow native libraries and bytecode
-    #[arg(long)]
+    #[arg(long, help_heading = HEADING)]
     allow_native: bool,
 }
 
@@ -39,8 +41,15 @@ enum Scope<T> {
     Only(T),
 }
 
-fn scope<T: FromStr>(text: &str) -> Result<Scope<T>, T::Err> {
-    if text.is_empty() { Ok(Scope::Everything) } else { text.parse().map(Scope::Only) }
+/// Stands for an option without a value. No command line can contain it: an empty value, as of a variable that is not set, is an error.
+const EVERYTHING: &str = "\0";
+
+fn scope<T: FromStr<Err: std::fmt::Display>>(text: &str) -> Result<Scope<T>, String> {
+    match text {
+        EVERYTHING => Ok(Scope::Everything),
+        "" => Err("a value is needed after '='".into()),
+        _ => text.parse().map(Scope::Only).map_err(|error: T::Err| error.to_string()),
+    }
 }
 
 impl PermissionArgs {
