@@ -1,9 +1,13 @@
-"""Seeds for the fuzz target scene_file: the scenes of tests/data, as they are and uncompressed.
+"""Seeds for the fuzz targets scene_file and unpacked_scene.
 
-What is changed in compressed data changes all that follows; only uncompressed files let single changes reach the chunks.
+Of scene_file: the scenes of tests/data, as they are and uncompressed. What is changed in compressed data changes all that follows; only
+uncompressed files let single changes reach the chunks.
+
+Of unpacked_scene: the files of a model of tests/data, which is unpacked into fuzz/unpacked.
 """
 
 import pathlib
+import subprocess
 
 HEADER = 1021
 METHOD = 12  # 1: compressed, 0: not
@@ -42,7 +46,7 @@ def uncompressed(file):
     return bytes(head) + inflated(file[HEADER:], size)
 
 
-def main():
+def scene_file():
     corpus = ROOT / "corpus" / "scene_file"
     corpus.mkdir(parents=True, exist_ok=True)
     for path in sorted((ROOT.parent / "tests" / "data").glob("*.tt[tm]")):
@@ -51,4 +55,16 @@ def main():
         (corpus / f"plain_{path.name}").write_bytes(uncompressed(file))
 
 
-main()
+def unpacked_scene():
+    """The first byte of an input says which file it stands for, in the order of their names."""
+    folder, model = ROOT / "unpacked" / "robot", ROOT.parent / "tests" / "data" / "robot.ttm"
+    folder.parent.mkdir(exist_ok=True)
+    subprocess.run(["cargo", "run", "--quiet", "--", "unpack", model, folder], cwd=ROOT.parent, check=True)
+    corpus = ROOT / "corpus" / "unpacked_scene"
+    corpus.mkdir(parents=True, exist_ok=True)
+    for number, path in enumerate(sorted(path for path in folder.rglob("*") if path.is_file())):
+        (corpus / path.name).write_bytes(bytes([number]) + path.read_bytes())
+
+
+scene_file()
+unpacked_scene()

@@ -17,12 +17,17 @@ pub(super) fn text(records: &BTreeMap<PathBuf, Record>) -> String {
 }
 
 fn write_record(text: &mut String, path: &Path, record: &Record) -> std::fmt::Result {
-    writeln!(text, "TN:\nSF:{}", path.display())?;
+    writeln!(text, "TN:\nSF:{}", one_line(path))?;
     write_functions(text, record)?;
     for (line, count) in &record.lines {
         writeln!(text, "DA:{line},{count}")?;
     }
     writeln!(text, "LF:{}\nLH:{}\nend_of_record", record.lines.len(), record.hit())
+}
+
+/// A record is read line by line: whatever would end a line is replaced.
+fn one_line(path: &Path) -> String {
+    path.display().to_string().replace(|c: char| c.is_control(), "_")
 }
 
 fn write_functions(text: &mut String, record: &Record) -> std::fmt::Result {
@@ -61,5 +66,12 @@ mod tests {
         let expected = "TN:\nSF:a/b.lua\nFN:1,f\nFN:7,f@7\nFNDA:1,f\nFNDA:0,f@7\nFNF:2\nFNH:1\n\
             DA:1,1\nDA:2,1\nDA:3,0\nDA:6,1\nDA:8,0\nLF:5\nLH:3\nend_of_record\n";
         assert_eq!(text(&[("a/b.lua".into(), record)].into()), expected);
+    }
+
+    #[test]
+    fn a_file_name_is_one_line() {
+        let record = Record::new(executable(b"x = 1").expect("it compiles"));
+        let text = text(&[("a\nend_of_record\r.lua".into(), record)].into());
+        assert!(text.starts_with("TN:\nSF:a_end_of_record_.lua\nFN"), "{text}");
     }
 }

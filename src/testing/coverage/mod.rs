@@ -32,7 +32,12 @@ pub struct Coverage {
 impl Coverage {
     /// What to report in the file `report` of `counts`; the tests themselves, `tests`, are left out.
     pub(super) fn new(report: &Path, tests: &[PathBuf], counts: LineCounts) -> Self {
-        let mut coverage = Self { cost: cost::of_a_loop(), ..Self::default() };
+        Self { cost: cost::of_a_loop(), ..Self::of(report, tests, counts) }
+    }
+
+    /// The same, without the cost of counting.
+    pub fn of(report: &Path, tests: &[PathBuf], counts: LineCounts) -> Self {
+        let mut coverage = Self::default();
         let mut places = Places::new(report, tests);
         for (text, counts) in counts.texts {
             coverage.add(&mut places, &text, &counts);
@@ -58,7 +63,12 @@ impl Coverage {
         for (path, text) in &self.copies {
             write_file(path, text)?;
         }
-        write_file(report, lcov::text(&self.records).as_bytes())
+        write_file(report, self.lcov().as_bytes())
+    }
+
+    /// The report in LCOV's format.
+    pub fn lcov(&self) -> String {
+        lcov::text(&self.records)
     }
 }
 
