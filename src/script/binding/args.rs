@@ -148,7 +148,20 @@ impl<'a, S: Source<'a>> Args<'a, S> {
 
     /// The numbers of a list. What its length claims is not allocated before it is there.
     fn numbers(&self) -> ApiResult<Vec<f64>> {
-        (1..=self.table_len()? as i64).map(|i| self.element(i)).collect()
+        const PIECE: usize = 512;
+        let count = self.table_len()?;
+        let mut numbers = Vec::new();
+        while numbers.len() < count {
+            let read = numbers.len();
+            numbers.resize(count.min(read + PIECE), 0.0);
+            self.read_numbers(read as i64 + 1, &mut numbers[read..])?;
+        }
+        Ok(numbers)
+    }
+
+    fn read_numbers(&self, first: i64, out: &mut [f64]) -> ApiResult<()> {
+        let all = self.source.numbers_into(self.position, first, out);
+        if all { Ok(()) } else { Err(NO_NUMBER) }
     }
 
     /// The integers of a list; other numbers lose their fraction.
@@ -161,7 +174,7 @@ impl<'a, S: Source<'a>> Args<'a, S> {
     }
 
     fn element(&self, i: i64) -> ApiResult<f64> {
-        self.source.number_at(self.position, i).ok_or(ApiError::NotA { position: -1, expected: "number" })
+        self.source.number_at(self.position, i).ok_or(NO_NUMBER)
     }
 
     fn table_len(&self) -> ApiResult<usize> {
@@ -172,12 +185,12 @@ impl<'a, S: Source<'a>> Args<'a, S> {
         if self.table_len()? < out.len() {
             return Err(ApiError::TableSize);
         }
-        for (i, slot) in out.iter_mut().enumerate() {
-            *slot = self.element(i as i64 + 1)?;
-        }
-        Ok(())
+        self.read_numbers(1, out)
     }
 }
+
+/// An element of a list is no number.
+const NO_NUMBER: ApiError = ApiError::NotA { position: -1, expected: "number" };
 
 macro_rules! scalars {
     ($($ty:ty, $name:literal, |$args:ident| $decode:expr;)*) => { $(

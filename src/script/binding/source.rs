@@ -30,6 +30,8 @@ pub trait Source<'a>: Copy {
     /// Length of a list.
     fn list_len(self, position: c_int) -> usize;
     fn number_at(self, position: c_int, i: i64) -> Option<f64>;
+    /// Reads elements of a list, from number `first` on; false when one of them is no number.
+    fn numbers_into(self, position: c_int, first: i64, out: &mut [f64]) -> bool;
     fn integer_at(self, position: c_int, i: i64) -> Option<i64>;
     /// # Errors
     /// When a table is nested too deeply.
@@ -78,6 +80,10 @@ impl<'a> Source<'a> for Stack<'a> {
 
     fn number_at(self, position: c_int, i: i64) -> Option<f64> {
         Stack::number_at(self, position, i)
+    }
+
+    fn numbers_into(self, position: c_int, first: i64, out: &mut [f64]) -> bool {
+        Stack::numbers_into(self, position, first, out)
     }
 
     fn integer_at(self, position: c_int, i: i64) -> Option<i64> {
@@ -182,6 +188,10 @@ impl<'a> Source<'a> for Values<'a> {
 
     fn number_at(self, position: c_int, i: i64) -> Option<f64> {
         self.element(position, i).and_then(number_of)
+    }
+
+    fn numbers_into(self, position: c_int, first: i64, out: &mut [f64]) -> bool {
+        (first..).zip(out).all(|(i, number)| self.number_at(position, i).map(|found| *number = found).is_some())
     }
 
     fn integer_at(self, position: c_int, i: i64) -> Option<i64> {

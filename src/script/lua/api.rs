@@ -149,6 +149,23 @@ impl<'a> Stack<'a> {
         is_key.then_some(Pair(self))
     }
 
+    /// Reads elements of the list at `index`, from number `first` on; false when one of them is no number.
+    pub(crate) fn numbers_into(self, index: c_int, first: i64, out: &mut [f64]) -> bool {
+        let (table, top) = (self.table(index), lua_gettop(self));
+        let _room = self.room();
+        let mut is_number = 1;
+        for (i, number) in (first..).zip(out) {
+            // There is room: each value is popped before the next is pushed.
+            lua_rawgeti(Room(self), table, i);
+            *number = lua_tonumberx(self, Slot(top + 1), Some(&mut is_number));
+            lua_settop(self, Occupied(top));
+            if is_number == 0 {
+                return false;
+            }
+        }
+        true
+    }
+
     /// Cuts the stack to `top` values.
     pub(crate) fn set_top(self, top: c_int) {
         assert!((0..=lua_gettop(self)).contains(&top), "a stack is only cut, never stretched");
