@@ -11,7 +11,7 @@ mod network;
 mod resolve;
 
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 pub use network::HostRule;
@@ -292,6 +292,18 @@ fn root(folder: &Path) -> PathBuf {
     resolve(folder).unwrap_or_else(|_| folder.to_owned())
 }
 
+/// The path without `..`, where that leads to the same place.
+fn without_dots(path: PathBuf) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::ParentDir => drop(plain.pop()),
+            part => plain.push(part),
+        }
+    }
+    if resolve(&plain).ok() == resolve(&path).ok() { plain } else { path }
+}
+
 fn itself(path: &Path) -> Option<&Path> {
     Some(path)
 }
@@ -320,7 +332,7 @@ impl Access {
         if path.as_os_str().is_empty() || follow(path).is_ok_and(is_allowed) {
             return Ok(());
         }
-        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        let absolute = without_dots(std::path::absolute(path).unwrap_or_else(|_| path.to_owned()));
         // A link in a folder that is allowed: what it leads to is missing.
         let folder = suggested(&absolute).filter(|folder| !resolve(folder).is_ok_and(is_allowed));
         Err(self.denied(path, folder.unwrap_or(&absolute)))

@@ -60,6 +60,8 @@ fn dots_do_not_lead_out() {
         assert!(allowed.check_read(&folder.join(outside)).is_err(), "{outside}");
         assert!(allowed.check_inspect_link(&folder.join(outside)).is_err(), "{outside}");
     }
+    let refusal = text(allowed.check_read(&folder.join("deep/../../x/y")));
+    assert!(refusal.ends_with(&format!("--allow-read={}", above.path().join("x").display())), "{refusal}");
 }
 
 #[cfg(unix)]
