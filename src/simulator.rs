@@ -8,6 +8,7 @@ mod language_tests;
 mod run;
 
 use std::cell::{Ref, RefMut};
+use std::collections::BTreeSet;
 use std::net::{SocketAddr, TcpListener};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -307,6 +308,11 @@ impl Simulator {
         let app = self.sim.app.borrow();
         let text = |value: &Vec<u8>| String::from_utf8_lossy(value).into_owned();
         app.named_params.iter().map(|(name, value)| (name.clone(), text(value))).collect()
+    }
+
+    /// The names of the parameters that scripts have read.
+    pub(crate) fn params_read(&self) -> BTreeSet<String> {
+        self.sim.app.borrow().params_read.borrow().clone()
     }
 
     /// The scene, to read. Do not hold it across other calls.

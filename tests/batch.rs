@@ -127,3 +127,12 @@ fn permissions_of_runs() {
     let rows = table(dir.path(), "results");
     assert!(rows[1].contains("--allow-read="), "{rows:?}");
 }
+
+#[test]
+fn a_swept_parameter_that_no_run_reads_is_named() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let (code, said) = batch(dir.path(), &["--sweep", "kp=1,2", "--sweep", "gain=1,2"]);
+    assert_eq!(code, 0, "{said}");
+    assert!(said.contains("no run has read the parameter gain;"), "{said}");
+    assert!(!said.contains("the parameter kp"), "{said}");
+}

@@ -224,7 +224,7 @@ local function matrixClass(name)
         if rawget(_G, name) == stub then
             quietRequire('matrix')
             addLog(WARNING, "module 'matrix' was implicitly loaded.")
-            addLog(WARNING, '"matrix" module is deprecated. please use simEigen')
+            addLog(WARNING, '"matrix" module is deprecated.')
         end
         return _G[name]
     end

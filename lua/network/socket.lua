@@ -1,7 +1,8 @@
 --[[
 TCP, UDP and names, with the interface of LuaSocket 3.0.
 
-    connect(host, port, ownHost, ownPort, family), connect4, connect6       a connected object
+    connect(host, port, ownHost, ownPort, family)   a connected object
+    connect4, connect6(host, port, ownHost, ownPort)   the same, for IPv4 or IPv6
     bind(host, port, backlog)               a server object
     tcp(), tcp4(), tcp6(), udp(), udp4(), udp6()                            new objects
     select(readers, writers, seconds)       waits for objects: those ready to be read, those ready to be written, 'timeout'

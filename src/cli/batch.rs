@@ -1,6 +1,6 @@
 //! `swanilda batch`: one scene, many runs, a table of results.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -46,10 +46,10 @@ pub(super) struct Args {
     #[arg(long, value_name = "FOLDER", default_value = "results")]
     out: PathBuf,
     /// Stop each run after this much simulated time
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     time: Option<f64>,
     /// Wall-clock time limit per run
-    #[arg(long, value_name = "SECONDS", default_value = "3600", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "3600", value_parser = seconds, allow_negative_numbers = true)]
     timeout: f64,
     /// Memory limit for the Lua code of a run, MiB
     #[arg(long, value_name = "MIB", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
@@ -82,7 +82,9 @@ fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
     let missing = store.missing(&runs);
     let bar = bar(&runs, &missing);
     let mut lost = None;
-    batch::run(&args.config(interrupt), &batch, &missing, &mut |row| {
+    let mut read = BTreeSet::new();
+    batch::run(&args.config(interrupt), &batch, &missing, &mut |row, params_read| {
+        read.extend(params_read.iter().cloned());
         if let Some(error) = &row.error {
             bar.suspend(|| eprintln!("run {} (seed {}): {error}", row.run.number, row.run.seed));
         }
@@ -93,10 +95,22 @@ fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
     if let Some(error) = lost {
         return Err(error.to_string());
     }
+    if !missing.is_empty() && !interrupt.is_requested() {
+        warn_of_unread(&batch, &read);
+    }
     let table = store.finish().map_err(|error| error.to_string())?;
     let (done, failed) = (store.rows().count(), store.failed());
     println!("{done} of {} runs done, {failed} failed: {}", runs.len(), table.display());
     Ok(if interrupt.is_requested() { INTERRUPTED } else { u8::from(failed > 0) * FAILED })
+}
+
+/// Names the swept parameters that no run has read: its rows differ by chance only, or not at all.
+fn warn_of_unread(batch: &Batch, read: &BTreeSet<String>) {
+    for (name, _) in batch.sweeps.iter().filter(|(name, _)| !read.contains(name)) {
+        eprintln!(
+            "swanilda: no run has read the parameter {name}; scripts read it with sim.getNamedStringParam('{name}') or, after batch = require 'swanilda.batch', with batch.param('{name}')"
+        );
+    }
 }
 
 fn bar(runs: &[Run], missing: &[Run]) -> ProgressBar {

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use super::{refuse, say};
 use crate::docs::{self, Support, Use};
-use crate::format::scene_file;
+use crate::format::{scene_file, script_file};
 
 /// Exit code when something a script calls is approximated or missing.
 const NOT_ALL_WORKS: u8 = 1;
@@ -84,12 +84,13 @@ impl Report {
         let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
         let bytes = std::fs::read(path).map_err(|error| unreadable(error.to_string()))?;
         let name = path.display().to_string();
-        if scene_file::is_scene(&bytes) {
+        if scene_file::is_scene(&bytes) && !script_file::describes_robot(path) {
             let file = super::files::scene(path)?;
             for script in file.scripts() {
                 self.add(format!("{name}: {}", script.name), &script.language, &script.code);
             }
         } else {
+            script_file::check(path, &bytes).map_err(|reason| unreadable(reason.to_string()))?;
             let code = if compat { scene_file::with_compat(bytes) } else { bytes };
             self.add(name, "lua", &code);
         }

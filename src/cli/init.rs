@@ -50,12 +50,16 @@ fn write(path: &Path, text: &str) -> std::io::Result<()> {
     fs::write(path, text)
 }
 
-/// Settings of the language server.
+/// Settings of the language server. Scripts define callbacks and keep handles as globals, which is no mistake: the calls between scripts
+/// are to global functions. Modules are globals as long as a script requires none.
 fn settings() -> String {
+    let modules = docs::module_names().into_iter().filter(|name| name.starts_with("sim"));
+    let globals: Vec<String> = std::iter::once("sim".to_owned()).chain(modules).collect();
     let settings = json!({
         "runtime.version": "Lua 5.4",
         "workspace.library": [STUBS],
-        "diagnostics.globals": ["sim"],
+        "diagnostics.globals": globals,
+        "diagnostics.disable": ["lowercase-global"],
     });
     format!("{settings:#}\n")
 }

@@ -1,5 +1,6 @@
 //! The options about programs outside, for `run` and `serve`.
 
+use std::io::{Error, ErrorKind};
 use std::net::{IpAddr, Ipv4Addr, TcpListener};
 
 use super::interrupt::Interrupt;
@@ -47,13 +48,17 @@ pub(super) struct Remote {
     #[arg(long, value_name = "ORIGIN")]
     allow_origin: Vec<String>,
     /// Address to listen on, for remote APIs and servers of scripts. Clients may do what scripts may; a non-local address implies --no-unsafe
-    #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
+    #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST), value_parser = ip_address)]
     bind: IpAddr,
     /// Allow scripts and clients everything, clients on other machines too
     #[arg(long = "unsafe", help_heading = HEADING, conflicts_with = "PermissionArgs")]
     allow_unsafe: bool,
     #[command(flatten)]
     permissions: PermissionArgs,
+}
+
+fn ip_address(text: &str) -> Result<IpAddr, String> {
+    text.parse().map_err(|_| "an IP address is needed, such as 127.0.0.1 or 0.0.0.0".to_owned())
 }
 
 impl Remote {
@@ -103,11 +108,25 @@ impl Remote {
         let Api { first_port, param, .. } = api;
         let given = setup.param(param).map(|text| text.parse().map_err(|_| format!("{param}: no port: {text}")));
         if let Some(port) = port.or(given.transpose()?) {
-            let refused = |error| format!("cannot listen at {address}:{port}: {error}");
-            return TcpListener::bind((address, port)).map_err(refused);
+            return TcpListener::bind((address, port)).map_err(|error| cannot_listen(address, port, &error));
         }
-        let mut listeners = (*first_port..first_port + TRIED_PORTS).map(|port| TcpListener::bind((address, port)));
-        let free = listeners.find_map(Result::ok);
-        free.ok_or_else(|| format!("no port from {first_port} on is free at {address}"))
+        for port in *first_port..first_port + TRIED_PORTS {
+            match TcpListener::bind((address, port)) {
+                Ok(listener) => return Ok(listener),
+                Err(error) if error.kind() == ErrorKind::AddrInUse => {}
+                Err(error) => return Err(cannot_listen(address, port, &error)),
+            }
+        }
+        Err(format!("ports {first_port} to {} are all in use at {address}", first_port + TRIED_PORTS - 1))
     }
+}
+
+fn cannot_listen(address: IpAddr, port: u16, error: &Error) -> String {
+    if error.kind() == ErrorKind::AddrNotAvailable {
+        return format!(
+            "cannot listen at {address}: it is not an address of this machine. --bind 127.0.0.1 serves programs on this machine, --bind \
+             0.0.0.0 those on others too"
+        );
+    }
+    format!("cannot listen at {address}:{port}: {error}")
 }

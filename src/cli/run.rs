@@ -10,7 +10,7 @@ use super::interrupt::Interrupt;
 use super::progress::Progress;
 use super::refuse;
 use super::remote::Remote;
-use super::session::Session;
+use super::session::{Reminder, Session};
 use super::setup::{Setup, seconds};
 use crate::{RunLimits, RunTotals, ScriptKind, Simulator};
 
@@ -28,16 +28,16 @@ pub(super) struct Args {
     #[arg(long = "as", value_name = "KIND", default_value = "customization")]
     kind: Kind,
     /// Stop after N simulation steps
-    #[arg(long, value_name = "N", conflicts_with = "time")]
+    #[arg(long, value_name = "N", conflicts_with = "time", value_parser = count, allow_negative_numbers = true)]
     steps: Option<u64>,
     /// Stop after this much simulated time
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     time: Option<f64>,
     /// Do not start the simulation; scripts may do so
     #[arg(long)]
     no_start: bool,
     /// Loop iterations before exiting with --no-start, or before a paused simulation is stopped
-    #[arg(long, value_name = "L", default_value_t = 20)]
+    #[arg(long, value_name = "L", default_value_t = 20, value_parser = count, allow_negative_numbers = true)]
     loops: u64,
     #[command(flatten)]
     remote: Remote,
@@ -84,7 +84,9 @@ pub(super) fn run(args: &Args) -> ExitCode {
         return refuse(&reason);
     }
     let failed_to_load = sim.errors() > 0;
-    let mut session = Session { interrupt: &interrupt, progress, output: &output };
+    // Remote clients and --no-start end a run their own way.
+    let reminder = Reminder::new(args.has_end() || args.no_start || zmq || args.setup.json);
+    let mut session = Session { interrupt: &interrupt, progress, output: &output, reminder };
     let totals = if args.no_start {
         sim.loop_freely(args.loops, &mut session)
     } else if failed_to_load && !args.has_end() {
@@ -109,6 +111,11 @@ pub(super) fn run(args: &Args) -> ExitCode {
     };
     output.summary(totals, begun.elapsed(), errors, code);
     ExitCode::from(code)
+}
+
+/// A whole number, zero or more.
+fn count(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "a whole number is needed, zero or more".to_owned())
 }
 
 impl Args {

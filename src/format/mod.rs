@@ -6,5 +6,6 @@ pub(crate) mod scene_file;
 pub(crate) mod scene_folder;
 pub(crate) mod scene_input;
 pub(crate) mod scene_outline;
+pub(crate) mod script_file;
 pub mod ttt;
 pub(crate) mod xml;

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::scene_file::{self, SceneFile, ScriptSources};
 use super::scene_folder;
+use super::script_file;
 use super::ttt::{File, FileResult};
 use crate::permissions::Permissions;
 
@@ -60,7 +61,8 @@ fn read_folder(path: &Path, permissions: &Permissions) -> Result<SceneInput, Str
 
 fn read_file(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
     let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
-    if !scene_file::is_scene(&bytes) {
+    if !scene_file::is_scene(&bytes) || script_file::describes_robot(path) {
+        script_file::check(path, &bytes).map_err(|reason| reason.to_string())?;
         return Ok(SceneInput::Script(bytes));
     }
     let file = scene_file::read_file(&bytes, path.parent(), permissions).map_err(|error| error.to_string())?;

@@ -1,7 +1,7 @@
 //! What a test sees of the simulator it runs in, and what it leaves for the one who runs it.
 
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::rc::Rc;
 
@@ -108,6 +108,8 @@ pub struct RunReport {
     pub time: f64,
     /// The named parameters at its end.
     pub params: BTreeMap<String, String>,
+    /// The names of parameters that scripts have read.
+    pub params_read: BTreeSet<String>,
     pub line_counts: LineCounts,
 }
 

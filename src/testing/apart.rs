@@ -38,6 +38,7 @@ pub(super) fn run(options: Options, input: &SceneInput, request: &RunRequest, on
     };
     let mut report = RunReport { steps: totals.steps, time: totals.time, errors: sim.errors(), ..RunReport::default() };
     report.params = sim.named_params().into_iter().collect();
+    report.params_read = sim.params_read();
     report.line_counts = sim.take_line_counts();
     drop(sim);
     report.lines = bench.take_lines();

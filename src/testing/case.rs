@@ -1,6 +1,6 @@
 //! A test, and how it ended.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -90,6 +90,8 @@ pub struct Outcome {
     pub comparisons: Vec<Comparison>,
     /// What a run of a batch came to.
     pub results: BTreeMap<String, String>,
+    /// The names of the parameters that a batch's run has read.
+    pub params_read: BTreeSet<String>,
     /// The lines that ran, where they are counted.
     pub line_counts: LineCounts,
 }
@@ -114,6 +116,7 @@ impl Outcome {
             goldens: Vec::new(),
             comparisons: Vec::new(),
             results: BTreeMap::new(),
+            params_read: BTreeSet::new(),
             line_counts: LineCounts::default(),
         }
     }

@@ -139,7 +139,8 @@ const FORMAT: Rooms = &[
     ("scene_file", &["ttt", "xml"]),
     ("scene_folder", &["scene_file", "ttt"]),
     ("scene_outline", &["scene_file", "ttt"]),
-    ("scene_input", &["scene_file", "scene_folder", "ttt"]),
+    ("script_file", &[]),
+    ("scene_input", &["scene_file", "scene_folder", "script_file", "ttt"]),
 ];
 
 /// `sim` is the simulator that consists of all, `error` and `log` are for all. The host speaks to `runtime`; the languages are behind it.

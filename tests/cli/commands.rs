@@ -18,6 +18,7 @@ fn api_prints_the_reference() {
     assert!(stderr(&near).contains("did you mean sim.getSimulationTime"), "{}", stderr(&near));
     let send = stdout(&run(&["simZMQ.send"]));
     assert!(send.contains("int result = simZMQ.send(string socket, buffer data, int flags)"), "{send}");
+    assert!(stdout(&run(&["simWS.start"])).contains("string serverHandle = simWS.start(int listenPort)"));
     let module = stdout(&run(&["simWS"]));
     assert!(module.starts_with("WebSocket servers and clients.\n\n"), "{module}");
     assert!(module.contains("simWS.connect") && !module.contains("sim.getObject"), "{module}");
@@ -53,6 +54,8 @@ fn init_does_not_overwrite() {
     let settings: Value = serde_json::from_str(&settings).expect("it is JSON");
     let library = settings["workspace.library"][0].as_str().expect("a folder");
     assert!(folder.path().join(library).join("sim.lua").exists());
+    assert!(settings["diagnostics.globals"].as_array().is_some_and(|names| names.contains(&"simZMQ".into())));
+    assert!(settings["diagnostics.disable"].as_array().is_some_and(|names| names.contains(&"lowercase-global".into())));
     assert_eq!(run(&[]), Some(2));
     assert_eq!(run(&["--force"]), Some(0));
 }

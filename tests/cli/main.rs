@@ -4,6 +4,7 @@
 mod commands;
 #[cfg(unix)]
 mod interrupts;
+mod messages;
 
 use std::fs;
 use std::path::PathBuf;
@@ -109,7 +110,11 @@ fn a_pause_nobody_ends_is_ended() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(stderr(&output).matches("nobody resumes it").count(), 1, "{}", stderr(&output));
     let scene = Scene::new("function sysCall_actuation() error('x') end");
-    assert_eq!(scene.run(&["--empty"]).status.code(), Some(1));
+    let output = scene.run(&["--empty"]);
+    assert_eq!(output.status.code(), Some(1));
+    let log = stderr(&output);
+    assert_eq!(log.matches("Simulation ").count(), 2, "the start and, after the error, one line: {log}");
+    assert!(log.contains("Simulation stopped because of the error."), "{log}");
 }
 
 #[test]

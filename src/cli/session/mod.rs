@@ -6,7 +6,7 @@ pub(super) mod permissions;
 pub(super) mod progress;
 pub(super) mod setup;
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use interrupt::Interrupt;
 use output::Output;
@@ -17,11 +17,35 @@ use crate::{Onlooker, Simulator};
 /// Sleep between polls of the wall clock in real-time mode.
 const REAL_TIME_NAP: Duration = Duration::from_millis(1);
 
+/// Wall time after which a run without an end mentions that.
+const LONG: Duration = Duration::from_secs(2);
+
 /// The command line as an observer of the run.
 pub(super) struct Session<'a> {
     pub interrupt: &'a Interrupt,
     pub progress: Progress,
     pub output: &'a Output,
+    pub reminder: Reminder,
+}
+
+/// Says once how to end a run that has no end of its own.
+pub(super) struct Reminder {
+    /// None when nothing is left to say.
+    begun: Option<Instant>,
+}
+
+impl Reminder {
+    /// A run that `has_end` needs none.
+    pub(super) fn new(has_end: bool) -> Self {
+        Self { begun: (!has_end).then(Instant::now) }
+    }
+
+    fn remind(&mut self, output: &Output, time: f64) {
+        if self.begun.is_some_and(|begun| begun.elapsed() > LONG) {
+            self.begun = None;
+            output.note("This run has no end so far: ctrl-c stops it, --time and --steps limit it.", time);
+        }
+    }
 }
 
 impl Onlooker for Session<'_> {
@@ -34,10 +58,11 @@ impl Onlooker for Session<'_> {
             rest(sim);
         }
         self.progress.show(sim);
+        self.reminder.remind(self.output, sim.time());
     }
 
     fn gives_up(&mut self, sim: &Simulator) {
-        self.output.note("The simulation is paused and nobody resumes it: it is stopped.", sim.time());
+        self.output.gives_up(sim.time());
     }
 }
 

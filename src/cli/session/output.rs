@@ -1,13 +1,15 @@
 //! What a run says: prints to stdout, the log to stderr; or everything as JSON lines on stdout.
 
+use std::cell::Cell;
 use std::io::Write;
 use std::net::SocketAddr;
+use std::rc::Rc;
 use std::time::Duration;
 
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
 
-use crate::script::log::verbosity;
+use crate::script::log::{status, verbosity};
 use crate::{Console, LogLine, RunTotals};
 
 /// Output format.
@@ -26,16 +28,61 @@ pub(in crate::cli) struct Output {
     quiet: bool,
     /// Stands on the terminal between lines.
     bar: ProgressBar,
+    /// What has happened since the last error of a script.
+    aftermath: Rc<Cell<Aftermath>>,
+}
+
+/// A script error pauses the simulation, and a run that nobody resumes is then stopped. Of the four lines about that, people read one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Aftermath {
+    /// No error, or the simulation went on after it.
+    None,
+    Error,
+    /// The line about the pause is held back.
+    Paused,
+    /// The paused simulation is being stopped.
+    GivenUp,
 }
 
 impl Output {
     pub(in crate::cli) fn new(format: Format, quiet: bool, bar: ProgressBar) -> Self {
-        Self { format, quiet, bar }
+        Self { format, quiet, bar, aftermath: Rc::new(Cell::new(Aftermath::None)) }
     }
 
     /// A message of the command line itself, under the simulator's name in the log.
     pub(in crate::cli) fn note(&self, text: &str, time: f64) {
         self.write_log(&LogLine { origin: "CoppeliaSim", level: verbosity::SCRIPT_INFOS, text, time, status: true });
+    }
+
+    /// Reports that a simulation nobody resumes is stopped.
+    pub(in crate::cli) fn gives_up(&self, time: f64) {
+        if self.aftermath.get() == Aftermath::Paused {
+            return self.aftermath.set(Aftermath::GivenUp);
+        }
+        self.note("The simulation is paused and nobody resumes it: it is stopped.", time);
+    }
+
+    /// What to show of a line; None if it is left out or held back.
+    fn condensed<'a>(&self, line: &LogLine<'a>) -> Option<LogLine<'a>> {
+        if !line.status {
+            if verbosity::plain(line.level) == verbosity::SCRIPT_ERRORS {
+                self.aftermath.set(Aftermath::Error);
+            }
+            return Some(*line);
+        }
+        let (next, text) = match (self.aftermath.get(), line.text) {
+            (Aftermath::Error, status::PAUSED) => (Aftermath::Paused, None),
+            (Aftermath::GivenUp, status::RESUMED) => (Aftermath::GivenUp, None),
+            (Aftermath::GivenUp, status::STOPPED) => (Aftermath::None, Some(STOPPED_AFTER_ERROR)),
+            (Aftermath::Paused, text) => {
+                // Somebody has resumed it: the pause is told after all.
+                self.write_line(&LogLine { text: status::PAUSED, ..*line });
+                (Aftermath::None, Some(text))
+            }
+            (_, text) => (Aftermath::None, Some(text)),
+        };
+        self.aftermath.set(next);
+        text.map(|text| LogLine { text, ..*line })
     }
 
     /// Reports the address of a server.
@@ -77,16 +124,23 @@ impl Output {
             return;
         }
         match self.format {
-            Format::Text => self.bar.suspend(|| {
-                let _ = writeln!(std::io::stderr().lock(), "{}", line.decorated());
-            }),
+            Format::Text => self.condensed(line).iter().for_each(|line| self.write_line(line)),
             Format::Json => write_json(&json!({
                 "type": "log", "level": verbosity::name(line.level), "origin": line.origin, "text": line.plain_text(),
                 "time": line.time,
             })),
         }
     }
+
+    fn write_line(&self, line: &LogLine<'_>) {
+        self.bar.suspend(|| {
+            let _ = writeln!(std::io::stderr().lock(), "{}", line.decorated());
+        });
+    }
 }
+
+/// Instead of the line about the end, after an error.
+const STOPPED_AFTER_ERROR: &str = "Simulation stopped because of the error.";
 
 impl Console for Output {
     fn print(&mut self, line: &[u8], _: f64) {

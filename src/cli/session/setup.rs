@@ -7,6 +7,7 @@ use super::output::{Format, Output};
 use super::progress::Progress;
 use crate::format::scene_file::{self, SceneFile};
 use crate::format::scene_input::SceneInput;
+use crate::format::script_file;
 use crate::format::ttt::FileError;
 use crate::permissions::Permissions;
 use crate::script::log::verbosity;
@@ -19,7 +20,7 @@ pub(in crate::cli) struct Setup {
     #[arg(long)]
     pub empty: bool,
     /// Length of a simulation step
-    #[arg(long, value_name = "SECONDS", value_parser = step_length)]
+    #[arg(long, value_name = "SECONDS", value_parser = step_length, allow_negative_numbers = true)]
     dt: Option<f64>,
     /// Run in real time
     #[arg(long)]
@@ -28,7 +29,7 @@ pub(in crate::cli) struct Setup {
     #[arg(long)]
     seed: Option<u32>,
     /// Lua instructions per millisecond of a thread's time slice
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     instructions_per_ms: Option<u64>,
     /// Named parameter for scripts (sim.getNamedStringParam); may be repeated
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = named_param)]
@@ -42,8 +43,7 @@ pub(in crate::cli) struct Setup {
     /// Convert Lua files written for V-REP or early CoppeliaSim, as scripts in old scenes are: old names, threads, changed meanings
     #[arg(long)]
     compat: bool,
-    /// Log level: none, errors, warnings, loadinfos, scripterrors, scriptwarnings, scriptinfos, infos,
-    /// debug or trace
+    /// Log level: none, errors, warnings, loadinfos, scripterrors, scriptwarnings, scriptinfos, infos, debug, trace, tracelua or traceall
     #[arg(long, value_name = "LEVEL", value_parser = level)]
     verbosity: Option<i64>,
     /// Print JSON lines (output, log and summary) on standard output
@@ -162,7 +162,9 @@ impl Setup {
 
 fn read(path: impl AsRef<Path>) -> Result<Source, String> {
     let path = path.as_ref();
-    let code = std::fs::read(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+    let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
+    let code = std::fs::read(path).map_err(|error| unreadable(error.to_string()))?;
+    script_file::check(path, &code).map_err(|reason| unreadable(reason.to_string()))?;
     Ok((name_of(path), code))
 }
 
@@ -191,7 +193,7 @@ fn folder_of(file: &Path) -> PathBuf {
 pub(in crate::cli) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds >= 0.0 && seconds.is_finite() => Ok(seconds),
-        _ => Err("a number of seconds is needed".into()),
+        _ => Err("a number of seconds is needed, zero or more".into()),
     }
 }
 
@@ -209,5 +211,6 @@ pub(in crate::cli) fn named_param(text: &str) -> Result<(String, String), String
 
 fn level(text: &str) -> Result<i64, String> {
     let number = || text.parse().ok().filter(|level| (0..=1000).contains(level));
-    verbosity::from_name(text).or_else(number).ok_or_else(|| "unknown level".into())
+    let unknown = || format!("the levels are {}", verbosity::NAMES.map(|(name, _)| name).join(", "));
+    verbosity::from_name(text).or_else(number).ok_or_else(unknown)
 }

@@ -59,10 +59,10 @@ pub(super) struct Args {
     #[arg(long)]
     seed: Option<u32>,
     /// Wall-clock time limit per test
-    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds, allow_negative_numbers = true)]
     timeout: f64,
     /// Simulated time limit per test
-    #[arg(long, value_name = "SECONDS", default_value = "3600", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "3600", value_parser = seconds, allow_negative_numbers = true)]
     sim_timeout: f64,
     /// Memory limit for the Lua code of a test, MiB
     #[arg(long, value_name = "MIB", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..))]

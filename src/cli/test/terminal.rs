@@ -155,10 +155,19 @@ impl Terminal {
             counts.map(|(count, word, colour)| self.paint.paint(colour, &format!("{count} {word}"))).collect();
         let interrupted = if summary.interrupted { "interrupted: " } else { "" };
         if summary.outcomes.is_empty() && !summary.interrupted {
-            return "no tests found\n".into();
+            return no_tests(summary.deselected);
         }
         format!("{interrupted}{} in {:.2} s\n", parts.join(", "), summary.wall.as_secs_f64())
     }
+}
+
+/// What to do when nothing was run.
+fn no_tests(deselected: usize) -> String {
+    if deselected > 0 {
+        return format!("no tests run: --filter and --shard leave out all {deselected}; --list shows names\n");
+    }
+    "no tests found: they are in files named *_test.lua or test_*.lua; `swanilda test --init` writes an example\n"
+        .into()
 }
 
 impl Reporter for Terminal {

@@ -89,5 +89,5 @@ pub(crate) fn deprecation_notice(name: &str, replacement: &str) -> String {
         "" => " and the related functionality will disappear in a future release.".to_owned(),
         _ => format!(". please use {replacement} instead."),
     };
-    format!("{name} is deprecated{advice} (control verbosity via notifyDeprecated in usrset.txt)")
+    format!("{name} is deprecated{advice}")
 }

@@ -2,6 +2,7 @@
 
 pub(in crate::script) mod auxiliary_consoles;
 pub(in crate::script) mod console;
+pub mod status;
 pub mod verbosity;
 
 use std::cell::{Cell, RefCell};

@@ -8,6 +8,22 @@ pub const SCRIPT_WARNINGS: i64 = 430;
 pub const SCRIPT_INFOS: i64 = 450;
 pub const INFOS: i64 = 500;
 
+/// The levels as the command line names them.
+pub const NAMES: [(&str, i64); 12] = [
+    ("none", 100),
+    ("errors", ERRORS),
+    ("warnings", WARNINGS),
+    ("loadinfos", LOAD_INFOS),
+    ("scripterrors", SCRIPT_ERRORS),
+    ("scriptwarnings", SCRIPT_WARNINGS),
+    ("scriptinfos", SCRIPT_INFOS),
+    ("infos", INFOS),
+    ("debug", 600),
+    ("trace", 700),
+    ("tracelua", 800),
+    ("traceall", 900),
+];
+
 /// Bits scripts may add to a level.
 pub const UNDECORATED: i64 = 0x0_f000;
 pub const ONLY_TERMINAL: i64 = 0x1_0000;
@@ -35,20 +51,5 @@ pub fn name(level: i64) -> &'static str {
 
 /// The level with that name, as on the command line.
 pub fn from_name(name: &str) -> Option<i64> {
-    let level = match name {
-        "none" => 100,
-        "errors" => ERRORS,
-        "warnings" => WARNINGS,
-        "loadinfos" => LOAD_INFOS,
-        "scripterrors" => SCRIPT_ERRORS,
-        "scriptwarnings" => SCRIPT_WARNINGS,
-        "scriptinfos" => SCRIPT_INFOS,
-        "infos" => INFOS,
-        "debug" => 600,
-        "trace" => 700,
-        "tracelua" => 800,
-        "traceall" => 900,
-        _ => return None,
-    };
-    Some(level)
+    NAMES.iter().find(|(known, _)| *known == name).map(|(_, level)| *level)
 }

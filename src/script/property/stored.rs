@@ -201,10 +201,10 @@ impl Sim {
     }
 
     pub(super) fn read_param(&self, name: &str, ty: ValueType) -> ApiResult<Data> {
-        match self.app.borrow().named_params.get(name) {
+        match self.app.borrow().read_param(name) {
             None => Err(ApiError::UnknownProperty),
             Some(_) if ty != ValueType::String => Err(ApiError::PropertyType),
-            Some(value) => Ok(Data::Text(value.clone())),
+            Some(value) => Ok(Data::Text(value)),
         }
     }
 

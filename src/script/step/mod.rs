@@ -11,7 +11,7 @@ use std::rc::Rc;
 use super::calls::callback::SysCall;
 use super::lifecycle::instance::state;
 use super::lifecycle::order::Group;
-use super::log::verbosity;
+use super::log::{status, verbosity};
 use super::sim::Sim;
 use crate::scene::Data;
 use crate::scene::object::script_object::ScriptType;
@@ -98,7 +98,7 @@ impl Sim {
         clock.set_state(next);
         if pauses {
             self.notify(SysCall::Suspend);
-            self.log_status("Simulation paused.");
+            self.log_status(status::PAUSED);
         }
     }
 
@@ -152,7 +152,7 @@ impl Sim {
         self.warn_of_unusual_settings();
         self.clock.reset();
         self.restart_real_time();
-        self.log_status("Simulation started.");
+        self.log_status(status::STARTED);
     }
 
     /// Real time continues from now, ignoring the time while stopped or paused.
@@ -172,7 +172,7 @@ impl Sim {
         self.notify(SysCall::Resume);
         self.clock.set_state(SimulationState::FirstAfterPause);
         self.restart_real_time();
-        self.log_status("Simulation resumed.");
+        self.log_status(status::RESUMED);
     }
 
     /// Asks for a pause; refused when not running or when a stop is pending.
@@ -224,7 +224,7 @@ impl Sim {
         self.restart_failed_customization_scripts();
         self.app.borrow_mut().consoles.end_simulation();
         self.run_hooks(|hooks| hooks.end_of_simulation);
-        self.log_status("Simulation stopped.");
+        self.log_status(status::STOPPED);
     }
 
     fn restart_failed_customization_scripts(self: &Rc<Self>) {

@@ -6,7 +6,7 @@
 mod simulate;
 mod store;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -69,11 +69,16 @@ impl Batch {
     }
 }
 
-/// Runs what the store has no row of, as `config` says, and hands over each row.
+/// Runs what the store has no row of, as `config` says, and hands over each row, with the names of the parameters that its run has read.
 ///
 /// # Errors
 /// When the scene cannot be read, in words.
-pub fn run(config: &Config, batch: &Batch, runs: &[Run], done: &mut dyn FnMut(Row)) -> Result<(), String> {
+pub fn run(
+    config: &Config,
+    batch: &Batch,
+    runs: &[Run],
+    done: &mut dyn FnMut(Row, &BTreeSet<String>),
+) -> Result<(), String> {
     let scene = Arc::new(simulate::Scene::read(&batch.scene)?);
     let task = |run: &Run| {
         Task::Simulate(Job {
@@ -88,7 +93,7 @@ pub fn run(config: &Config, batch: &Batch, runs: &[Run], done: &mut dyn FnMut(Ro
         if let Message::Finished(outcome) = message
             && let Some(run) = by_number.get(&outcome.test.index)
         {
-            done(row(run, &outcome));
+            done(row(run, &outcome), &outcome.params_read);
         }
         true
     });

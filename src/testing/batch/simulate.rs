@@ -84,6 +84,7 @@ impl Job {
 
 fn conclude(outcome: &mut Outcome, report: RunReport) {
     (outcome.steps, outcome.time, outcome.console) = (report.steps, report.time, report.lines);
+    outcome.params_read = report.params_read;
     let results = report.params.into_iter();
     outcome.results =
         results.filter_map(|(name, value)| Some((name.strip_prefix(RESULT)?.to_owned(), value))).collect();

@@ -1,6 +1,7 @@
 //! Properties of the application.
 
-use std::collections::BTreeMap;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use geometry::pose::quaternion_to_array;
@@ -26,6 +27,8 @@ pub(crate) struct AppData {
     pub signals: CustomData,
     /// Parameters of the command line, and what scripts added.
     pub named_params: BTreeMap<String, Vec<u8>>,
+    /// The names of parameters that scripts have read.
+    pub params_read: RefCell<BTreeSet<String>>,
     /// Persistent data that is not meant for the file; None hides what the file has.
     pub persistent_data: BTreeMap<String, Option<Vec<u8>>>,
     /// Values that have no effect here, as scripts set them.
@@ -50,6 +53,16 @@ pub(crate) struct IdleParams {
 }
 
 impl AppData {
+    /// The value of a named parameter for a script.
+    pub(crate) fn read_param(&self, name: &str) -> Option<Vec<u8>> {
+        let value = self.named_params.get(name)?;
+        let mut read = self.params_read.borrow_mut();
+        if !read.contains(name) {
+            read.insert(name.to_owned());
+        }
+        Some(value.clone())
+    }
+
     pub(crate) fn new(options: &Options) -> Self {
         let params = options.named_params.iter();
         let named_params = params.map(|(name, value)| (name.clone(), value.as_bytes().to_vec())).collect();

@@ -1,0 +1,88 @@
+//! Messages about wrong files and options say what to do.
+
+use std::fs;
+use std::process::Output;
+
+use super::{Scene, stderr, stdout, swanilda};
+
+/// What `swanilda COMMAND FILE` says about a file with that name and content.
+fn said_about(command: &str, name: &str, content: &[u8]) -> String {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let path = folder.path().join(name);
+    fs::write(&path, content).expect("our own folder is writable");
+    let output = swanilda().arg(command).arg(&path).output().expect("the command starts");
+    assert_eq!(output.status.code(), Some(2), "{name}: {}", stdout(&output));
+    stderr(&output)
+}
+
+#[test]
+fn files_of_other_kinds_are_not_run_as_lua() {
+    let noise: Vec<u8> = (0..3000u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
+    for (name, content, reason) in [
+        ("r.ttt", &noise[..], "not a scene or model of CoppeliaSim"),
+        ("r", &noise, "neither a Lua script nor a scene"),
+        ("empty.ttt", b"", "the file is empty"),
+        ("empty.urdf", b"", "the file is empty"),
+        ("empty.py", b"", "the file is empty"),
+        ("robot.py", b"print(1)", "docs/REMOTE_API.md"),
+        ("robot.urdf", b"<?xml version='1.0'?><robot name='a'/>", "URDF cannot be imported yet"),
+    ] {
+        let said = said_about("run", name, content);
+        assert!(said.contains(reason) && said.contains(name), "{name}: {said}");
+    }
+    assert!(said_about("doctor", "robot.py", b"print(1)").contains("Python"));
+}
+
+fn run(args: &[&str]) -> Output {
+    Scene::new("").run(args)
+}
+
+#[test]
+fn options_say_what_they_need() {
+    for (args, needed) in [
+        (&["--time", "-1"][..], "a number of seconds is needed, zero or more"),
+        (&["--steps", "-1"], "a whole number is needed"),
+        (&["--verbosity", "loud"], "the levels are none, errors, warnings"),
+        (&["--bind", "1.2.3"], "an IP address is needed"),
+        (&["--remote-api", "--bind", "192.0.2.1", "--unsafe"], "it is not an address of this machine"),
+    ] {
+        let output = run(args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        assert!(stderr(&output).contains(needed), "{args:?}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn a_folder_without_tests_says_how_to_begin() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let test = |args: &[&str]| {
+        let output = swanilda().arg("test").args(args).current_dir(folder.path()).output().expect("the command starts");
+        assert_eq!(output.status.code(), Some(5));
+        stdout(&output)
+    };
+    assert!(test(&[]).contains("--init"));
+    fs::write(folder.path().join("a_test.lua"), "it('passes', function() end)").expect("our own folder is writable");
+    let filtered = test(&["--filter", "nothing is named so"]);
+    assert!(filtered.contains("leave out all 1"), "{filtered}");
+}
+
+#[test]
+fn our_own_scenes_need_nothing_that_is_missing() {
+    let output = swanilda().args(["doctor", "scenes"]).output().expect("the command starts");
+    assert_eq!(output.status.code(), Some(0), "{}", stdout(&output));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_run_without_an_end_says_so_once() {
+    use std::process::{Command, Stdio};
+    let scene = Scene::new("");
+    let mut child = swanilda();
+    let child = child.arg("run").arg(scene.path()).args(["--realtime", "--empty"]).stderr(Stdio::piped());
+    let child = child.spawn().expect("the command starts");
+    std::thread::sleep(std::time::Duration::from_secs(5));
+    let signal = ["-INT", &child.id().to_string()].map(str::to_owned);
+    Command::new("kill").args(signal).status().expect("kill exists");
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(stderr(&output).matches("This run has no end so far").count(), 1, "{}", stderr(&output));
+}
