@@ -25,6 +25,18 @@ fn reference_is_current() {
     assert!(left_over.is_empty(), "no longer generated: {left_over:?}");
 }
 
+/// The table on the first screen is that of the sources.
+#[test]
+fn readme_is_current() {
+    let path = root().join("README.md");
+    let readme = fs::read_to_string(&path).expect("README exists");
+    let current = docs::with_overview(&readme).expect("README has the marks of the overview");
+    if std::env::var_os("UPDATE").is_some() {
+        return fs::write(path, current).expect("the repository is writable");
+    }
+    assert!(readme == current, "README.md is stale: run UPDATE=1 cargo test --test generated");
+}
+
 #[test]
 fn every_function_says_what_it_does() {
     let silent: Vec<String> =

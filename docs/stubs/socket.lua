@@ -4,7 +4,8 @@
 
 --- TCP, UDP and names, with the interface of LuaSocket 3.0.
 ---
----     connect(host, port, ownHost, ownPort, family), connect4, connect6       a connected object
+---     connect(host, port, ownHost, ownPort, family)   a connected object
+---     connect4, connect6(host, port, ownHost, ownPort)   the same, for IPv4 or IPv6
 ---     bind(host, port, backlog)               a server object
 ---     tcp(), tcp4(), tcp6(), udp(), udp4(), udp6()                            new objects
 ---     select(readers, writers, seconds)       waits for objects: those ready to be read, those ready to be written, 'timeout'
@@ -29,8 +30,13 @@ function socket.bind(host, port, backlog) end
 --- A function that picks an entry of a table by the name it gets first.
 function socket.choose(makers) end
 
+--- a connected object
+function socket.connect(host, port, ownHost, ownPort, family) end
+
+--- the same, for IPv4 or IPv6
 function socket.connect4(host, port, ownHost, ownPort) end
 
+--- the same, for IPv4 or IPv6
 function socket.connect6(host, port, ownHost, ownPort) end
 
 function socket.gettime() end

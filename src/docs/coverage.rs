@@ -22,7 +22,7 @@ pub(super) fn text(functions: &[Function]) -> String {
     out.push_str(&tiers(&counted, &built));
     out.push_str("\n| function | category | status |\n|---|---|---|\n");
     for row in &rows {
-        let status = status(row.name, &built);
+        let status = status(row.name, &built).word();
         let note = match row.age {
             Age::Current => "",
             Age::Deprecated => ", deprecated",
@@ -34,11 +34,30 @@ pub(super) fn text(functions: &[Function]) -> String {
     out
 }
 
-fn status(name: &str, built: &HashSet<&str>) -> &'static str {
+/// What is here of a function of the reference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Status {
+    Works,
+    Approximated,
+    Missing,
+}
+
+impl Status {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Works => "works",
+            Self::Approximated => "approximated",
+            Self::Missing => "missing",
+        }
+    }
+}
+
+/// What becomes of a function, of which `built` are those that exist.
+pub(super) fn status(name: &str, built: &HashSet<&str>) -> Status {
     match (built.contains(name), difference(&format!("sim.{name}"))) {
-        (false, _) => "missing",
-        (true, None) => "works",
-        (true, Some(_)) => "approximated",
+        (false, _) => Status::Missing,
+        (true, None) => Status::Works,
+        (true, Some(_)) => Status::Approximated,
     }
 }
 
@@ -53,8 +72,14 @@ fn tiers(rows: &[&ReferenceRow], built: &HashSet<&str>) -> String {
     let tier_of: BTreeMap<&str, &str> = pairs(api::TIERS).collect();
     let mut out = String::from("| tier | what it is | works | approximated | of |\n|---|---|---|---|---|\n");
     let mut line = |tier: &str, meaning: &str, of: &[&&ReferenceRow]| {
-        let count = |wanted: &str| of.iter().filter(|row| status(row.name, built) == wanted).count();
-        let _ = writeln!(out, "| {tier} | {meaning} | {} | {} | {} |", count("works"), count("approximated"), of.len());
+        let count = |wanted: Status| of.iter().filter(|row| status(row.name, built) == wanted).count();
+        let _ = writeln!(
+            out,
+            "| {tier} | {meaning} | {} | {} | {} |",
+            count(Status::Works),
+            count(Status::Approximated),
+            of.len()
+        );
     };
     for (tier, meaning) in MEANING {
         let of: Vec<_> = rows.iter().filter(|row| tier_of.get(row.name) == Some(&tier)).collect();

@@ -4,12 +4,15 @@
 //! `tests/generated.rs` holds the committed files to what this module makes.
 
 mod approximated;
+mod callbacks;
 mod coverage;
 mod lua_comments;
 mod lua_tokens;
 mod markdown;
 mod module_stubs;
 mod modules;
+mod overview;
+mod plugins;
 mod properties;
 mod row;
 mod stubs;
@@ -23,6 +26,7 @@ use crate::script::{Member, pairs};
 
 pub use approximated::difference;
 pub use markdown::function_text;
+pub use overview::with_overview;
 pub use row::{Function, Parameter, Returned};
 pub use usage::{Support, Use, foreign_script, uses};
 
@@ -91,13 +95,16 @@ pub fn files() -> Vec<(String, String)> {
     files.extend(stubs().into_iter().map(|(path, text)| (format!("{STUBS}/{path}"), text)));
     files.push(("docs/COVERAGE.md".to_owned(), coverage::text(&functions)));
     files.push(("docs/PROPERTIES.md".to_owned(), properties::text()));
+    files.push(("docs/CALLBACKS.md".to_owned(), callbacks::text()));
+    files.push(("docs/PLUGINS.md".to_owned(), plugins::text()));
     files
 }
 
 /// The editor stubs: path below their folder and text.
 pub fn stubs() -> Vec<(String, String)> {
     let sim = ("sim.lua".to_owned(), stubs::text(&functions()));
-    std::iter::once(sim).chain(module_stubs::files()).collect()
+    let callbacks = ("callbacks.lua".to_owned(), callbacks::stub());
+    [sim, callbacks].into_iter().chain(module_stubs::files()).collect()
 }
 
 /// Signature of a function of CoppeliaSim's reference, empty when unknown; None when there is no such function.

@@ -10,7 +10,7 @@ use super::approximated::difference;
 use super::lua_tokens::{Kind, Token, tokens};
 use super::{module_stubs, modules};
 use crate::format::scene_file::old_names;
-use crate::script::Member;
+use crate::script::{Member, ReferenceModule};
 
 /// What becomes of a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -191,7 +191,7 @@ struct Catalogue {
 
 static CATALOGUE: LazyLock<Catalogue> = LazyLock::new(|| Catalogue {
     modules: modules::names().map(|name| (name.clone(), module_stubs::names(&name))).collect(),
-    reference_modules: include_str!("reference_modules.txt").lines().collect(),
+    reference_modules: ReferenceModule::all().map(|module| module.name).collect(),
 });
 
 #[cfg(test)]

@@ -65,6 +65,7 @@ pub(crate) use log::auxiliary_consoles::AuxiliaryConsole;
 pub(crate) use lua::{Object, Stack, Type as LuaType};
 pub(crate) use lua_runtime::LuaLanguage;
 pub(crate) use lua_runtime::embedded::FILES;
+pub(crate) use lua_runtime::reference_modules::ReferenceModule;
 pub(crate) use lua_runtime::user_modules::UserModule;
 pub(crate) use property::{Target, table as property_table};
 pub(crate) use runtime::Languages;

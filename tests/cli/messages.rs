@@ -86,3 +86,27 @@ fn a_run_without_an_end_says_so_once() {
     let output = child.wait_with_output().expect("it ends");
     assert_eq!(stderr(&output).matches("This run has no end so far").count(), 1, "{}", stderr(&output));
 }
+
+#[test]
+fn a_missing_plugin_is_named_in_one_line() {
+    let said = "simIK is a plugin of CoppeliaSim that Swanilda does not have yet (docs/PLUGINS.md)";
+    for code in [
+        "print(select(2, pcall(require, 'simIK')))",
+        "print(select(2, pcall(function() simIK.createEnvironment() end)))",
+    ] {
+        let output = Scene::new(code).run(&["--steps", "1", "--empty", "--quiet"]);
+        assert_eq!(stdout(&output), format!("{said}\n"), "{code}: {}", stderr(&output));
+    }
+    let library =
+        Scene::new("print(select(2, pcall(require, 'configUi')))").run(&["--steps", "1", "--empty", "--quiet"]);
+    assert!(stdout(&library).starts_with("configUi is a Lua module of CoppeliaSim"), "{}", stdout(&library));
+    let unknown = Scene::new("require 'nobody.has.this'").run(&["--steps", "1", "--empty"]);
+    assert!(stderr(&unknown).contains("no file"), "other names list the places: {}", stderr(&unknown));
+}
+
+#[test]
+fn a_scene_s_own_module_goes_before_a_missing_plugin() {
+    let scene = Scene::new("print(require('simIK').mine)");
+    fs::write(scene.folder.path().join("simIK.lua"), "return {mine = 7}").expect("our own folder is writable");
+    assert_eq!(stdout(&scene.run(&["--steps", "1", "--empty", "--quiet"])), "7\n");
+}

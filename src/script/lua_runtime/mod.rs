@@ -3,6 +3,7 @@
 pub(in crate::script) mod coverage;
 pub(in crate::script) mod embedded;
 mod old_calls;
+pub(in crate::script) mod reference_modules;
 mod shared_process;
 mod startup;
 pub(in crate::script) mod threads;

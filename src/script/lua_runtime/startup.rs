@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use mlua::{Function, Lua, Table};
 
+use super::reference_modules::ReferenceModule;
 use super::user_modules::UserModule;
 use super::{coverage, shared_process, threads, user_modules};
 use crate::script::binding::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE};
@@ -124,10 +125,16 @@ fn search_embedded(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     find_module(stack, &name)
 }
 
-/// Finds the others.
+/// Finds the others. A module of CoppeliaSim that nobody has found is missing here: the error says so, without the places that were searched.
 fn search_last(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let name = String::from_utf8_lossy(&stack.text(1).unwrap_or_default()).into_owned();
-    if LAST.contains(&&*name) { find_module(stack, &name) } else { Ok(0) }
+    if LAST.contains(&&*name) {
+        return find_module(stack, &name);
+    }
+    match ReferenceModule::all().find(|module| module.name == name) {
+        Some(module) => Err(module.missing()),
+        None => Ok(0),
+    }
 }
 
 /// Pushes the loader of a module, and the native functions for its file; or why there is none.

@@ -1,0 +1,46 @@
+//! The modules that `require` finds in CoppeliaSim, whether they are here or not.
+
+/// One line for each: name, kind, what it is for, what to use instead.
+const TABLE: &str = include_str!("reference_modules.tsv");
+
+/// A plugin or Lua module of CoppeliaSim.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ReferenceModule {
+    pub name: &'static str,
+    /// `plugin`, `library` or `third-party library`.
+    pub kind: &'static str,
+    pub purpose: &'static str,
+    /// What to use where it is missing; empty when there is nothing.
+    pub instead: &'static str,
+}
+
+impl ReferenceModule {
+    pub(crate) fn all() -> impl Iterator<Item = Self> {
+        TABLE.lines().map(|line| {
+            let mut columns = line.split('\t');
+            let mut next = || columns.next().unwrap_or_default();
+            Self { name: next(), kind: next(), purpose: next(), instead: next() }
+        })
+    }
+
+    /// The sentence for a script that asks for a module which is missing here.
+    pub(crate) fn missing(self) -> String {
+        let what = if self.kind == "plugin" { "plugin" } else { "Lua module" };
+        format!("{} is a {what} of CoppeliaSim that Swanilda does not have yet (docs/PLUGINS.md)", self.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ReferenceModule;
+
+    #[test]
+    fn every_line_is_complete() {
+        let all: Vec<_> = ReferenceModule::all().collect();
+        assert!(all.iter().any(|module| module.name == "simIK"));
+        for module in all {
+            assert!(["plugin", "library", "third-party library"].contains(&module.kind), "{}", module.name);
+            assert!(!module.purpose.is_empty(), "{}", module.name);
+        }
+    }
+}
