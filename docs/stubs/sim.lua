@@ -7,7 +7,7 @@ sim = {}
 
 --- Writes a line to the log in the name of this script.
 ---@param verbosityLevel integer sim.verbosity_*
----@param logMessage string the line; nil clears a graphical log and does nothing here
+---@param logMessage? string the line; nil clears a graphical log and does nothing here
 function addLog(verbosityLevel, logMessage) end
 
 --- Small services of the host: `headless`, `useBuffers`. Other commands return nothing.
@@ -120,7 +120,7 @@ function sim.addItemToCollection(collectionHandle, what, objectHandle, options) 
 
 --- Writes a line to the log in the name of this script.
 ---@param verbosityLevel integer sim.verbosity_*
----@param logMessage string the line; nil clears a graphical log and does nothing here
+---@param logMessage? string the line; nil clears a graphical log and does nothing here
 function sim.addLog(verbosityLevel, logMessage) end
 
 --- Adds to a collection, or subtracts from it: `sim.addItemToCollection` with other parameters.
@@ -1576,7 +1576,7 @@ function sim.getShapeBB(shapeHandle) end
 
 --- A colour of a shape.
 ---@param shapeHandle integer the shape
----@param colorName string nil: the first mesh, a text: the first mesh whose colour is called so, '@compound': of each mesh
+---@param colorName? string nil: the first mesh, a text: the first mesh whose colour is called so, '@compound': of each mesh
 ---@param colorComponent integer sim.colorcomponent_*
 ---@return integer result 1, or 0 when no mesh is called so
 ---@return number[] rgbData red, green, blue; one number for transparency, 1 for opaque
@@ -3224,7 +3224,7 @@ function sim.setShapeBB(shapeHandle, size) end
 
 --- Colours a shape.
 ---@param shapeHandle any the shape; scripts from before 3.1.4 put '@backCompatibility1:' before it
----@param colorName string nil: every mesh, a text: meshes whose colour is called so, '@compound': each mesh its own
+---@param colorName? string nil: every mesh, a text: meshes whose colour is called so, '@compound': each mesh its own
 ---@param colorComponent integer sim.colorcomponent_*
 ---@param rgbData number[] red, green, blue; one number for transparency, 1 for opaque
 ---@return integer result 1

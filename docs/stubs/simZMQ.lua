@@ -44,9 +44,9 @@ function simZMQ.connect_peer(socket, addr) end
 
 --- An option of a context.
 ---@param context string the context
----@param optionName integer one of simZMQ's constants
+---@param option_name integer one of simZMQ's constants
 ---@return integer result the value, or -1
-function simZMQ.ctx_get(context, optionName) end
+function simZMQ.ctx_get(context, option_name) end
 
 --- Without effect: drafts of libzmq are not built.
 ---@param context string
@@ -61,10 +61,10 @@ function simZMQ.ctx_new() end
 
 --- Sets an option of a context.
 ---@param context string the context
----@param optionName integer one of simZMQ's constants
----@param optionValue integer its value
+---@param option_name integer one of simZMQ's constants
+---@param option_value integer its value
 ---@return integer result 0 or -1
-function simZMQ.ctx_set(context, optionName, optionValue) end
+function simZMQ.ctx_set(context, option_name, option_value) end
 
 --- Without effect: drafts of libzmq are not built.
 ---@param context string
@@ -73,12 +73,12 @@ function simZMQ.ctx_set(context, optionName, optionValue) end
 ---@return integer result
 function simZMQ.ctx_set_ext(context, option_name, option_value) end
 
---- Makes all sockets of a context answer that it is over.
+--- Makes every further call on the sockets of a context fail with ETERM.
 ---@param context string the context
 ---@return integer result 0 or -1
 function simZMQ.ctx_shutdown(context) end
 
---- The context all scripts share.
+--- The context that all scripts share.
 ---@return string context
 function simZMQ.ctx_singleton() end
 
@@ -99,11 +99,11 @@ function simZMQ.errnum() end
 
 --- An option of a socket.
 ---@param socket string the socket
----@param optionName integer one of simZMQ's constants
----@param optionLen integer most bytes
+---@param option_name integer one of simZMQ's constants
+---@param option_len integer most bytes
 ---@return integer result 0 or -1
 ---@return string value its bytes
-function simZMQ.getsockopt(socket, optionName, optionLen) end
+function simZMQ.getsockopt(socket, option_name, option_len) end
 
 --- The value of a socket option that is an integer.
 ---@param socket string
@@ -238,9 +238,9 @@ function simZMQ.msg_set_routing_id(msg, routing_id) end
 function simZMQ.msg_size(msg) end
 
 --- Waits until a socket is ready; an error when the program is about to end.
----@param sockets table the sockets
+---@param sockets string[] the sockets
 ---@param events integer[] what each is waited for
----@param timeout integer milliseconds, -1 without limit
+---@param timeout? integer milliseconds, -1 without limit
 ---@return integer result how many are ready, or -1
 ---@return integer[] revents what each is ready for
 function simZMQ.poll(sockets, events, timeout) end
@@ -263,10 +263,10 @@ function simZMQ.proxy_steerable(frontend, backend, capture, control) end
 --- Receives a part of a message without waiting.
 ---@param socket string the socket
 ---@param flags integer none has an effect
----@param maxBufSize integer most bytes to return
+---@param max_buf_size? integer most bytes to return
 ---@return integer result length of the message, or -1
 ---@return any data its bytes, nil on failure
-function simZMQ.recv(socket, flags, maxBufSize) end
+function simZMQ.recv(socket, flags, max_buf_size) end
 
 --- Sends a part of a message, or all of it, without waiting.
 ---@param socket string the socket
@@ -277,20 +277,20 @@ function simZMQ.send(socket, data, flags) end
 
 --- Sets an option of a socket.
 ---@param socket string the socket
----@param optionName integer one of simZMQ's constants
----@param optionValue string|table its bytes
+---@param option_name integer one of simZMQ's constants
+---@param option_value string|table its bytes
 ---@return integer result 0 or -1
-function simZMQ.setsockopt(socket, optionName, optionValue) end
+function simZMQ.setsockopt(socket, option_name, option_value) end
 
 --- Makes a socket.
 ---@param context string the context
----@param kind integer
+---@param type integer one of simZMQ's constants
 ---@return string socket
-function simZMQ.socket(context, kind) end
+function simZMQ.socket(context, type) end
 
 --- Reports connection events of a socket.
 ---@param socket string the socket
----@param endpoint string inproc address of the teller
+---@param endpoint string the inproc address that reports them
 ---@param events integer which
 ---@return integer result 0 or -1
 function simZMQ.socket_monitor(socket, endpoint, events) end

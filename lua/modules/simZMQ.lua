@@ -58,10 +58,11 @@ end
 function accept.strings(value) return acceptList(value, accept.string) end
 function accept.ints(value) return acceptList(value, accept.int) end
 
--- 'socket:string flags:int max_buf_size:int?' as a list.
-local function parse(signature)
+-- 'string socket, int flags, int max_buf_size?' as a list.
+local function parse(text)
     local parameters, required = {}, 0
-    for name, kind, optional in signature:gmatch '(%S+):(%a+)(%??)' do
+    for kind, name, optional in text:gmatch '(%a+%[?%]?) ([%w_]+)(%??)' do
+        kind = kind:gsub('%[%]', 's')
         parameters[#parameters + 1] = {name = name, kind = kind, accept = accept[kind], optional = optional ~= ''}
         if optional == '' then required = #parameters end
     end
@@ -75,9 +76,11 @@ local function accepted(name, i, parameter, value)
     error(('in simZMQ.%s: read in arg %d (%s): expected %s'):format(name, i, parameter.name, parameter.kind), 4)
 end
 
--- A function that returns its arguments as the signature wants them. It blames who called its caller.
-local function checker(name, signature)
-    local parameters, required = parse(signature)
+-- By name: a function that returns its arguments as the parameters require them. It blames who called its caller.
+local checks = {}
+
+local function checker(name, text)
+    local parameters, required = parse(text)
     local first, second, third, fourth = table.unpack(parameters)
     return function(...)
         local count = select('#', ...)
@@ -92,6 +95,23 @@ local function checker(name, signature)
     end
 end
 
+local function define(name, perform)
+    local check = checks[name]
+    simZMQ[name] = function(...) return perform(check(...)) end
+end
+
+-- A function that libzmq alone does not have. The reference reads these declarations.
+local function declare(declaration, perform)
+    local name, parameters = declaration:match 'simZMQ%.([%w_]+)%((.*)%)'
+    checks[name] = checker(name, parameters)
+    define(name, perform)
+end
+
+for name, parameters in pairs(native.parameters()) do
+    checks[name] = checker(name, parameters)
+    define(name, native[name])
+end
+
 ---------------------------------------------------------------- waiting
 
 local function canYield()
@@ -100,10 +120,10 @@ local function canYield()
     return not isMain
 end
 
--- Lets the others go on, or waits here for an event, at most that many milliseconds. Raises an error when the program is about to end.
+-- Yields, or waits here for an event, at most that many milliseconds. Raises an error when the program is about to end.
 local function pause(sockets, events, milliseconds)
     if canYield() then return sim.yield() end
-    -- What is wrong with the sockets is told by whoever uses them next.
+    -- An error of the sockets is reported by the next call that uses them.
     pollNow(sockets, events, milliseconds)
 end
 
@@ -133,7 +153,7 @@ end
 -- The native function's error, blamed on who called a function of this module.
 local function blame(message) error((message:gsub('^%-?%d+: ', '')), 3) end
 
--- Tries again until there is something to tell.
+-- Tries again until there is a result.
 local function persist(attempt, socket, event, patience, ...)
     local sockets, events, deadline, isCut = {socket}, {event}, nil, false
     while true do
@@ -163,8 +183,8 @@ local function optionOf(socket, option)
 end
 
 -- A function that can wait for `event`, in two forms: for ever, and as long as an option says.
-local function declareWaiting(name, signature, socketAt, flagsAt, event, timeout)
-    local check, attempt = checker(name, signature), native[name]
+local function defineWaiting(name, socketAt, flagsAt, event, timeout)
+    local check, attempt = checks[name], native[name]
     simZMQ[name] = function(...)
         local flags = select(flagsAt, ...)
         if flags & DONTWAIT ~= 0 then return attempt(check(...)) end
@@ -178,32 +198,19 @@ local function declareWaiting(name, signature, socketAt, flagsAt, event, timeout
     end
 end
 
-declareWaiting('send', 'socket:string data:buffer flags:int', 1, 3, POLLOUT, simZMQ.SNDTIMEO)
-declareWaiting('recv', 'socket:string flags:int max_buf_size:int?', 1, 2, POLLIN, simZMQ.RCVTIMEO)
-declareWaiting('msg_send', 'msg:string socket:string flags:int', 2, 3, POLLOUT, simZMQ.SNDTIMEO)
-declareWaiting('msg_recv', 'msg:string socket:string flags:int', 2, 3, POLLIN, simZMQ.RCVTIMEO)
+defineWaiting('send', 1, 3, POLLOUT, simZMQ.SNDTIMEO)
+defineWaiting('recv', 1, 2, POLLIN, simZMQ.RCVTIMEO)
+defineWaiting('msg_send', 2, 3, POLLOUT, simZMQ.SNDTIMEO)
+defineWaiting('msg_recv', 2, 3, POLLIN, simZMQ.RCVTIMEO)
 
----------------------------------------------------------------- everything else
-
-local function declare(name, signature, perform)
-    local check = checker(name, signature)
-    perform = perform or native[name]
-    simZMQ[name] = function(...) return perform(check(...)) end
-end
-
-declare('ctx_new', '')
-declare('ctx_singleton', '')
-declare('ctx_get', 'context:string option_name:int')
-declare('ctx_set', 'context:string option_name:int option_value:int')
-declare('ctx_shutdown', 'context:string')
+---------------------------------------------------------------- other functions
 
 -- How long the end of a context is waited for, milliseconds: in a thread, where it is tried again, and elsewhere.
 local SHORTLY <const>, PATIENTLY <const> = 10, 2000
 
 --- Ends a context. In a thread the simulation goes on meanwhile.
--- @api int result = simZMQ.ctx_term(string context)
 -- @return result 0, or -1: try again with EINTR
-declare('ctx_term', 'context:string', function(context)
+declare('int result = simZMQ.ctx_term(string context)', function(context)
     local patience = SHORTLY
     while true do
         local waits = canYield()
@@ -215,24 +222,12 @@ declare('ctx_term', 'context:string', function(context)
     end
 end)
 
-declare('socket', 'context:string type:int')
-declare('close', 'socket:string')
-declare('bind', 'socket:string endpoint:string')
-declare('unbind', 'socket:string endpoint:string')
-declare('connect', 'socket:string endpoint:string')
-declare('disconnect', 'socket:string endpoint:string')
-declare('setsockopt', 'socket:string option_name:int option_value:buffer')
-declare('getsockopt', 'socket:string option_name:int option_len:int')
-
 --- The value of a socket option that is an integer.
--- @api int result, int option_value = simZMQ.getsockopt_int(string socket, int option_name)
-declare('getsockopt_int', 'socket:string option_name:int', function(socket, option)
+declare('int result, int option_value = simZMQ.getsockopt_int(string socket, int option_name)', function(socket, option)
     local ok, result, value = pcall(native.getsockopt, socket, option, 4)
     if not ok then blame(result) end
     return result, result == 0 and #value == 4 and ('=i4'):unpack(value) or 0
 end)
-
-declare('socket_monitor', 'socket:string endpoint:string events:int')
 
 -- In a thread, sockets are looked at once per loop iteration.
 local function pollYielding(sockets, events, timeout)
@@ -255,7 +250,7 @@ local function poll(sockets, events, timeout)
     return result, revents
 end
 
-declare('poll', 'sockets:strings events:ints timeout:int?', function(sockets, events, timeout)
+define('poll', function(sockets, events, timeout)
     if #sockets ~= #events then error("in simZMQ.poll: 'sockets' and 'events' must have the same length", 2) end
     return poll(sockets, events, timeout)
 end)
@@ -272,72 +267,40 @@ local function proxyOf(...)
 end
 
 --- Passes messages between two sockets until the context ends.
--- @api int result = simZMQ.proxy(string frontend, string backend, string capture)
 -- @param capture gets a copy of every message; an empty handle for none
-declare('proxy', 'frontend:string backend:string capture:string', proxyOf)
+declare('int result = simZMQ.proxy(string frontend, string backend, string capture)', proxyOf)
 --- The same, with a socket that takes PAUSE, RESUME and TERMINATE.
--- @api int result = simZMQ.proxy_steerable(string frontend, string backend, string capture, string control)
-declare('proxy_steerable', 'frontend:string backend:string capture:string control:string', proxyOf)
-
-declare('msg_new', '')
-declare('msg_init', 'msg:string')
-declare('msg_init_size', 'msg:string size:int')
-declare('msg_close', 'msg:string')
-declare('msg_destroy', 'msg:string')
-declare('msg_data', 'msg:string')
-declare('msg_size', 'msg:string')
-declare('msg_more', 'msg:string')
-declare('msg_get', 'msg:string property:int')
-declare('msg_set', 'msg:string property:int value:int')
-declare('msg_gets', 'msg:string property:string')
-declare('msg_copy', 'dest:string src:string')
-declare('msg_move', 'dest:string src:string')
-
-declare('errnum', '')
-declare('strerror', 'errnum:int')
-declare('has', 'capability:string')
-declare('version', '')
-declare('z85_encode', 'data:buffer')
-declare('z85_decode', 'text:buffer')
+declare('int result = simZMQ.proxy_steerable(string frontend, string backend, string capture, string control)', proxyOf)
 
 -- Without drafts the original's functions of drafts return what nothing leaves behind.
 local function nothing() return 0 end
 
 --- Without effect: drafts of libzmq are not built.
--- @api int result = simZMQ.ctx_set_ext(string context, int option_name, buffer option_value)
-declare('ctx_set_ext', 'context:string option_name:int option_value:buffer', nothing)
+declare('int result = simZMQ.ctx_set_ext(string context, int option_name, buffer option_value)', nothing)
 
 --- Without effect: drafts of libzmq are not built.
--- @api int result, buffer data = simZMQ.ctx_get_ext(string context, int option_name)
-declare('ctx_get_ext', 'context:string option_name:int', function() return 0, nil end)
+declare('int result, buffer data = simZMQ.ctx_get_ext(string context, int option_name)', function() return 0, nil end)
 
 --- Without effect: drafts of libzmq are not built.
--- @api int result = simZMQ.join(string socket, string group)
-declare('join', 'socket:string group:string', nothing)
+declare('int result = simZMQ.join(string socket, string group)', nothing)
 
 --- Without effect: drafts of libzmq are not built.
--- @api int result = simZMQ.leave(string socket, string group)
-declare('leave', 'socket:string group:string', nothing)
+declare('int result = simZMQ.leave(string socket, string group)', nothing)
 
 --- Without effect: drafts of libzmq are not built.
--- @api int result = simZMQ.connect_peer(string socket, string addr)
-declare('connect_peer', 'socket:string addr:string', nothing)
+declare('int result = simZMQ.connect_peer(string socket, string addr)', nothing)
 
 --- Without effect: drafts of libzmq are not built.
--- @api int result = simZMQ.msg_set_routing_id(string msg, int routing_id)
-declare('msg_set_routing_id', 'msg:string routing_id:int', nothing)
+declare('int result = simZMQ.msg_set_routing_id(string msg, int routing_id)', nothing)
 
 --- Without effect: drafts of libzmq are not built.
--- @api int result = simZMQ.msg_routing_id(string msg)
-declare('msg_routing_id', 'msg:string', nothing)
+declare('int result = simZMQ.msg_routing_id(string msg)', nothing)
 
 --- Without effect: drafts of libzmq are not built.
--- @api int result = simZMQ.msg_set_group(string msg, string group)
-declare('msg_set_group', 'msg:string group:string', nothing)
+declare('int result = simZMQ.msg_set_group(string msg, string group)', nothing)
 
 --- Without effect: drafts of libzmq are not built.
--- @api int result, string group = simZMQ.msg_group(string msg)
-declare('msg_group', 'msg:string', function() return 0, '' end)
+declare('int result, string group = simZMQ.msg_group(string msg)', function() return 0, '' end)
 
 ---------------------------------------------------------------- errors instead of results
 

@@ -26,13 +26,32 @@ pub(super) fn functions() -> Vec<Function> {
     api::SIM.member_files(FILES).flat_map(|(module, source)| in_file(module, source)).collect()
 }
 
-/// The functions that the Lua part of a module describes: any comment with `@api module.name(...)`.
+/// The functions that the Lua part of a module describes: any comment with `@api module.name(...)`, and calls of `declare` with
+/// such a declaration.
 pub(super) fn in_module(module: &str, source: &str) -> Vec<Function> {
-    let lines: Vec<&str> = source.lines().collect();
-    let comments = lines.split(|line| !line.starts_with("--"));
-    let texts =
-        comments.map(|comment| comment.iter().map(|line| line.trim_start_matches('-').trim()).collect::<Vec<_>>());
-    texts.filter_map(|comment| from_comment(module, module, &comment)).collect()
+    let mut comment: Vec<&str> = Vec::new();
+    let mut found = Vec::new();
+    for line in source.lines().chain([""]) {
+        if line.starts_with("--") {
+            comment.push(line.trim_start_matches('-').trim());
+            continue;
+        }
+        if let Some(declaration) = annotated(&comment).or_else(|| declared(line)) {
+            found.extend(described(module, module, declaration, &comment));
+        }
+        comment.clear();
+    }
+    found
+}
+
+/// The declaration in a comment.
+fn annotated<'a>(comment: &[&'a str]) -> Option<&'a str> {
+    comment.iter().find_map(|line| line.strip_prefix("@api "))
+}
+
+/// The declaration that a line passes to `declare`.
+fn declared(line: &str) -> Option<&str> {
+    Some(line.strip_prefix("declare('")?.split_once('\'')?.0)
 }
 
 fn in_file(module: &str, source: &str) -> Vec<Function> {
@@ -45,15 +64,15 @@ fn in_file(module: &str, source: &str) -> Vec<Function> {
             continue;
         }
         if line.starts_with("function M.") {
-            found.extend(from_comment("sim", category, &comment));
+            found.extend(annotated(&comment).and_then(|declaration| described("sim", category, declaration, &comment)));
         }
         comment.clear();
     }
     found
 }
 
-fn from_comment(module: &str, category: &str, comment: &[&str]) -> Option<Function> {
-    let declaration = comment.iter().find_map(|line| line.strip_prefix("@api "))?;
+/// `int result = module.name(int parameter)`, with the comment above it.
+fn described(module: &str, category: &str, declaration: &str, comment: &[&str]) -> Option<Function> {
     let prefix = format!("{module}.");
     let (results, call) = match declaration.split_once(&format!("= {prefix}")) {
         Some((results, call)) => (results.trim(), call),

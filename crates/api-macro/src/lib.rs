@@ -7,26 +7,49 @@
 use proc_macro::TokenStream;
 use proc_macro2::TokenStream as Tokens;
 use quote::quote;
-use syn::{Expr, FnArg, ItemFn, Lit, LitStr, Meta, Pat, PatType, ReturnType, Type, parse_macro_input};
+use syn::parse::{Parse, ParseStream};
+use syn::{Expr, FnArg, ItemFn, Lit, LitStr, Meta, Pat, PatType, ReturnType, Token, Type, parse_macro_input};
 
-/// See the crate's documentation. The first parameter is the context, `&Cx` (reads) or `&mut Cx`
+/// See the crate's documentation. Parameters get their name in camel case, or, with `#[api("simZMQ.name", snake_case)]`,
+/// as written. The first parameter is the context, `&Cx` (reads) or `&mut Cx`
 /// (writes, or calls scripts); the others implement `FromScript`; the result is `Result<T>` with
 /// `T: IntoScript`. `#[default(expr)]` makes a parameter optional, and so does the type `Option`.
 #[proc_macro_attribute]
 pub fn api(name: TokenStream, item: TokenStream) -> TokenStream {
-    let name = parse_macro_input!(name as LitStr);
+    let attribute = parse_macro_input!(name as Attribute);
     let mut function = parse_macro_input!(item as ItemFn);
-    expand(&name, &mut function).unwrap_or_else(syn::Error::into_compile_error).into()
+    expand(&attribute, &mut function).unwrap_or_else(syn::Error::into_compile_error).into()
 }
 
-fn expand(name: &LitStr, function: &mut ItemFn) -> syn::Result<Tokens> {
+/// `"sim.name"`, or `"simZMQ.name", snake_case` for a function whose parameters keep their names.
+struct Attribute {
+    name: LitStr,
+    is_snake_case: bool,
+}
+
+impl Parse for Attribute {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        let name = input.parse()?;
+        let is_snake_case = input.parse::<Option<Token![,]>>()?.is_some();
+        if is_snake_case {
+            let word: syn::Ident = input.parse()?;
+            if word != "snake_case" {
+                return Err(syn::Error::new(word.span(), "expected `snake_case`"));
+            }
+        }
+        Ok(Self { name, is_snake_case })
+    }
+}
+
+fn expand(attribute: &Attribute, function: &mut ItemFn) -> syn::Result<Tokens> {
+    let Attribute { name, is_snake_case } = attribute;
     let ident = function.sig.ident.clone();
     let doc = doc_text(function);
     let output = output_type(function)?;
     let results = result_types(output.clone());
     let mut inputs = function.sig.inputs.iter_mut();
     let mutates = takes_mut_context(inputs.next())?;
-    let parameters = inputs.map(parameter).collect::<syn::Result<Vec<_>>>()?;
+    let parameters = inputs.map(|input| parameter(input, *is_snake_case)).collect::<syn::Result<Vec<_>>>()?;
 
     let required = parameters.iter().rposition(Parameter::is_required).map_or(0, |last| last + 1);
     let rows = parameters.iter().map(Parameter::row);
@@ -94,6 +117,7 @@ impl Parameter {
                 let text = quote!(#value).to_string().replace(' ', "");
                 quote!(Some(#text))
             }
+            None if is_named(ty, "Option") => quote!(Some("None")),
             None => quote!(None),
         };
         quote!(Param { name: #lua_name, ty: <#ty as FromScript>::TYPE, default: #default })
@@ -108,7 +132,7 @@ impl Parameter {
     }
 }
 
-fn parameter(input: &mut FnArg) -> syn::Result<Parameter> {
+fn parameter(input: &mut FnArg, is_snake_case: bool) -> syn::Result<Parameter> {
     let FnArg::Typed(PatType { attrs, pat, ty, .. }) = input else {
         return Err(syn::Error::new_spanned(input, "`self` is not scriptable"));
     };
@@ -121,7 +145,12 @@ fn parameter(input: &mut FnArg) -> syn::Result<Parameter> {
     };
     let ident = pat.ident.clone();
     let variadic = is_named(ty, "Rest");
-    let lua_name = if variadic { "...".to_owned() } else { camel_case(ident.to_string().trim_start_matches("r#")) };
+    let rust_name = ident.to_string();
+    let lua_name = match rust_name.trim_start_matches("r#") {
+        _ if variadic => "...".to_owned(),
+        name if is_snake_case => name.to_owned(),
+        name => camel_case(name),
+    };
     Ok(Parameter { ident, ty: (**ty).clone(), lua_name, default, variadic })
 }
 

@@ -6,54 +6,54 @@
 local core = {}
 
 --- Base64.
----@param left string
----@param chunk string
+---@param left? string
+---@param chunk? string
 ---@return any result
 function core.b64(left, chunk) end
 
 --- Doubles dots at the beginnings of lines, as SMTP wants it.
 ---@param seen number
----@param chunk string
+---@param chunk? string
 ---@return any result
 function core.dot(seen, chunk) end
 
 --- Makes all line ends the same.
 ---@param last number
----@param chunk string
----@param marker string
+---@param chunk? string
+---@param marker? string
 ---@return any result
 function core.eol(last, chunk, marker) end
 
 --- Quoted-printable.
----@param left string
----@param chunk string
----@param marker string
+---@param left? string
+---@param chunk? string
+---@param marker? string
 ---@return any result
 function core.qp(left, chunk, marker) end
 
 --- Breaks quoted-printable text into lines.
 ---@param left number
----@param chunk string
----@param length number
+---@param chunk? string
+---@param length? number
 ---@return any result
 function core.qpwrp(left, chunk, length) end
 
 --- Base64, the other way.
----@param left string
----@param chunk string
+---@param left? string
+---@param chunk? string
 ---@return any result
 function core.unb64(left, chunk) end
 
 --- Quoted-printable, the other way.
----@param left string
----@param chunk string
+---@param left? string
+---@param chunk? string
 ---@return any result
 function core.unqp(left, chunk) end
 
 --- Breaks text into lines; the first argument is how much still fits the current one.
 ---@param left number
----@param chunk string
----@param length number
+---@param chunk? string
+---@param length? number
 ---@return any result
 function core.wrp(left, chunk, length) end
 

@@ -33,7 +33,7 @@ fn ctx_new(cx: &Cx) -> Result<String> {
     }
 }
 
-/// The context all scripts share.
+/// The context that all scripts share.
 ///
 /// @return context
 #[api("simZMQ.ctx_singleton")]
@@ -44,9 +44,9 @@ fn ctx_singleton(_cx: &Cx) -> Result<String> {
 /// An option of a context.
 ///
 /// @param context the context
-/// @param optionName one of simZMQ's constants
+/// @param option_name one of simZMQ's constants
 /// @return result the value, or -1
-#[api("simZMQ.ctx_get")]
+#[api("simZMQ.ctx_get", snake_case)]
 fn ctx_get(cx: &Cx, context: String, option_name: Number) -> Result<i64> {
     let objects = objects(cx);
     let context = objects.context(cx, &context)?;
@@ -56,17 +56,17 @@ fn ctx_get(cx: &Cx, context: String, option_name: Number) -> Result<i64> {
 /// Sets an option of a context.
 ///
 /// @param context the context
-/// @param optionName one of simZMQ's constants
-/// @param optionValue its value
+/// @param option_name one of simZMQ's constants
+/// @param option_value its value
 /// @return result 0 or -1
-#[api("simZMQ.ctx_set")]
+#[api("simZMQ.ctx_set", snake_case)]
 fn ctx_set(cx: &Cx, context: String, option_name: Number, option_value: Number) -> Result<i64> {
     let objects = objects(cx);
     let context = objects.context(cx, &context)?;
     Ok(objects.done(context.set(super::int(option_name), super::int(option_value))))
 }
 
-/// Makes all sockets of a context answer that it is over.
+/// Makes every further call on the sockets of a context fail with ETERM.
 ///
 /// @param context the context
 /// @return result 0 or -1
@@ -82,7 +82,7 @@ fn ctx_shutdown(cx: &Cx, context: String) -> Result<i64> {
 ///
 /// @param context the context
 /// @param patience milliseconds to wait for messages on their way
-/// @return result 0, or -1: it goes on with EINTR
+/// @return result 0, or -1 with EINTR: it has not ended yet
 #[api("simZMQ.ctx_term")]
 fn ctx_term(cx: &Cx, context: String, patience: Number) -> Result<i64> {
     forbid_singleton(&context, "terminated")?;
@@ -98,10 +98,10 @@ fn ctx_term(cx: &Cx, context: String, patience: Number) -> Result<i64> {
 /// @param type one of simZMQ's constants
 /// @return socket
 #[api("simZMQ.socket")]
-fn socket(cx: &Cx, context: String, kind: Number) -> Result<String> {
+fn socket(cx: &Cx, context: String, r#type: Number) -> Result<String> {
     let objects = objects(cx);
     let context: Rc<Context> = objects.context(cx, &context)?;
-    match Socket::new(&context, super::int(kind)) {
+    match Socket::new(&context, super::int(r#type)) {
         Ok(socket) => Ok(objects.add_socket(cx, socket)),
         Err(errno) => {
             objects.failed(errno);

@@ -1,6 +1,6 @@
 //! The native part of `simZMQ` (`lua/modules/simZMQ.lua`): libzmq, call by call.
 //!
-//! No call waits but `poll` and `ctx_term`, which end with the program; how blocking functions wait is said in Lua, which can yield.
+//! Only `poll` and `ctx_term` wait, and they end with the program; blocking functions wait in Lua, which can yield.
 
 mod access;
 mod contexts;
@@ -14,8 +14,8 @@ use api_macro::api;
 
 use super::{ApiFn, Cx, Module, Result, functions};
 use crate::io::zmq::{self, ERRORS};
-use crate::scene::Data;
-use crate::script::{Bytes, Number, Table, Text};
+use crate::scene::{Data, Key};
+use crate::script::{Bytes, Number, Param, Table, Text};
 use objects::objects;
 
 pub(crate) use objects::has_sockets;
@@ -33,7 +33,7 @@ pub(super) static MODULE: Module = Module {
 };
 
 const FUNCTIONS: &[ApiFn] = functions![errnum, strerror, has, version, z85_encode, z85_decode];
-const INNER: &[ApiFn] = functions![errors];
+const INNER: &[ApiFn] = functions![errors, parameters];
 
 /// Numbers beyond C's integers become the nearest.
 fn int(number: Number) -> c_int {
@@ -101,5 +101,23 @@ fn z85_decode(_cx: &Cx, text: Bytes) -> Result<Option<Text>> {
 #[api("simZMQ.errors")]
 fn errors(_cx: &Cx) -> Result<Table> {
     let entries = ERRORS.iter().map(|&(name, number)| (name.as_bytes().to_vec(), i64::from(number)));
-    Ok(Table(Data::Map(entries.map(|(name, number)| (crate::scene::Key::Text(name), number.into())).collect())))
+    Ok(Table(Data::Map(entries.map(|(name, number)| (Key::Text(name), number.into())).collect())))
+}
+
+/// The parameters of the functions for scripts, for the Lua part, which checks them: `string socket, int flags, int max_buf_size?`.
+///
+/// @return parameters texts by name
+#[api("simZMQ.parameters")]
+fn parameters(_cx: &Cx) -> Result<Table> {
+    let entries = MODULE.public_functions().map(|function| {
+        let list: Vec<String> = function.params.iter().map(declaration).collect();
+        let name = function.name.trim_start_matches("simZMQ.");
+        (Key::Text(name.into()), Data::Text(list.join(", ").into_bytes()))
+    });
+    Ok(Table(Data::Map(entries.collect())))
+}
+
+fn declaration(param: &Param) -> String {
+    let optional = if param.default.is_some() { "?" } else { "" };
+    format!("{} {}{optional}", param.ty, param.name)
 }

@@ -10,7 +10,7 @@ use super::objects::objects;
 use crate::io::zmq::{self, Errno, Message, Socket};
 use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::Data;
-use crate::script::{Bytes, Number, Table, Text};
+use crate::script::{Args, Bytes, FromScript, Number, Source, Table, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] =
     functions![close, bind, unbind, connect, disconnect, setsockopt, getsockopt, socket_monitor, send, recv, poll,];
@@ -79,10 +79,10 @@ fn disconnect(cx: &Cx, socket: String, endpoint: String) -> Result<i64> {
 /// Sets an option of a socket.
 ///
 /// @param socket the socket
-/// @param optionName one of simZMQ's constants
-/// @param optionValue its bytes
+/// @param option_name one of simZMQ's constants
+/// @param option_value its bytes
 /// @return result 0 or -1
-#[api("simZMQ.setsockopt")]
+#[api("simZMQ.setsockopt", snake_case)]
 fn setsockopt(cx: &Cx, socket: String, option_name: Number, option_value: Bytes) -> Result<i64> {
     let objects = objects(cx);
     check_option(cx, int(option_name), &option_value.0)?;
@@ -92,11 +92,11 @@ fn setsockopt(cx: &Cx, socket: String, option_name: Number, option_value: Bytes)
 /// An option of a socket.
 ///
 /// @param socket the socket
-/// @param optionName one of simZMQ's constants
-/// @param optionLen most bytes
+/// @param option_name one of simZMQ's constants
+/// @param option_len most bytes
 /// @return result 0 or -1
 /// @return value its bytes
-#[api("simZMQ.getsockopt")]
+#[api("simZMQ.getsockopt", snake_case)]
 fn getsockopt(cx: &Cx, socket: String, option_name: Number, option_len: Number) -> Result<(i64, Text)> {
     let objects = objects(cx);
     let room = usize::try_from(option_len.0).unwrap_or(0);
@@ -109,7 +109,7 @@ fn getsockopt(cx: &Cx, socket: String, option_name: Number, option_len: Number) 
 /// Reports connection events of a socket.
 ///
 /// @param socket the socket
-/// @param endpoint inproc address of the teller
+/// @param endpoint the inproc address that reports them
 /// @param events which
 /// @return result 0 or -1
 #[api("simZMQ.socket_monitor")]
@@ -134,10 +134,10 @@ fn send(cx: &Cx, socket: String, data: Bytes, flags: Number) -> Result<i64> {
 ///
 /// @param socket the socket
 /// @param flags none has an effect
-/// @param maxBufSize most bytes to return
+/// @param max_buf_size most bytes to return
 /// @return result length of the message, or -1
 /// @return data its bytes, nil on failure
-#[api("simZMQ.recv")]
+#[api("simZMQ.recv", snake_case)]
 fn recv(cx: &Cx, socket: String, flags: Number, max_buf_size: Option<Number>) -> Result<(i64, Data)> {
     let objects = objects(cx);
     let socket = objects.socket(cx, &socket)?;
@@ -160,10 +160,9 @@ fn recv(cx: &Cx, socket: String, flags: Number, max_buf_size: Option<Number>) ->
 /// @return result how many are ready, or -1
 /// @return revents what each is ready for
 #[api("simZMQ.poll")]
-fn poll(cx: &Cx, sockets: Table, events: Vec<i64>, timeout: Number) -> Result<(i64, Vec<i64>)> {
+fn poll(cx: &Cx, sockets: Handles, events: Vec<i64>, #[default(Number(0))] timeout: Number) -> Result<(i64, Vec<i64>)> {
     let objects = objects(cx);
-    let sockets =
-        texts(&sockets.0)?.into_iter().map(|handle| objects.socket(cx, handle)).collect::<Result<Vec<_>>>()?;
+    let sockets = sockets.0.iter().map(|handle| objects.socket(cx, handle)).collect::<Result<Vec<_>>>()?;
     let items: Vec<_> = sockets.into_iter().zip(events.iter().map(|&events| events as i16)).collect();
     Ok(match wait(cx, &items, timeout.0)? {
         Ok(ready) => {
@@ -174,14 +173,20 @@ fn poll(cx: &Cx, sockets: Table, events: Vec<i64>, timeout: Number) -> Result<(i
     })
 }
 
-/// The texts of a list.
-fn texts<'a>(list: &'a Data) -> Result<Vec<&'a str>> {
-    let Data::Array(items) = list else { return Err(ApiError::ArgumentType) };
-    let text = |item: &'a Data| match item {
-        Data::Text(bytes) => std::str::from_utf8(bytes).map_err(|_| ApiError::ArgumentType),
-        _ => Err(ApiError::ArgumentType),
-    };
-    items.iter().map(text).collect()
+/// A list of handles.
+struct Handles(Vec<String>);
+
+impl FromScript for Handles {
+    const TYPE: &'static str = "string[]";
+
+    fn from_script<'a, S: Source<'a>>(args: &Args<'a, S>) -> Result<Self> {
+        let Data::Array(items) = Table::from_script(args)?.0 else { return Err(ApiError::ArgumentType) };
+        let text = |item| match item {
+            Data::Text(bytes) => String::from_utf8(bytes).map_err(|_| ApiError::ArgumentType),
+            _ => Err(ApiError::ArgumentType),
+        };
+        items.into_iter().map(text).collect::<Result<_>>().map(Self)
+    }
 }
 
 /// Polls for a bounded time again and again.
