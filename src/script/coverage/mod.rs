@@ -1,8 +1,8 @@
 //! Line coverage of scripts.
 //!
-//! A state counts the lines of its script's own text and of Lua files that were loaded by name (`@file`); what comes with the simulator is
-//! not counted. A line counts once for each state that has run it. Interpreters count, here is what a simulator collects from them. Reports
-//! are made elsewhere.
+//! A state counts the lines of its script's own text and of Lua files that were loaded by name (`@file`), but not those of the simulator's
+//! library. A line counts once for each state that has run it. Interpreters count; this module collects their counts. `testing` writes
+//! the reports.
 
 mod text;
 
@@ -21,11 +21,11 @@ use crate::scene::object::script_object::ScriptType;
 /// A text whose lines are counted.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum CountedText {
-    /// A Lua file, by the name it was loaded with.
+    /// A Lua file, by the name under which it was loaded.
     File(PathBuf),
     /// A script of the scene.
     Script {
-        /// The path of the scene's file; empty when it has none.
+        /// The path of the scene's file; empty without one.
         scene: String,
         /// The object's path in the scene.
         path: String,
@@ -36,15 +36,15 @@ pub enum CountedText {
 /// A function of a text.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Function {
-    /// Where it begins; 0 for the text as a whole.
+    /// Its first line; 0 for the main function of the text.
     pub line: u32,
     /// The lines of its body that can run, in the order of the text.
     pub lines: Vec<u32>,
-    /// As the text calls it, if it does.
+    /// Its name in the text, if it has one.
     pub name: Option<String>,
 }
 
-/// In how many states lines ran: the first entry is that of line 1. Lines after the last entry never did.
+/// The number of states in which each line ran, from line 1. Lines after the last entry never ran.
 pub type Counts = Vec<u64>;
 
 /// The counts of many texts.
@@ -54,7 +54,7 @@ pub struct LineCounts {
 }
 
 impl LineCounts {
-    /// Adds what another simulator, or another state, has counted.
+    /// Adds the counts of another simulator or state.
     pub fn merge(&mut self, other: Self) {
         other.texts.into_iter().for_each(|(text, counts)| self.add(text, &counts));
     }
@@ -69,7 +69,7 @@ impl LineCounts {
 }
 
 impl Sim {
-    /// Takes over what an interpreter has counted so far.
+    /// Moves the counts of an interpreter to those of the simulator.
     pub(crate) fn collect_line_counts(&self, interpreter: &(impl Interpreter + ?Sized)) {
         if self.options.count_lines
             && let Ok(mut counts) = self.line_counts.try_borrow_mut()
@@ -78,7 +78,7 @@ impl Sim {
         }
     }
 
-    /// Hands over what all states have counted since the last time. Scripts of the scene that have not run are there without counts.
+    /// Returns the counts of all states since the last call. Scripts of the scene that have not run are included without counts.
     pub(crate) fn take_line_counts(&self) -> LineCounts {
         let running: Vec<_> = self.scripts.all().iter().filter_map(|script| script.current_runtime()).collect();
         running.iter().for_each(|runtime| self.collect_line_counts(&runtime.interpreter));
@@ -101,13 +101,13 @@ impl Sim {
         scripts.collect()
     }
 
-    /// What reports call a script's text; None when its lines are not to be counted.
+    /// The name of a script's text in reports; None if its lines are not counted.
     pub(crate) fn counted_as(&self, script: &Script, text: &[u8]) -> Option<String> {
         let counts = self.options.count_lines && self.counts_text_of(script, text);
         counts.then(|| self.path_of_script(script).unwrap_or_default())
     }
 
-    /// Whether lines of that script's own text count: those of the scene do, unless they came with the simulator.
+    /// Whether the lines of a script's own text are counted: those of scripts in the scene, unless they are part of the simulator.
     fn counts_text_of(&self, script: &Script, text: &[u8]) -> bool {
         match script.script_type {
             ScriptType::Sandbox | ScriptType::AddOn => false,
@@ -116,7 +116,7 @@ impl Sim {
         }
     }
 
-    /// What a script is called in reports; None when it is no longer in the scene.
+    /// The path of a script in reports; None if it is no longer in the scene.
     pub(crate) fn path_of_script(&self, script: &Script) -> Option<String> {
         let scene = self.scene.try_borrow().ok()?;
         match (script.object, script.owner()) {

@@ -1,10 +1,9 @@
-//! Compiling and calling Lua code, and inspecting the call stack.
+//! Calling Lua code, and inspecting the call stack.
 
-use std::ffi::{CStr, CString, c_char, c_int};
+use std::ffi::{CStr, c_char, c_int};
 use std::mem::MaybeUninit;
 
-use mlua::chunk::ChunkMode;
-use mlua::{Error, Function, Lua, LuaOptions, StdLib, ffi};
+use mlua::{Error, ffi};
 
 use super::api;
 use super::entry::{Exit, push_function};
@@ -27,31 +26,7 @@ impl From<Error> for LuaError {
     }
 }
 
-/// Compiles Lua text to bytecode, in a state of its own.
-pub(crate) fn compile(code: &[u8], chunk_name: &str) -> Result<Vec<u8>, String> {
-    let lua = Lua::new_with(StdLib::NONE, LuaOptions::default()).map_err(|error| error.to_string())?;
-    let chunk = lua.load(code).set_name(chunk_name.replace('\0', " ")).set_mode(ChunkMode::Text);
-    match chunk.into_function() {
-        Ok(function) => Ok(function.dump(false)),
-        Err(Error::SyntaxError { message, .. }) => Err(message),
-        Err(other) => Err(other.to_string()),
-    }
-}
-
 impl Stack<'_> {
-    /// Compiles `code` (text or bytecode made by this binary) and pushes the chunk. Lua shows positions as `[string "name"]:line:`
-    /// unless the name starts with `=` or `@`.
-    pub(crate) fn load(self, code: &[u8], name: &str, bytecode: bool) -> Result<(), LuaError> {
-        let name = CString::new(name.replace('\0', " ")).unwrap_or_default();
-        let mode = if bytecode { c"b" } else { c"t" };
-        let _room = self.room();
-        // SAFETY: `luaL_loadbufferx` reports errors as values; there is room for one.
-        let status = unsafe {
-            ffi::luaL_loadbufferx(self.raw(), code.as_ptr().cast(), code.len(), name.as_ptr(), mode.as_ptr())
-        };
-        if status == ffi::LUA_OK { Ok(()) } else { Err(self.pop_error()) }
-    }
-
     /// Calls the function below its `arguments` on the stack, replacing them by `results` values.
     pub(crate) fn protected_call(self, arguments: c_int, results: c_int) -> Result<(), LuaError> {
         let handler = self.top() - arguments;
@@ -82,7 +57,7 @@ impl Stack<'_> {
         if status == ffi::LUA_OK { Ok(()) } else { Err(self.pop_error()) }
     }
 
-    fn pop_error(self) -> LuaError {
+    pub(super) fn pop_error(self) -> LuaError {
         let text = self.text(-1).map_or_else(|| "(error unknown)".into(), |t| String::from_utf8_lossy(&t).into_owned());
         self.pop(1);
         LuaError { text }
@@ -150,13 +125,6 @@ impl Stack<'_> {
         let text = self.text(-1).unwrap_or_default();
         self.pop(1);
         String::from_utf8_lossy(&text).into_owned()
-    }
-
-    /// Compiled form of the Lua function on top, which is popped.
-    pub(crate) fn dump(self) -> Vec<u8> {
-        let function = self.to_mlua::<Function>(-1);
-        self.pop(1);
-        function.map(|function| function.dump(false)).unwrap_or_default()
     }
 
     pub(crate) fn is_main_coroutine(self) -> bool {

@@ -15,13 +15,13 @@
 //!   Lua's largest block: strings are cut to it, longer lists are refused before they are pushed ([`LONGEST_LIST`], `Data::MAX_ITEMS`).
 
 mod api;
+mod bytecode;
 mod callback;
 mod calls;
 mod coroutine;
 mod debug_library;
 mod entry;
 mod file;
-mod functions;
 mod guard;
 mod object;
 mod permissions;
@@ -31,8 +31,9 @@ mod stack;
 mod state;
 mod tables;
 
+pub(crate) use bytecode::{Bytecode, Prototype};
 pub(crate) use callback::{Callback, push_callback};
-pub(crate) use calls::{LuaError, MULTIPLE, compile};
+pub(crate) use calls::{LuaError, MULTIPLE};
 pub(crate) use coroutine::{HOOK_INTERVAL, Verdict, hasten_count_hook, install_coroutine_hooks, set_count_hook};
 pub(crate) use debug_library::restrict_debug;
 pub(crate) use object::Object;

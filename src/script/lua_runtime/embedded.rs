@@ -2,15 +2,15 @@
 
 use std::sync::OnceLock;
 
-use crate::script::lua::compile;
+use crate::script::lua::Bytecode;
 
 /// `(module, text)` of every file below `lua/`.
 pub(crate) const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/lua_files.rs"));
 
-/// An embedded Lua module: its text, and its compiled form once somebody needed it.
+/// An embedded Lua module: its text, and its bytecode once it was needed.
 pub(crate) struct Embedded {
     pub source: &'static str,
-    bytecode: OnceLock<Vec<u8>>,
+    bytecode: OnceLock<Bytecode>,
 }
 
 impl Embedded {
@@ -19,9 +19,10 @@ impl Embedded {
     }
 
     /// Compiled once per process. Error positions read `[string "name"]` as in scripts.
-    pub(crate) fn bytecode(&self, name: &str) -> &[u8] {
-        self.bytecode
-            .get_or_init(|| compile(self.source.as_bytes(), name).expect("a test compiles every embedded file"))
+    pub(crate) fn bytecode(&self, name: &str) -> &Bytecode {
+        self.bytecode.get_or_init(|| {
+            Bytecode::compile(self.source.as_bytes(), name).expect("a test compiles every embedded file")
+        })
     }
 }
 
@@ -30,7 +31,7 @@ mod tests {
     #[test]
     fn every_embedded_file_compiles() {
         for (name, text) in super::FILES {
-            super::compile(text.as_bytes(), name).expect(name);
+            super::Bytecode::compile(text.as_bytes(), name).expect(name);
         }
     }
 }

@@ -86,7 +86,7 @@ impl Interpreter for LuaInterpreter {
 
     fn load(&self, source: &SourceText<'_>) -> Result<(), ScriptError> {
         let stack = self.stack();
-        stack.load(source.text, source.chunk_name, false)?;
+        stack.load_text(source.text, source.chunk_name)?;
         if let Some(path) = &source.counted_as {
             coverage::begin(stack, source, path);
         }
@@ -147,7 +147,7 @@ impl Interpreter for LuaInterpreter {
 
     fn run(&self, text: &[u8], chunk_name: &str) -> Result<(), ScriptError> {
         let stack = self.stack();
-        stack.load(text, chunk_name, false)?;
+        stack.load_text(text, chunk_name)?;
         Ok(stack.protected_call(0, 0)?)
     }
 
@@ -162,7 +162,7 @@ impl Interpreter for LuaInterpreter {
     fn call_library(&self, module: &str, function: &str, args: &[Data]) -> Result<Vec<Data>, ScriptError> {
         self.on_stack(|stack| {
             let base = stack.top();
-            stack.load(CALL, "call", false)?;
+            stack.load_text(CALL, "call")?;
             stack.push_bytes(module.as_bytes());
             stack.push_bytes(function.as_bytes());
             Ok(collect(stack, base, push_args(stack, args)? + 2)?)
@@ -244,5 +244,5 @@ fn collect(stack: Stack<'_>, base: i32, arguments: i32) -> Result<Vec<Data>, Lua
 fn load_expression_or_chunk(stack: Stack<'_>, code: &[u8]) -> Result<(), LuaError> {
     let name = String::from_utf8_lossy(code);
     let expression = [b"return ", code].concat();
-    stack.load(&expression, &name, false).or_else(|_| stack.load(code, &name, false))
+    stack.load_text(&expression, &name).or_else(|_| stack.load_text(code, &name))
 }

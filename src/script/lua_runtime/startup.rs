@@ -209,7 +209,7 @@ fn return_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 /// Pushes the chunk of an embedded module.
 pub(super) fn load_module(stack: Stack<'_>, sim: &Sim, name: &str) -> Result<(), LuaError> {
     match sim.modules.registry.files.get(name) {
-        Some(module) => stack.load(module.bytecode(name), name, true),
+        Some(module) => stack.load_bytecode(module.bytecode(name), name),
         None => Err(LuaError { text: format!("no module '{name}' in Swanilda's library") }),
     }
 }

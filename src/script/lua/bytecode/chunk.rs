@@ -1,15 +1,15 @@
 //! Reading and writing of Lua 5.4 bytecode.
 //!
-//! What need not be understood is kept as the bytes it is.
+//! Parts that need no interpretation are copied as bytes.
 
 use std::borrow::Cow;
 
 /// Signature, version, format, check data, sizes, two check numbers.
 const HEADER_SIZE: usize = 4 + 1 + 1 + 6 + 3 + 8 + 8;
 
-/// In place of a difference between lines: the line is given in full.
+/// In place of a difference between lines: the line itself is in the list of absolute lines.
 const ABSOLUTE: i8 = -0x80;
-/// After so many differences a line is given in full.
+/// An absolute line comes at least once in so many instructions.
 const MOST_DIFFERENCES: usize = 128;
 
 /// Types of constants.
@@ -19,25 +19,25 @@ const SHORT_STRING: u8 = 0x04;
 const LONG_STRING: u8 = 0x14;
 const TRUE: u8 = 0x11;
 
-/// A compiled text.
+/// A compiled chunk.
 pub(super) struct Chunk<'a> {
     header: &'a [u8],
     pub main: Prototype<'a>,
 }
 
-/// A function of a text.
-pub(super) struct Prototype<'a> {
+/// A function of a chunk.
+pub(crate) struct Prototype<'a> {
     source: &'a [u8],
-    /// Where it begins; 0 for the text as a whole.
+    /// Its first line; 0 for the main function.
     pub line: usize,
     last_line: usize,
     parameters: u8,
     pub is_vararg: bool,
     pub registers: u8,
     pub code: Vec<u32>,
-    /// Type and value, as they are written.
+    /// Type and value, encoded.
     constants: Vec<Cow<'a, [u8]>>,
-    /// For each: whether it is a local variable of the outer function, which, and what kind of.
+    /// For each: whether it is a local variable of the enclosing function, its index, and its kind.
     upvalues: Vec<[u8; 3]>,
     pub inner: Vec<Prototype<'a>>,
     /// The line of each instruction.
@@ -46,7 +46,7 @@ pub(super) struct Prototype<'a> {
     upvalue_names: Vec<Cow<'a, [u8]>>,
 }
 
-/// A local variable: its name, and the instructions during which it lives.
+/// A local variable: its name, and the instructions between which it is live.
 struct Local<'a> {
     name: &'a [u8],
     begin: usize,
@@ -54,7 +54,7 @@ struct Local<'a> {
 }
 
 impl<'a> Chunk<'a> {
-    /// None for what this version of Lua has not dumped.
+    /// None for bytes that this version of Lua has not written.
     pub(super) fn read(bytes: &'a [u8]) -> Option<Self> {
         let mut reader = Reader(bytes);
         let header = reader.take(HEADER_SIZE)?;
@@ -71,12 +71,12 @@ impl<'a> Chunk<'a> {
 }
 
 impl Prototype<'_> {
-    /// The index of a constant that holds `true`; a new one where there is none.
+    /// The index of the constant `true`, which is added if necessary.
     pub(super) fn constant_true(&mut self) -> usize {
         self.constant(vec![TRUE])
     }
 
-    /// The index of a short text among the constants.
+    /// The index of a short string constant, which is added if necessary.
     pub(super) fn constant_text(&mut self, text: &str) -> usize {
         let mut constant = vec![SHORT_STRING];
         write_text(&mut constant, text.as_bytes());
@@ -91,7 +91,7 @@ impl Prototype<'_> {
         self.constants.len() - 1
     }
 
-    /// Adds an upvalue, that of this number of the outer function; its own number. None when there is no room.
+    /// Adds an upvalue, which is upvalue `outer` of the enclosing function, and returns its index. None if there are too many.
     pub(super) fn add_upvalue(&mut self, name: &str, outer: u8) -> Option<u8> {
         let number = u8::try_from(self.upvalues.len()).ok().filter(|&number| number < u8::MAX)?;
         self.upvalues.push([u8::from(self.line == 0), outer, 0]);
@@ -105,7 +105,7 @@ impl Prototype<'_> {
         self.constants.len()
     }
 
-    /// Instructions have moved: `place` is their new position.
+    /// Updates the live ranges of locals after instructions moved to `place`.
     pub(super) fn move_locals(&mut self, place: impl Fn(usize) -> usize) {
         for local in &mut self.locals {
             (local.begin, local.end) = (place(local.begin), place(local.end));
@@ -162,7 +162,7 @@ impl Prototype<'_> {
     }
 }
 
-/// Seven bits a byte, the highest first; the last byte is marked.
+/// A number in bytes of seven bits, most significant first; the last byte has the high bit set.
 fn write_size(out: &mut Vec<u8>, size: usize) {
     let groups = (usize::BITS - size.leading_zeros()).div_ceil(7).max(1);
     for group in (0..groups).rev() {
@@ -189,7 +189,7 @@ impl<'a> Reader<'a> {
         self.take(1).map(|bytes| bytes[0])
     }
 
-    /// Seven bits a byte, the highest first; the last byte is marked.
+    /// A number in bytes of seven bits, most significant first; the last byte has the high bit set.
     fn size(&mut self) -> Option<usize> {
         let mut size = 0_usize;
         loop {
@@ -201,13 +201,13 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// So many things, one after the other.
+    /// A count and as many items.
     fn list<T>(&mut self, mut item: impl FnMut(&mut Self) -> Option<T>) -> Option<Vec<T>> {
         let count = self.size()?;
         (0..count).map(|_| item(self)).collect()
     }
 
-    /// What `skip` reads, as bytes.
+    /// The bytes that `skip` reads.
     fn raw(&mut self, skip: impl FnOnce(&mut Self) -> Option<()>) -> Option<&'a [u8]> {
         let before = self.0;
         skip(self)?;
@@ -232,7 +232,7 @@ impl<'a> Reader<'a> {
         raw.map(Cow::Borrowed)
     }
 
-    /// Reads a function with those inside of it.
+    /// Reads a function and the functions inside it.
     fn function(&mut self) -> Option<Prototype<'a>> {
         let source = self.text()?;
         let (line, last_line) = (self.size()?, self.size()?);
@@ -286,18 +286,18 @@ mod tests {
     use super::{Chunk, Reader, write_size};
 
     #[test]
-    fn what_is_read_is_written_again() {
+    fn reading_and_writing_round_trip() {
         let text = "local a <const>, b = 1.5, 'x'\n".to_owned()
             + &"\n".repeat(500)
             + &"b = b .. 'y' for i = 1, 3 do b = b .. i end\n".repeat(200)
             + "return function(...) local t <close> = nil return b, a, nil, true, ... end\n";
-        let bytes = crate::script::lua::compile(text.as_bytes(), "=text").expect("it compiles");
+        let bytes = super::super::Bytecode::compile(text.as_bytes(), "=text").expect("it compiles").0;
         assert_eq!(Chunk::read(&bytes).expect("it is read").write(), bytes);
         assert!((0..bytes.len()).all(|end| Chunk::read(&bytes[..end]).is_none()));
     }
 
     #[test]
-    fn sizes_come_back() {
+    fn sizes_round_trip() {
         for size in [0, 1, 0x7f, 0x80, 0x3fff, 0x4000, usize::MAX >> 8] {
             let mut bytes = Vec::new();
             write_size(&mut bytes, size);

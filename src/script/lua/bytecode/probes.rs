@@ -1,4 +1,4 @@
-//! Puts probes into compiled texts: instructions that note in a table that a line runs.
+//! Inserts probes into bytecode: instructions that record in a table that a line runs.
 //!
 //! A hook that Lua calls for every line makes scripts twenty times slower. A probe is one instruction, `notes.LINE = true`, at the beginning
 //! of each line's instructions and wherever a jump from another line enters them. The table is an upvalue that every function of the
@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::bytecode::{Chunk, Prototype};
+use super::chunk::{Chunk, Prototype};
 
 /// The table as debuggers see it.
 const NAME: &str = "(coverage)";
@@ -42,14 +42,14 @@ const ZERO_17: i64 = MAX_17 >> 1;
 const MAX_25: i64 = 0x1ff_ffff;
 const ZERO_25: i64 = MAX_25 >> 1;
 
-/// The compiled text with probes on these lines, and the number of the upvalue that is to hold the table; None when that cannot be.
+/// The bytecode with probes on these lines, and the index of the upvalue for the table; None if there is no room.
 pub(super) fn with_probes(bytecode: &[u8], lines: &BTreeSet<u32>) -> Option<(Vec<u8>, u8)> {
     let mut chunk = Chunk::read(bytecode)?;
     let upvalue = add_to(&mut chunk.main, 0, lines)?;
     Some((chunk.write(), upvalue))
 }
 
-/// Adds them to a function and those inside of it; the number of its new upvalue.
+/// Adds probes to a function and the functions inside it. Returns the index of its new upvalue.
 fn add_to(function: &mut Prototype<'_>, outer: u8, lines: &BTreeSet<u32>) -> Option<u8> {
     let upvalue = function.add_upvalue(NAME, outer)?;
     let probes = Probes::new(function, upvalue, lines)?;
@@ -72,7 +72,7 @@ fn bx(instruction: u32) -> i64 {
     i64::from(instruction >> 15)
 }
 
-/// Where an instruction may go besides the next one.
+/// The instruction that may run next, other than the one after it.
 fn target(place: usize, instruction: u32) -> Option<usize> {
     let next = place as i64 + 1;
     let target = match code(instruction) {
@@ -81,14 +81,14 @@ fn target(place: usize, instruction: u32) -> Option<usize> {
         op::FORPREP => next + bx(instruction) + 1,
         op::TFORPREP => next + bx(instruction),
         op::LFALSESKIP | op::EQ..=op::TESTSET => next + 1,
-        // Arithmetic goes past the call of a metamethod when it needs none.
+        // Arithmetic skips the call of a metamethod when it needs none.
         op::ADDI..op::MMBIN => next + 1,
         _ => return None,
     };
     usize::try_from(target).ok()
 }
 
-/// The instruction with another target: of those that name theirs.
+/// The instruction with another jump target; instructions without one are unchanged.
 fn aimed(instruction: u32, place: usize, target: usize) -> Option<u32> {
     let (next, target) = (place as i64 + 1, target as i64);
     let in_17 = |distance: i64| {
@@ -151,7 +151,7 @@ impl Probes {
     }
 }
 
-/// The lines to note before each instruction.
+/// The lines to record before each instruction.
 fn places(function: &Prototype<'_>, counted: &BTreeSet<u32>) -> Vec<Vec<u32>> {
     let (code_of, line_of) = (&function.code, &function.lines);
     let entered = entered_from_other_lines(function);
@@ -160,10 +160,14 @@ fn places(function: &Prototype<'_>, counted: &BTreeSet<u32>) -> Vec<Vec<u32>> {
     let first = usize::from(function.is_vararg);
     for i in first..code_of.len() {
         let begins = i == first || line_of[i] != line_of[i - 1] || entered[i];
-        if begins && !is_noted_before(function, i) && can_stand_before(function, i) && counted.contains(&line_of[i]) {
+        if begins
+            && !is_recorded_before(function, i)
+            && accepts_probe_before(function, i)
+            && counted.contains(&line_of[i])
+        {
             places[i].push(line_of[i]);
         }
-        // Between the two comes nothing.
+        // No probe can be inserted between these two instructions.
         if let (op::TFORPREP, Some(call)) = (code(code_of[i]), target(i, code_of[i]))
             && line_of.get(call).is_some_and(|line| *line != line_of[i] && counted.contains(line))
         {
@@ -185,8 +189,8 @@ fn entered_from_other_lines(function: &Prototype<'_>) -> Vec<bool> {
     entered
 }
 
-/// The end of a numeric loop whose beginning, always run before, is of the same line.
-fn is_noted_before(function: &Prototype<'_>, i: usize) -> bool {
+/// The end of a numeric loop on the same line as its beginning, which has run before.
+fn is_recorded_before(function: &Prototype<'_>, i: usize) -> bool {
     let begin = target(i, function.code[i]).and_then(|body| body.checked_sub(1));
     code(function.code[i]) == op::FORLOOP
         && begin.is_some_and(|begin| {
@@ -194,8 +198,9 @@ fn is_noted_before(function: &Prototype<'_>, i: usize) -> bool {
         })
 }
 
-/// Whether a probe may stand before an instruction: not where it belongs to the one before, or takes what that has left above the registers.
-fn can_stand_before(function: &Prototype<'_>, i: usize) -> bool {
+/// Whether a probe can be inserted before an instruction: not if the previous instruction requires it to be next, or leaves a variable
+/// number of values for it.
+fn accepts_probe_before(function: &Prototype<'_>, i: usize) -> bool {
     let belongs = matches!(code(function.code[i]), op::MMBIN..=op::MMBINK | op::EXTRAARG | op::TFORCALL | op::TFORLOOP);
     let Some(before) = i.checked_sub(1).map(|before| function.code[before]) else { return !belongs };
     let has_next = match code(before) {
@@ -206,7 +211,7 @@ fn can_stand_before(function: &Prototype<'_>, i: usize) -> bool {
     !belongs && !has_next
 }
 
-/// `notes.LINE = true`, or where the constants of a function are too many for that, `notes[LINE] = LINE`, with registers from `scratch` on.
+/// `notes.LINE = true`, or in a function with too many constants `notes[LINE] = LINE`, which uses registers from `scratch`.
 fn probe(function: &mut Prototype<'_>, scratch: u8, upvalue: u8, line: u32) -> Option<Vec<u32>> {
     let upvalue = u32::from(upvalue);
     if function.constant_count() < MAX_8 {

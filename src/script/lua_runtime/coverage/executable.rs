@@ -1,33 +1,32 @@
 //! The lines of a Lua text that can run, as Lua's compiler sees them: the lines of the instructions of all its functions.
 //!
-//! Left out is what is no statement of the text: the return that
-//! ends every function, and lines with nothing but `end`, `else` and brackets, where the compiler puts instructions of the lines around.
+//! Instructions that are not statements of the text are left out: the return at the end of every function, and lines with only `end`,
+//! `else` or brackets, to which the compiler assigns instructions of neighbouring lines.
 
 use std::collections::BTreeSet;
 
-use super::bytecode::{Chunk, Prototype};
 use crate::script::coverage::Function;
-use crate::script::lua::compile;
+use crate::script::lua::{Bytecode, Prototype};
 
-/// What of a text can run: all functions that can run something, by their first lines. None when it does not compile.
+/// The functions of a text and their lines that can run, sorted by first line. None if the text does not compile.
 pub fn executable(text: &[u8]) -> Option<Vec<Function>> {
     let mut text = text.to_vec();
     if text.first() == Some(&b'#') {
         // As `lua` does for the first line of a file.
         text.splice(0..0, *b"--");
     }
-    let bytecode = compile(&text, "=").ok()?;
+    let bytecode = Bytecode::compile(&text, "=").ok()?;
     let mut found = Vec::new();
     let source: Vec<&[u8]> = text.split(|&byte| byte == b'\n').collect();
-    add(&Chunk::read(&bytecode)?.main, &mut found, &source)?;
+    add(&bytecode.main_function()?, &mut found, &source)?;
     found.sort();
     Some(found)
 }
 
-/// Adds a function and those inside of it.
+/// Adds a function and the functions inside it.
 fn add(function: &Prototype<'_>, found: &mut Vec<Function>, source: &[&[u8]]) -> Option<()> {
     function.inner.iter().try_for_each(|inner| add(inner, found, source))?;
-    // The return that ends every function is none of the text; the first instruction of one with `...` only arranges its arguments.
+    // The return at the end of every function is not in the text; the first instruction of a function with `...` only arranges its arguments.
     let (_, lines) = function.lines.split_last()?;
     let lines = lines.iter().skip(usize::from(function.is_vararg)).copied();
     let lines: BTreeSet<u32> = lines.filter(|&line| is_statement(source, line)).collect();

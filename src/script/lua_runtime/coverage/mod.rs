@@ -1,11 +1,9 @@
 //! Coverage of one Lua state: instrumented texts, and the lines that ran.
 //!
-//! Which lines there are to run says `executable`. Texts get `probes` when they are loaded, which note the lines that run; a line counts
-//! once for each state that has run it.
+//! `executable` determines which lines can run. When a text is loaded, probes are inserted into its bytecode, which record the lines that run.
+//! A line counts once for each state that has run it.
 
-mod bytecode;
 mod executable;
-mod probes;
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -20,21 +18,20 @@ use crate::script::lua::{LuaError, Stack, Type, push_callback};
 use crate::script::runtime::SourceText;
 use crate::script::sim::Sim;
 pub use executable::executable;
-use probes::with_probes;
 
-/// Texts of one state beyond which nothing is counted: Lua code can name any text.
+/// Maximum number of texts per state: Lua code can use any number of names.
 const MAX_TEXTS: usize = 1000;
-/// The tables the probes write to, by chunk name.
+/// Registry key of the tables that the probes write to, by chunk name.
 const NOTES: &CStr = c"swanilda.coverage";
 
-/// What one state counts. It is application data of the state.
+/// The coverage of one state; application data of that state.
 #[derive(Default)]
 pub(super) struct Coverage {
     texts: RefCell<Vec<Text>>,
     own: RefCell<Option<Own>>,
 }
 
-/// A text that is counted.
+/// A text whose lines are counted.
 struct Text {
     chunk_name: Box<[u8]>,
     /// The lines that can run.
@@ -48,7 +45,7 @@ struct Own {
     text: Arc<[u8]>,
 }
 
-/// Makes a state count the lines of what it loads from now on.
+/// Counts the lines of every text that a state loads from now on.
 pub(super) fn install(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
     stack.lua().set_app_data(Coverage::default());
     load_module(stack, sim, "coverage_loaders")?;
@@ -65,7 +62,7 @@ fn count(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     Ok(1)
 }
 
-/// The script's text, whose function is on top of the stack, is going to run; reports call it `path`.
+/// Instruments the script's own text, whose function is on top of the stack. Reports call it `path`.
 pub(super) fn begin(stack: Stack<'_>, source: &SourceText<'_>, path: &str) {
     if let Some(coverage) = stack.lua().app_data_ref::<Coverage>() {
         let (chunk_name, text) = (source.chunk_name.into(), source.text.into());
@@ -80,12 +77,12 @@ impl Coverage {
         let Some(chunk_name) = stack.chunk_name_of_function() else { return };
         let Some(lines) = self.lines_of(&chunk_name) else { return };
         stack.push_value(-1);
-        let Some((bytecode, upvalue)) = with_probes(&stack.dump(), &lines) else { return };
+        let Some(instrumented) = stack.dump().and_then(|bytecode| bytecode.with_probes(&lines)) else { return };
         push_notes(stack, &chunk_name);
-        stack.replace_function(&bytecode, i32::from(upvalue));
+        stack.replace_function(&instrumented);
     }
 
-    /// The lines that can run of the text with that name; None when it is not counted.
+    /// The lines that can run in the text with that name; None if it is not counted.
     fn lines_of(&self, chunk_name: &[u8]) -> Option<BTreeSet<u32>> {
         let mut texts = self.texts.borrow_mut();
         if let Some(known) = texts.iter().find(|text| *text.chunk_name == *chunk_name) {
@@ -121,7 +118,7 @@ impl Coverage {
 }
 
 impl Text {
-    /// 1 for each line that has run since the last time.
+    /// 1 for each line that has run since the last call.
     fn take_notes(&self, stack: Stack<'_>) -> Counts {
         let mut counts = vec![0; self.lines.last().map_or(0, |&line| line as usize)];
         let top = stack.top();

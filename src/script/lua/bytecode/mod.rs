@@ -1,0 +1,121 @@
+//! Compiled Lua functions.
+//!
+//! Lua does not check bytecode: wrong bytes corrupt memory. So [`Bytecode`] can only be made by Lua's compiler and by the rewriting in
+//! this module, and only a `Bytecode` can be loaded without a check.
+
+mod chunk;
+mod probes;
+
+use std::collections::BTreeSet;
+use std::ffi::{CStr, CString, c_int};
+
+use mlua::chunk::ChunkMode;
+use mlua::{Error, Function, Lua, LuaOptions, StdLib, ffi};
+
+use super::calls::LuaError;
+use super::stack::Stack;
+use chunk::Chunk;
+pub(crate) use chunk::Prototype;
+
+/// A function compiled by Lua.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Bytecode(Vec<u8>);
+
+/// A function with probes, and the number of its upvalue for the table that they write to.
+pub(crate) struct Instrumented {
+    bytecode: Bytecode,
+    upvalue: u8,
+}
+
+impl Bytecode {
+    /// Compiles Lua text in a state of its own.
+    pub(crate) fn compile(code: &[u8], chunk_name: &str) -> Result<Self, String> {
+        let lua = Lua::new_with(StdLib::NONE, LuaOptions::default()).map_err(|error| error.to_string())?;
+        let chunk = lua.load(code).set_name(chunk_name.replace('\0', " ")).set_mode(ChunkMode::Text);
+        match chunk.into_function() {
+            Ok(function) => Ok(Self(function.dump(false))),
+            Err(Error::SyntaxError { message, .. }) => Err(message),
+            Err(other) => Err(other.to_string()),
+        }
+    }
+
+    /// The main function; None for bytecode of another version of Lua.
+    pub(crate) fn main_function(&self) -> Option<Prototype<'_>> {
+        Some(Chunk::read(&self.0)?.main)
+    }
+
+    /// The function with probes on these lines; None where there is no room for them.
+    pub(crate) fn with_probes(&self, lines: &BTreeSet<u32>) -> Option<Instrumented> {
+        let (bytes, upvalue) = probes::with_probes(&self.0, lines)?;
+        Some(Instrumented { bytecode: Self(bytes), upvalue })
+    }
+}
+
+impl Stack<'_> {
+    /// Compiles Lua text and pushes the chunk. Lua shows positions as `[string "name"]:line:` unless the name starts with `=` or `@`.
+    pub(crate) fn load_text(self, code: &[u8], name: &str) -> Result<(), LuaError> {
+        self.load(code, name, c"t")
+    }
+
+    /// Pushes a compiled chunk.
+    pub(crate) fn load_bytecode(self, code: &Bytecode, name: &str) -> Result<(), LuaError> {
+        self.load(&code.0, name, c"b")
+    }
+
+    fn load(self, code: &[u8], name: &str, mode: &CStr) -> Result<(), LuaError> {
+        let name = CString::new(name.replace('\0', " ")).unwrap_or_default();
+        let _room = self.room();
+        // SAFETY: `luaL_loadbufferx` reports errors as values; there is room for one. Bytecode comes from Lua's compiler.
+        let status = unsafe {
+            ffi::luaL_loadbufferx(self.raw(), code.as_ptr().cast(), code.len(), name.as_ptr(), mode.as_ptr())
+        };
+        if status == ffi::LUA_OK { Ok(()) } else { Err(self.pop_error()) }
+    }
+
+    /// The bytecode of the Lua function on top, which is popped; None for another value.
+    pub(crate) fn dump(self) -> Option<Bytecode> {
+        let function = self.to_mlua::<Function>(-1);
+        self.pop(1);
+        // The dump of a native function is empty.
+        function.ok().map(|function| function.dump(false)).filter(|bytes| !bytes.is_empty()).map(Bytecode)
+    }
+
+    /// The name of the text of the function on top; None when that is no Lua function.
+    pub(crate) fn chunk_name_of_function(self) -> Option<Vec<u8>> {
+        // SAFETY: `lua_getinfo` takes the function it is asked about from the stack. `source` has `srclen` bytes and lives as long as the
+        // function, which is still there.
+        unsafe {
+            if ffi::lua_isfunction(self.raw(), -1) == 0 || ffi::lua_iscfunction(self.raw(), -1) != 0 {
+                return None;
+            }
+            let mut record: ffi::lua_Debug = std::mem::zeroed();
+            self.push_value(-1);
+            ffi::lua_getinfo(self.raw(), c">S".as_ptr(), &raw mut record);
+            Some(std::slice::from_raw_parts(record.source.cast::<u8>(), record.srclen).to_vec())
+        }
+    }
+
+    /// Replaces the Lua function below the top by its instrumented form, which shares its upvalues. The table for the probes is on top and
+    /// is popped.
+    pub(crate) fn replace_function(self, function: &Instrumented) {
+        let upvalues = c_int::from(function.upvalue);
+        if self.load_bytecode(&function.bytecode, "=").is_err() {
+            return self.pop(1);
+        }
+        // SAFETY: the old function, the table and the new function are on top. `lua_upvalueid` returns null for upvalues that do not exist.
+        unsafe {
+            let has = |function, upvalue| !ffi::lua_upvalueid(self.raw(), function, upvalue).is_null();
+            let is_lua = ffi::lua_isfunction(self.raw(), -3) != 0 && ffi::lua_iscfunction(self.raw(), -3) == 0;
+            if !is_lua || (1..=upvalues).any(|i| !has(-1, i) || !has(-3, i)) {
+                return self.pop(2);
+            }
+            for i in 1..=upvalues {
+                ffi::lua_upvaluejoin(self.raw(), -1, i, -3, i);
+            }
+            self.push_value(-2);
+            ffi::lua_setupvalue(self.raw(), -2, upvalues + 1);
+        }
+        self.remove(-2);
+        self.remove(-2);
+    }
+}
