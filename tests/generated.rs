@@ -59,7 +59,23 @@ fn documented_parameters_exist() {
 /// Modules whose functions are described with types: what `require` returns is what the reference has.
 #[test]
 fn modules_have_the_functions_their_pages_describe() {
-    const MODULES: &[&str] = &["lfs", "simCmd", "simConvex", "simSubprocess", "simWS", "simZMQ"];
+    const MODULES: &[&str] = &[
+        "base16",
+        "base64",
+        "copy",
+        "functional",
+        "itertools",
+        "lfs",
+        "mathx",
+        "stringx",
+        "tablex",
+        "var",
+        "simCmd",
+        "simConvex",
+        "simSubprocess",
+        "simWS",
+        "simZMQ",
+    ];
     const CODE: &str = "function functions(module)
         local names = {}
         for name, member in pairs(require(module)) do

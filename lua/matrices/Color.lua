@@ -1,13 +1,7 @@
 --[[
 Colours: red, green, blue and alpha from 0 to 1.
 
-    Color{r, g, b, a}, Color('#rrggbb'), Color:rgb(r, g, b), Color:rgba(r, g, b, a), Color:hsv(h, s, v)
-    c:red(), green(), blue(), alpha(), hue(), saturation(), value()         components
-    c:r8(), g8(), b8(), a8(), rgb888(), rgba8888()                          0 to 255; one number, red first
-    c:rgb888table(), rgba8888table(), data(), inverted(), html(format)      data: {r, g, b, a}; format 'rgb' (default), 'rgba'
-    Color:iscolor(c), Color:tocolor(c)
-
-As CBOR a colour is tag 4294970000 on its four bytes. Hue is a part of the circle, 0 to 1.
+`Color{r, g, b, a}` and `Color('#rrggbb')` make one. As CBOR a colour is tag 4294970000 on its four bytes.
 ]]
 
 local class = require 'middleclass'
@@ -38,9 +32,20 @@ function Color:initialize(rgba)
     self._rgba = {component(r, 'red'), component(g, 'green'), component(b, 'blue'), component(a or 1, 'alpha')}
 end
 
+--- The red component, 0 to 1.
+-- @api float red = Color:red()
 function Color:red() return self._rgba[1] end
+
+--- The green component, 0 to 1.
+-- @api float green = Color:green()
 function Color:green() return self._rgba[2] end
+
+--- The blue component, 0 to 1.
+-- @api float blue = Color:blue()
 function Color:blue() return self._rgba[3] end
+
+--- The opacity, 0 to 1.
+-- @api float alpha = Color:alpha()
 function Color:alpha() return self._rgba[4] end
 
 -- Hue, saturation and value (Smith 1978).
@@ -60,24 +65,63 @@ local function toHsv(r, g, b)
     return hue / 6, most > 0 and range / most or 0.0, most
 end
 
+--- The hue as a fraction of the circle.
+-- @api float hue = Color:hue()
 function Color:hue() return (toHsv(table.unpack(self._rgba, 1, 3))) end
+
+--- The saturation, 0 to 1.
+-- @api float saturation = Color:saturation()
 function Color:saturation() return (select(2, toHsv(table.unpack(self._rgba, 1, 3)))) end
+
+--- The value of the HSV model, 0 to 1.
+-- @api float value = Color:value()
 function Color:value() return math.max(table.unpack(self._rgba, 1, 3)) end
 
 -- 255.1 as CoppeliaSim does: 1 becomes 255 also after a way through single precision.
 local function byteOf(x) return math.min(255, math.floor(x * 255.1)) end
 
+--- The red component, 0 to 255.
+-- @api int red = Color:r8()
 function Color:r8() return byteOf(self:red()) end
+
+--- The green component, 0 to 255.
+-- @api int green = Color:g8()
 function Color:g8() return byteOf(self:green()) end
+
+--- The blue component, 0 to 255.
+-- @api int blue = Color:b8()
 function Color:b8() return byteOf(self:blue()) end
+
+--- The opacity, 0 to 255.
+-- @api int alpha = Color:a8()
 function Color:a8() return byteOf(self:alpha()) end
+
+--- One number, 0xRRGGBB.
+-- @api int rgb = Color:rgb888()
 function Color:rgb888() return self:r8() << 16 | self:g8() << 8 | self:b8() end
+
+--- One number, 0xRRGGBBAA.
+-- @api int rgba = Color:rgba8888()
 function Color:rgba8888() return self:rgb888() << 8 | self:a8() end
+
+--- Red, green and blue, 0 to 255.
+-- @api int[] rgb = Color:rgb888table()
 function Color:rgb888table() return {self:r8(), self:g8(), self:b8()} end
+
+--- Red, green, blue and opacity, 0 to 255.
+-- @api int[] rgba = Color:rgba8888table()
 function Color:rgba8888table() return {self:r8(), self:g8(), self:b8(), self:a8()} end
+
+--- Red, green, blue and opacity, 0 to 1.
+-- @api float[] rgba = Color:data()
 function Color:data() return table.move(self._rgba, 1, 4, 1, {}) end
+
+--- The complementary colour.
+-- @api Color color = Color:inverted()
 function Color:inverted() return Color{1 - self:red(), 1 - self:green(), 1 - self:blue(), self:alpha()} end
 
+--- `#rrggbb`, or `#rrggbbaa` with the format 'rgba'.
+-- @api string text = Color:html(string format = 'rgb')
 function Color:html(format)
     if format == 'rgba' then return ('#%08x'):format(self:rgba8888()) end
     return ('#%06x'):format(self:rgb888())
@@ -102,9 +146,16 @@ function Color:__tocbor()
     return head.encode(0xC0, simCBOR.Tags.COLOR) .. head.encode(0x40, 4) .. string.char(table.unpack(self:rgba8888table()))
 end
 
+--- A colour of its components, 0 to 1.
+-- @api Color color = Color:rgb(float r, float g, float b)
 function Color.static.rgb(_, r, g, b) return Color{r, g, b} end
+
+--- A colour of its components and its opacity, 0 to 1.
+-- @api Color color = Color:rgba(float r, float g, float b, float a)
 function Color.static.rgba(_, r, g, b, a) return Color{r, g, b, a} end
 
+--- A colour of hue, saturation and value, 0 to 1.
+-- @api Color color = Color:hsv(float h, float s, float v)
 function Color.static.hsv(_, h, s, v)
     local function channel(n)
         local k = (n + h * 6) % 6
@@ -113,12 +164,16 @@ function Color.static.hsv(_, h, s, v)
     return Color{channel(5), channel(3), channel(1)}
 end
 
+--- Whether a value is a colour.
+-- @api bool result = Color:iscolor(any c)
 function Color.static.iscolor(...)
     local c = select(select('#', ...), ...)
     local meta = type(c) == 'table' and getmetatable(c)
     return type(meta) == 'table' and meta.__iscolor ~= nil
 end
 
+--- A colour of a table or a text.
+-- @api Color color = Color:tocolor(any c)
 function Color.static.tocolor(...)
     local c = select(select('#', ...), ...)
     if Color.iscolor(c) then return getmetatable(c).__tocolor(c) end

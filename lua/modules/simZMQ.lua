@@ -1,5 +1,5 @@
 --[[
-ZeroMQ: sockets that carry whole messages between programs. The functions and constants of libzmq 4.3.4 without the prefix zmq_.
+The functions and constants of libzmq 4.3.4 without the prefix zmq_.
 
 Failures return -1 and set errnum(). __raiseErrors(true) turns them into errors for the calling script; __noError.name and
 __raiseError.name are the two forms of each function. Data may be strings or buffers, results are strings. Options

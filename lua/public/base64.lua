@@ -1,8 +1,5 @@
 --[[
-Bytes as base 64 (RFC 4648): encode(data), decode(encoded).
-
-Takes strings and buffers, gives strings. decode takes the alphabet for URLs too, skips white space, and does without the padding;
-anything else is an error.
+Base 64 of bytes (RFC 4648). Functions accept strings and buffers and return strings.
 ]]
 
 local base64 = {}
@@ -16,6 +13,8 @@ for i = 0, 63 do
     values[letters[i]] = i
 end
 
+--- The base-64 form of some bytes.
+-- @api string encoded = base64.encode(buffer data)
 function base64.encode(data)
     data = tostring(data)
     local missing = -#data % 3
@@ -27,6 +26,8 @@ function base64.encode(data)
     return encoded:sub(1, #encoded - missing) .. ('='):rep(missing)
 end
 
+--- The bytes of base-64 text. Also accepts the URL alphabet, white space and missing padding; other characters are an error.
+-- @api string data = base64.decode(buffer encoded)
 function base64.decode(encoded)
     local text = tostring(encoded):gsub('%s+', ''):gsub('=?=?$', '')
     local missing = -#text % 4

@@ -1,5 +1,5 @@
 --[[
-JSON in the manner of the small library many scripts bring along: encode(value) and decode(text), which raise errors.
+JSON with the interface of the small library that many scripts bring along. Errors are raised.
 
 A file json.lua beside the scene is loaded instead of this one. Tables with element 1, and empty ones, are arrays; null becomes nil.
 ]]
@@ -51,12 +51,16 @@ function encodeValue(value, above)
     return ('%.14g'):format(value)
 end
 
+--- The JSON form of a value.
+-- @api string text = json.encode(any value)
 function json.encode(value)
     local ok, result = pcall(encodeValue, value, {depth = 0})
     if not ok then error(result, 2) end
     return result
 end
 
+--- The value of JSON text; null becomes nil.
+-- @api any value = json.decode(buffer text)
 function json.decode(text)
     if isbuffer(text) then text = tostring(text) end
     if type(text) ~= 'string' then error('expected argument of type string, got ' .. type(text), 2) end

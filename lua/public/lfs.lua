@@ -1,15 +1,5 @@
 --[[
-Files and folders, with the interface of LuaFileSystem.
-
-    attributes(path, what)           table of mode, size, modification, access, change, permissions, dev, ino, nlink, uid, gid, rdev,
-                                     blocks, blksize; one of them when `what` names it; filled into `what` when that is a table
-    symlinkattributes(path, what)    the same of a link itself; has `target` too
-    dir(path)                        iterator over names, and an object with next() and close()
-    mkdir, rmdir, chdir(path), currentdir(), link(old, new, symlink), touch(path, access, modification)
-    lock(file, mode, start, length), unlock(file, start, length)     of files of io.open; the whole file is locked
-    setmode(file, mode)              no effect outside of Windows
-
-Failures are results: nil, the reason, and its number. Only dir raises an error. Names come sorted.
+Failures are results: nil, the reason, and its number. Only dir raises an error.
 ]]
 
 local _, native = ...
@@ -34,9 +24,16 @@ local function attributes(path, what, follow)
     return what
 end
 
+--- Attributes of a file as a table; one of them if `what` is its name. If `what` is a table, they are written into it.
+-- @api any result, string message, int code = lfs.attributes(string path, any what = nil)
 function lfs.attributes(path, what) return attributes(path, what, true) end
+
+--- Attributes of a link itself; `target` is one of them.
+-- @api any result, string message, int code = lfs.symlinkattributes(string path, any what = nil)
 function lfs.symlinkattributes(path, what) return attributes(path, what, false) end
 
+--- Sets the times of last access and modification, in seconds since 1970.
+-- @api bool result, string message, int code = lfs.touch(string path, float access = os.time(), float modification = access)
 function lfs.touch(path, access, modification)
     local now = os.time()
     access = access or now
@@ -57,6 +54,8 @@ end
 function Directory:close() self.names = nil end
 Directory.__close, Directory.__gc = Directory.close, Directory.close
 
+--- An iterator over the sorted names in a folder, and an object with next() and close().
+-- @api func next, any directory = lfs.dir(string path)
 function lfs.dir(path)
     local names, message = native.list(path)
     if not names then error(message, 2) end
@@ -64,8 +63,12 @@ function lfs.dir(path)
     return Directory.next, directory, nil, directory
 end
 
+--- Releases the lock of an open file.
+-- @api bool result, string message, int code = lfs.unlock(any file)
 function lfs.unlock(file) return native.lock(file, 'u') end
 
+--- Without effect except on Windows.
+-- @api bool result, string mode = lfs.setmode(any file, string mode)
 function lfs.setmode(file, mode)
     if io.type(file) ~= 'file' then error('bad argument #1 to \'setmode\' (open file expected)', 2) end
     if mode ~= 'binary' and mode ~= 'text' then error(("bad argument #2 to 'setmode' (invalid option '%s')"):format(mode), 2) end

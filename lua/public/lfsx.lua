@@ -1,11 +1,5 @@
 --[[
-lfs with functions on paths and trees of folders; require 'lfsx' gives lfs with these added.
-
-    pathsep(), pathsanitize(p), pathsplit(p), pathjoin(...), pathparts(p), basename(p), dirname(p)
-    isfile(p), isdir(p), ispathabsolute(p), realpath(p), gettempdir()
-    makedirs(p, exist_ok), rmdir_r(dir)
-
-pathsplit gives folder and name, pathparts a table of all names, with '/' first where the path is absolute.
+Of the functions on paths only isfile, isdir and realpath access the file system.
 ]]
 
 local _, native = ...
@@ -13,9 +7,12 @@ local lfs = require 'lfs'
 
 local SEPARATOR <const> = package.config:sub(1, 1)
 
+--- The separator of paths.
+-- @api string separator = lfsx.pathsep()
 function lfs.pathsep() return SEPARATOR end
 
 --- Separators of this system, none twice, none at the end.
+-- @api string path = lfsx.pathsanitize(string p)
 function lfs.pathsanitize(p)
     if SEPARATOR == '\\' then p = p:gsub('/', '\\') end
     local pattern = SEPARATOR == '\\' and '\\\\+' or '/+'
@@ -24,6 +21,8 @@ function lfs.pathsanitize(p)
     return p
 end
 
+--- The folder and the last name of a path.
+-- @api string folder, string name = lfsx.pathsplit(string p)
 function lfs.pathsplit(p)
     p = lfs.pathsanitize(p)
     local folder, name = p:match('^(.*)' .. (SEPARATOR == '\\' and '\\' or '/') .. '(.*)$')
@@ -32,6 +31,7 @@ function lfs.pathsplit(p)
 end
 
 --- Parts joined by separators; an absolute part restarts the path.
+-- @api string path = lfsx.pathjoin(...)
 function lfs.pathjoin(...)
     local joined = ''
     local parts = type((...)) == 'table' and (...) or {...}
@@ -45,6 +45,8 @@ function lfs.pathjoin(...)
     return joined == '' and '' or lfs.pathsanitize(joined)
 end
 
+--- The names in a path; the first one is '/' if the path is absolute.
+-- @api string[] parts = lfsx.pathparts(string p)
 function lfs.pathparts(p)
     p = lfs.pathsanitize(p)
     local parts = {}
@@ -53,11 +55,24 @@ function lfs.pathparts(p)
     return parts
 end
 
+--- The last name of a path.
+-- @api string name = lfsx.basename(string path)
 function lfs.basename(path) return (select(2, lfs.pathsplit(path))) end
+
+--- The folder of a path.
+-- @api string folder = lfsx.dirname(string path)
 function lfs.dirname(path) return (lfs.pathsplit(path)) end
+
+--- Whether a path is a regular file.
+-- @api bool result = lfsx.isfile(string p)
 function lfs.isfile(p) return lfs.attributes(p, 'mode') == 'file' end
+
+--- Whether a path is a folder.
+-- @api bool result = lfsx.isdir(string p)
 function lfs.isdir(p) return lfs.attributes(p, 'mode') == 'directory' end
 
+--- Whether a path is absolute.
+-- @api bool result = lfsx.ispathabsolute(string path)
 function lfs.ispathabsolute(path)
     if SEPARATOR == '\\' then return path:find('^%a:[\\/]') ~= nil or path:find('^[\\/][\\/]') ~= nil end
     return path:sub(1, 1) == '/'
@@ -67,6 +82,7 @@ lfs.gettempdir = native.gettempdir
 lfs.realpath = native.realpath
 
 --- Makes a folder and those above it. An existing one is an error unless exist_ok.
+-- @api bool result = lfsx.makedirs(string path, bool exist_ok = false)
 function lfs.makedirs(path, exist_ok)
     path = lfs.pathsanitize(path)
     if lfs.isdir(path) then
@@ -81,6 +97,7 @@ function lfs.makedirs(path, exist_ok)
 end
 
 --- Removes a folder with all in it; links are removed, not followed.
+-- @api bool result = lfsx.rmdir_r(string dir)
 function lfs.rmdir_r(dir)
     for name in lfs.dir(dir) do
         if name ~= '.' and name ~= '..' then

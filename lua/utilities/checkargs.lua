@@ -68,6 +68,7 @@ end
 local function hasDefault(t) return t.default ~= nil or t.default_nil or t.nullable end
 
 --- The default of a type.
+-- @api any value = checkargs.getdefault(table t)
 function checkargs.getdefault(t) return t.default end
 
 -- The function that called checkargs is at this level when seen from a function called by checkargsEx.
@@ -84,6 +85,7 @@ local function required(types)
 end
 
 --- Like checkargs; opts.level says how many functions lie between the caller and the function being checked.
+-- @api any... values = checkargs.checkargsEx(table opts, table types, ...)
 function checkargs.checkargsEx(opts, types, ...)
     local level = 3 + (opts.level or 0)
     local n, values = select('#', ...), {...}
@@ -100,7 +102,9 @@ function checkargs.checkargsEx(opts, types, ...)
     return table.unpack(values, 1, #types)
 end
 
--- Neither of these is a tail call: finding the checked function counts on their frame.
+--- Checks arguments against a list of types; returns them with defaults filled in.
+-- @api any... values = checkargs.checkargs(table types, ...)
+-- No tail call, also below: the checked function is found by counting frames.
 function checkargs.checkargs(types, ...)
     local results = table.pack(checkargs.checkargsEx({level = 1}, types, ...))
     return table.unpack(results, 1, results.n)

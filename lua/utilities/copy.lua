@@ -1,7 +1,7 @@
 --[[
-Copies of values: copy(o) of a table with the same elements, deepcopy(o, opts, copies) of all tables within.
+Copies of values.
 
-An object whose metatable has __copy or __deepcopy is copied by that. Tables met twice are copied once; `copies` holds them.
+An object whose metatable has __copy or __deepcopy is copied by that.
 ]]
 
 local tablex = require 'tablex'
@@ -13,12 +13,16 @@ local function own(o, name)
     return type(meta) == 'table' and meta[name]
 end
 
+--- A copy with the same elements.
+-- @api any result = copy.copy(any o, any opts = nil)
 function copy.copy(o, opts)
     local byObject = own(o, '__copy')
     if byObject then return byObject(o, opts) end
     return tablex.clone(o)
 end
 
+--- A copy in which tables are copied too; a table that occurs twice is copied once.
+-- @api any result = copy.deepcopy(any o, any opts = nil, table copies = {})
 function copy.deepcopy(o, opts, copies)
     if type(o) ~= 'table' then return o end
     copies = copies or {}

@@ -1,10 +1,7 @@
 --[[
 A list that grows and shrinks at both ends in constant time.
 
-    local d = deque{1, 2}      or deque()
-    d:push(x), d:pushright(x), d:append(x), d:pushleft(x), d:appendleft(x)
-    d:pop(), d:popright(), d:popleft()      the element, or nil when there is none
-    #d, d[1], d[#d] = x, for i, x in ipairs(d)
+`deque{1, 2}` or `deque()` makes one; `#d`, `d[1]`, `d[#d] = x` and `ipairs(d)` work as with tables.
 ]]
 
 local deque = {}
@@ -24,12 +21,28 @@ local function push(d, step, x)
     end
 end
 
+--- Adds an element at the start.
+-- @api deque:pushleft(any x)
 function deque:pushleft(x) push(self, -1, x) end
+
+--- Adds an element at the end.
+-- @api deque:pushright(any x)
 function deque:pushright(x) push(self, 1, x) end
+
+--- Adds an element at the end.
+-- @api deque:push(any x)
 function deque:push(x) push(self, 1, x) end
+
+--- Adds an element at the end.
+-- @api deque:append(any x)
 function deque:append(x) push(self, 1, x) end
+
+--- Adds an element at the start.
+-- @api deque:appendleft(any x)
 function deque:appendleft(x) push(self, -1, x) end
 
+--- Removes and returns the first element; nil if there is none.
+-- @api any x = deque:popleft()
 function deque:popleft()
     local list = rawget(self, SLOT)
     if list.first > list.last then return nil end
@@ -38,6 +51,8 @@ function deque:popleft()
     return x
 end
 
+--- Removes and returns the last element; nil if there is none.
+-- @api any x = deque:popright()
 function deque:popright()
     local list = rawget(self, SLOT)
     if list.first > list.last then return nil end
@@ -46,6 +61,8 @@ function deque:popright()
     return x
 end
 
+--- Removes and returns the last element; nil if there is none.
+-- @api any x = deque:pop()
 function deque:pop() return self:popright() end
 
 function deque:__len()

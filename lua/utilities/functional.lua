@@ -7,6 +7,7 @@ Base makes them global. They work on arrays; nothing here is lazy.
 local M = {}
 
 --- range(to), range(from, to), range(from, to, step): the numbers, both ends included.
+-- @api float[] result = functional.range(float from, float to = nil, float step = 1)
 function M.range(from, to, step)
     if to == nil then from, to = 1, from end
     local result = {}
@@ -27,6 +28,7 @@ local function row(tables, i)
 end
 
 --- Table of f(a[i], b[i], ...).
+-- @api table result = functional.map(func f, ...)
 function M.map(f, ...)
     local tables, result = {...}, {}
     for i = 1, shortest(tables) do result[i] = f(table.unpack(row(tables, i), 1, #tables)) end
@@ -34,6 +36,7 @@ function M.map(f, ...)
 end
 
 --- Folds from the left; without an initial value the first element is the start.
+-- @api any result = functional.reduce(func f, table t, any initial = nil)
 function M.reduce(f, t, initial)
     local first = 1
     if initial == nil then initial, first = t[1], 2 end
@@ -41,6 +44,8 @@ function M.reduce(f, t, initial)
     return initial
 end
 
+--- The elements for which f is true.
+-- @api table result = functional.filter(func f, table t)
 function M.filter(f, t)
     local result = {}
     for _, value in ipairs(t) do
@@ -49,23 +54,31 @@ function M.filter(f, t)
     return result
 end
 
+--- Calls f(a[i], b[i], ...) for all elements.
+-- @api functional.foreach(func f, ...)
 function M.foreach(f, ...)
     local tables = {...}
     for i = 1, shortest(tables) do f(table.unpack(row(tables, i), 1, #tables)) end
 end
 
+--- Its arguments.
+-- @api any... result = functional.identity(...)
 function M.identity(...) return ... end
 
 --- Rows of several tables: zip({1, 2}, {3, 4}) is {{1, 3}, {2, 4}}.
+-- @api table rows = functional.zip(...)
 function M.zip(...)
     local tables, result = {...}, {}
     for i = 1, shortest(tables) do result[i] = row(tables, i) end
     return result
 end
 
+--- A function that returns `not f(...)`.
+-- @api func result = functional.negate(func f)
 function M.negate(f) return function(...) return not f(...) end end
 
 --- Calls f with the elements of the last argument appended to the others.
+-- @api any... result = functional.apply(func f, ...)
 function M.apply(f, ...)
     local values = {...}
     local last = table.remove(values)
@@ -73,6 +86,8 @@ function M.apply(f, ...)
     return f(table.unpack(values))
 end
 
+--- f with its first arguments fixed.
+-- @api func result = functional.partial(func f, ...)
 function M.partial(f, ...)
     local fixed = table.pack(...)
     return function(...)
@@ -83,6 +98,7 @@ function M.partial(f, ...)
 end
 
 --- Whether f (default: the value itself) is true for some element.
+-- @api bool result = functional.any(func f, table t = nil)
 function M.any(f, t)
     if t == nil then f, t = M.identity, f end
     for _, value in ipairs(t) do
@@ -91,6 +107,8 @@ function M.any(f, t)
     return false
 end
 
+--- Whether f (default: the value itself) is true for all elements.
+-- @api bool result = functional.all(func f, table t = nil)
 function M.all(f, t)
     if t == nil then f, t = M.identity, f end
     for _, value in ipairs(t) do
@@ -100,6 +118,7 @@ function M.all(f, t)
 end
 
 --- Iterator over the elements, without the index.
+-- @api func next = functional.iter(table t)
 function M.iter(t)
     local i = 0
     return function()
@@ -111,6 +130,7 @@ end
 local reified = 0
 
 --- Makes a function global, for interfaces that want a name, and returns the name.
+-- @api string name = functional.reify(func f, string name = nil)
 function M.reify(f, name)
     if type(f) == 'string' then return f end
     if not name then
@@ -146,8 +166,12 @@ M.operator = {
     le = function(a, b) return a <= b end,
 }
 
+--- The sum of the elements.
+-- @api float result = functional.sum(float[] t)
 function M.sum(t) return M.reduce(M.operator.add, t, 0) end
 
+--- The product of the elements.
+-- @api float result = functional.prod(float[] t)
 function M.prod(t) return M.reduce(M.operator.mul, t, 1) end
 
 function M.unittest()

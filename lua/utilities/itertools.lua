@@ -1,18 +1,13 @@
 --[[
 Chains of iterators, and tables of arrangements.
 
-    chain(i1, i2, ...)                      what i1 gives, then what i2 gives, ...
-    ichain(i1, i2, ...)                     the same behind a running number
-    product(tables)                         all rows with one element of each table
-    permutations(t, length)                 ordered selections; length: #t where left out
-    combinations(t, length)                 selections in the order of t
-    combinations_with_replacement(t, length)
-
-Iterators are functions that give nil at their end, like those of table.iter or string.gmatch.
+Iterators are functions that return nil at their end, like those of table.iter or string.gmatch.
 ]]
 
 local itertools = {}
 
+--- The values of several iterators, one after the other.
+-- @api func next = itertools.chain(...)
 function itertools.chain(...)
     local iterators, current = {...}, 1
     local function pass(first, ...)
@@ -31,6 +26,8 @@ function itertools.chain(...)
     end
 end
 
+--- The same, with a running number in front of each value.
+-- @api func next = itertools.ichain(...)
 function itertools.ichain(...)
     local iterator, i = itertools.chain(...), 0
     return function()
@@ -41,6 +38,8 @@ function itertools.ichain(...)
     end
 end
 
+--- All rows with one element of each table.
+-- @api table rows = itertools.product(table tables)
 function itertools.product(tables)
     local rows = {{}}
     for _, t in ipairs(tables) do
@@ -77,8 +76,16 @@ local function select_(t, length, once, ordered)
     return result
 end
 
+--- Ordered selections of elements.
+-- @api table rows = itertools.permutations(table t, int length = #t)
 function itertools.permutations(t, length) return select_(t, length or #t, true, false) end
+
+--- Selections of elements in the order of t.
+-- @api table rows = itertools.combinations(table t, int length = #t)
 function itertools.combinations(t, length) return select_(t, length or #t, true, true) end
+
+--- Selections in the order of t, in which elements may repeat.
+-- @api table rows = itertools.combinations_with_replacement(table t, int length = #t)
 function itertools.combinations_with_replacement(t, length) return select_(t, length or #t, false, true) end
 
 return itertools

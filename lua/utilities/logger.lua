@@ -1,5 +1,5 @@
 --[[
-Log lines with a level: log(level, format, ...) and setloglevel(level), which are globals once this module is loaded.
+Log lines with a level. Loading the module makes log and setloglevel global.
 
 A level is a number of sim.verbosity_*, or 'error', 'warning', 'info', 'debug', 'trace'. Lines beyond the level of setloglevel are
 dropped ('info' at first); the rest go to sim.addLog, where the verbosity of the script decides.
@@ -21,6 +21,8 @@ local function levelOf(name)
     return level
 end
 
+--- Logs a formatted text at a level.
+-- @api logger.log(any level, any format, ...)
 function logger.log(level, format, ...)
     local number = levelOf(level)
     if number > threshold then return end
@@ -29,6 +31,8 @@ function logger.log(level, format, ...)
     sim.addLog(number, text)
 end
 
+--- Drops texts beyond a level.
+-- @api logger.setloglevel(any level)
 function logger.setloglevel(level) threshold = levelOf(level) end
 
 log, setloglevel = logger.log, logger.setloglevel

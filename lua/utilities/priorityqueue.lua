@@ -1,13 +1,7 @@
 --[[
-A queue that gives the element of the lowest priority first; those of equal priority in the order they came.
+A queue that returns the element of the lowest priority first; elements of equal priority in the order of insertion.
 
-    local q = priorityqueue()
-    q:push(priority, value)
-    q:pop(), q:peek()          value and priority of the first, or nil
-    q:isempty(), q:size()
-    q:cancel(value)            removes an element; true when it was there
-
-priorityqueue:_compare(a, b) says whether priority a goes before b; a queue may have its own.
+`priorityqueue()` makes one. priorityqueue:_compare(a, b) says whether priority a goes before b; a queue may have its own.
 ]]
 
 local priorityqueue = {}
@@ -53,6 +47,8 @@ local function remove(queue, i)
     return entry
 end
 
+--- Adds an element.
+-- @api priorityqueue:push(any priority, any value)
 function priorityqueue:push(priority, value)
     if priority == nil or priority ~= priority then error('a priority is a value with an order', 2) end
     self.pushed = self.pushed + 1
@@ -60,22 +56,33 @@ function priorityqueue:push(priority, value)
     rise(self, #self.heap)
 end
 
+--- Removes and returns the element of the lowest priority; nil if there is none.
+-- @api any value, any priority = priorityqueue:pop()
 function priorityqueue:pop()
     if #self.heap == 0 then return nil end
     local entry = remove(self, 1)
     return entry.value, entry.priority
 end
 
+--- The element of the lowest priority; nil if there is none.
+-- @api any value, any priority = priorityqueue:peek()
 function priorityqueue:peek()
     local entry = self.heap[1]
     if entry then return entry.value, entry.priority end
     return nil
 end
 
+--- Whether there are no elements.
+-- @api bool result = priorityqueue:isempty()
 function priorityqueue:isempty() return #self.heap == 0 end
+
+--- The number of elements.
+-- @api int result = priorityqueue:size()
 function priorityqueue:size() return #self.heap end
 priorityqueue.__len = priorityqueue.size
 
+--- Removes an element; true if it was there.
+-- @api bool result = priorityqueue:cancel(any value)
 function priorityqueue:cancel(value)
     for i, entry in ipairs(self.heap) do
         if entry.value == value then

@@ -1,10 +1,7 @@
 --[[
-Random identifiers: v4() gives 'xxxxxxxx-xxxx-4xxx-yxxx-xxxxxxxxxxxx' (RFC 9562).
+Random identifiers: 'xxxxxxxx-xxxx-4xxx-yxxx-xxxxxxxxxxxx' (RFC 9562).
 
-    set_rng(f)          f(n) gives a string of n random bytes
-    rng.math_random()   such an f; it draws from the generator of the script, so that runs can be repeated
-
-Calling the module is v4. Without set_rng it draws from that generator too.
+Calling the module is v4. Without set_rng it uses rng.math_random(), which draws from the generator of the script, so that runs can be repeated.
 ]]
 
 local uuid = {rng = {}}
@@ -20,8 +17,12 @@ end
 
 local generate
 
+--- Sets the generator: f(n) returns a string of n random bytes.
+-- @api uuid.set_rng(func f)
 function uuid.set_rng(f) generate = f end
 
+--- A random identifier.
+-- @api string id = uuid.v4()
 function uuid.v4()
     generate = generate or uuid.rng.math_random()
     local bytes = {generate(16):byte(1, 16)}

@@ -11,6 +11,7 @@ local function parts(name)
 end
 
 --- Value of a.b.c, starting in context (default: the globals); nil where a part is missing.
+-- @api any value = var.getvar(string name, table context = _G)
 function M.getvar(name, context)
     local value = context or _G
     for _, part in ipairs(parts(name)) do
@@ -21,6 +22,7 @@ function M.getvar(name, context)
 end
 
 --- Sets a.b.c; missing tables on the way are created.
+-- @api var.setvar(string name, any value, table context = _G)
 function M.setvar(name, value, context)
     local owner, names = context or _G, parts(name)
     for i = 1, #names - 1 do
@@ -31,6 +33,7 @@ function M.setvar(name, value, context)
 end
 
 --- Local variables of the function at a level of the stack (1: the caller), by name.
+-- @api table values = var.getlocals(int level = 1)
 function M.getlocals(level)
     local result, i = {}, 1
     while true do
@@ -42,6 +45,7 @@ function M.getlocals(level)
 end
 
 --- 'x is {x}' with the local or global variables of the caller; {x:%.3f} formats.
+-- @api string result = var.f(string text)
 function M.f(text)
     local locals = M.getlocals(2)
     return (text:gsub('{([^{}]+)}', function(field)

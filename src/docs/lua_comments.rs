@@ -27,7 +27,7 @@ pub(super) fn functions() -> Vec<Function> {
 }
 
 /// The functions that the Lua part of a module describes: any comment with `@api module.name(...)`, and calls of `declare` with
-/// such a declaration.
+/// such a declaration. A class of the module may be named instead of the module.
 pub(super) fn in_module(module: &str, source: &str) -> Vec<Function> {
     let mut comment: Vec<&str> = Vec::new();
     let mut found = Vec::new();
@@ -36,17 +36,16 @@ pub(super) fn in_module(module: &str, source: &str) -> Vec<Function> {
             comment.push(line.trim_start_matches('-').trim());
             continue;
         }
-        if let Some(declaration) = annotated(&comment).or_else(|| declared(line)) {
-            found.extend(described(module, module, declaration, &comment));
-        }
+        let declarations = annotated(&comment).chain(declared(line));
+        found.extend(declarations.filter_map(|declaration| described(module, module, declaration, &comment)));
         comment.clear();
     }
     found
 }
 
-/// The declaration in a comment.
-fn annotated<'a>(comment: &[&'a str]) -> Option<&'a str> {
-    comment.iter().find_map(|line| line.strip_prefix("@api "))
+/// The declarations in a comment.
+fn annotated<'a>(comment: &[&'a str]) -> impl Iterator<Item = &'a str> {
+    comment.iter().filter_map(|line| line.strip_prefix("@api "))
 }
 
 /// The declaration that a line passes to `declare`.
@@ -64,7 +63,9 @@ fn in_file(module: &str, source: &str) -> Vec<Function> {
             continue;
         }
         if line.starts_with("function M.") {
-            found.extend(annotated(&comment).and_then(|declaration| described("sim", category, declaration, &comment)));
+            found.extend(
+                annotated(&comment).filter_map(|declaration| described("sim", category, declaration, &comment)),
+            );
         }
         comment.clear();
     }
@@ -73,17 +74,16 @@ fn in_file(module: &str, source: &str) -> Vec<Function> {
 
 /// `int result = module.name(int parameter)`, with the comment above it.
 fn described(module: &str, category: &str, declaration: &str, comment: &[&str]) -> Option<Function> {
-    let prefix = format!("{module}.");
-    let (results, call) = match declaration.split_once(&format!("= {prefix}")) {
-        Some((results, call)) => (results.trim(), call),
-        None => ("", declaration.strip_prefix(&prefix)?),
-    };
-    let (member, parameters) = call.split_once('(')?;
+    let (head, parameters) = declaration.split_once('(')?;
+    let (results, name) = head.split_once(" = ").unwrap_or(("", head));
+    if !belongs(module, name) {
+        return None;
+    }
     let prose: Vec<&str> = comment.iter().copied().filter(|line| !line.starts_with("@api ")).collect();
     let doc = Doc::parse(&prose.join("\n"));
     let parameters = split_list(parameters.trim_end().strip_suffix(')')?);
     Some(Function {
-        name: format!("{module}.{member}"),
+        name: name.to_owned(),
         category: category.to_owned(),
         parameters: parameters.iter().map(|text| parameter(text, &doc)).collect(),
         results: split_list(results).iter().map(|text| result(text, &doc)).collect(),
@@ -91,6 +91,12 @@ fn described(module: &str, category: &str, declaration: &str, comment: &[&str]) 
         alias_of: None,
         deprecated: None,
     })
+}
+
+/// `module.name`, `module:name`, and `Class:name` for the classes of a module.
+fn belongs(module: &str, name: &str) -> bool {
+    let is_class = name.starts_with(char::is_uppercase) && name.contains(':');
+    is_class || name.strip_prefix(module).is_some_and(|rest| rest.starts_with(['.', ':']))
 }
 
 /// `int objectHandle = -1`, or `...`.
@@ -108,16 +114,17 @@ fn result(text: &str, doc: &Doc) -> Returned {
     Returned { name: name.to_owned(), ty: ty.to_owned(), text: doc.of_result(name) }
 }
 
-/// Splits at commas outside of braces.
+/// Splits at commas outside of braces and quotes.
 fn split_list(text: &str) -> Vec<&str> {
-    let mut depth = 0;
+    let (mut depth, mut is_quoted) = (0, false);
     let parts = text.split(move |c| {
         match c {
             '{' => depth += 1,
             '}' => depth -= 1,
+            '\'' => is_quoted = !is_quoted,
             _ => {}
         }
-        c == ',' && depth == 0
+        c == ',' && depth == 0 && !is_quoted
     });
     parts.map(str::trim).filter(|part| !part.is_empty()).collect()
 }

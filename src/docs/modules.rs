@@ -1,4 +1,4 @@
-//! The page of the Lua modules: what stands at the head of each file, and the functions in it that have a comment.
+//! The pages of the modules: what each is for, and its functions.
 
 use std::fmt::Write as _;
 
@@ -57,18 +57,16 @@ const INNER: &[&str] = &[
 
 /// `docs/api/modules.md`.
 pub(super) fn page() -> String {
-    let mut out = "# Modules\n\n[All categories](README.md)\n\nWhat `require` finds beside `sim`. Generated from the heads of the files in \
-                   `lua`.\n"
-        .to_owned();
+    let mut out =
+        "# Modules\n\n[All categories](README.md)\n\nThe modules that `require` finds, except `sim`. Generated from \
+                   `src/modules` and `lua`.\n"
+            .to_owned();
     for (name, source) in public() {
         let module = name.replace('/', ".");
-        let _ = write!(out, "\n## {module}\n\n");
-        match described(&module) {
-            functions if functions.is_empty() => out.push_str(&section(source)),
-            functions => {
-                let summary = head(source).split("\n\n").next().unwrap_or_default();
-                let _ = writeln!(out, "{summary}\n\n[{} functions]({module}.md)", functions.len());
-            }
+        let _ = write!(out, "\n## {module}\n\n{}\n", summary(&module));
+        match described(&module).len() {
+            0 => out.push_str(&section(details(&module), source)),
+            count => drop(write!(out, "\n[{count} functions]({module}.md)\n")),
         }
     }
     out
@@ -76,24 +74,21 @@ pub(super) fn page() -> String {
 
 /// A page for each module whose functions are described with types: path and text.
 pub(super) fn own_pages() -> Vec<(String, String)> {
-    let pages = public().filter_map(|(name, source)| {
+    let pages = public().filter_map(|(name, _)| {
         let module = name.replace('/', ".");
         let functions = described(&module);
         if functions.is_empty() {
             return None;
         }
-        let text = own_page(&module, source, &functions);
+        let text = own_page(&module, &functions);
         Some((format!("docs/api/{module}.md"), text))
     });
     pages.collect()
 }
 
-fn own_page(module: &str, source: &str, functions: &[Function]) -> String {
-    let (summary, rest) = head(source).split_once("\n\n").unwrap_or((head(source), ""));
-    let mut out = format!("# {module}\n\n[All modules](modules.md)\n\n{summary}\n");
-    if !rest.is_empty() {
-        let _ = write!(out, "\n```text\n{rest}\n```\n");
-    }
+fn own_page(module: &str, functions: &[Function]) -> String {
+    let summary = summary(module);
+    let mut out = format!("# {module}\n\n[All modules](modules.md)\n\n{summary}\n{}", section(details(module), ""));
     for function in functions {
         let _ = write!(out, "\n## {}\n\n{}", function.name, markdown::body(function));
     }
@@ -120,10 +115,37 @@ pub(super) fn public() -> impl Iterator<Item = (String, &'static str)> {
     files.map(|&(name, source)| (name.to_owned(), source)).chain(native)
 }
 
-/// The first paragraph of what a module's Lua part says about it; empty without a Lua part.
+/// What a module is for.
 pub(super) fn summary(module: &str) -> &'static str {
-    let source = public().find(|(name, _)| name.replace('/', ".") == module).map_or("", |(_, source)| source);
-    head(source).split("\n\n").next().unwrap_or_default()
+    match about(module) {
+        "" => head(source_of(module)).split("\n\n").next().unwrap_or_default(),
+        about => about,
+    }
+}
+
+/// What else there is to know about it: the rest of the head of its Lua part.
+pub(super) fn details(module: &str) -> &'static str {
+    let head = head(source_of(module));
+    match about(module) {
+        "" => head.split_once("\n\n").map_or("", |(_, rest)| rest),
+        _ => head,
+    }
+}
+
+fn about(module: &str) -> &'static str {
+    ALL.iter().find(|of| of.name == module).map_or("", |of| of.about)
+}
+
+/// The Lua part of a module; empty without one.
+pub(super) fn source_of(module: &str) -> &'static str {
+    let path = module.replace('.', "/");
+    public().find(|(known, _)| *known == path).map_or("", |(_, source)| source)
+}
+
+/// The files that a module loads from the folder of its name.
+pub(super) fn parts(module: &str) -> impl Iterator<Item = &'static str> {
+    let folder = module.replace('.', "/") + "/";
+    FILES.iter().filter(move |(name, _)| name.starts_with(&folder) && INNER.contains(name)).map(|(_, source)| *source)
 }
 
 /// The comment a file begins with.
@@ -131,13 +153,11 @@ pub(super) fn head(source: &str) -> &str {
     source.strip_prefix("--[[").and_then(|rest| rest.split_once("]]")).map_or("", |(head, _)| head).trim()
 }
 
-/// The first paragraph of the head as text, the rest as it stands, and the list of functions.
-fn section(source: &str) -> String {
-    let head = head(source);
-    let (summary, rest) = head.split_once("\n\n").unwrap_or((head, ""));
-    let mut out = format!("{summary}\n");
-    if !rest.is_empty() {
-        let _ = write!(out, "\n```text\n{rest}\n```\n");
+/// Details as they are, and the list of functions of a source.
+fn section(details: &str, source: &str) -> String {
+    let mut out = String::new();
+    if !details.is_empty() {
+        let _ = write!(out, "\n```text\n{details}\n```\n");
     }
     let functions: String = functions(source).collect();
     if !functions.is_empty() {
@@ -165,8 +185,8 @@ mod tests {
     use super::section;
 
     #[test]
-    fn heads_and_comments_make_a_section() {
-        let source = "--[[\nAdds.\n\nNot more.\n]]\nlocal M = {}\n\n--- The sum\n-- of both.\nfunction M.add(a, b) return a + b end\n";
-        assert_eq!(section(source), "Adds.\n\n```text\nNot more.\n```\n\n- `add(a, b)`: The sum of both.\n");
+    fn details_and_comments_make_a_section() {
+        let source = "local M = {}\n\n--- The sum\n-- of both.\nfunction M.add(a, b) return a + b end\n";
+        assert_eq!(section("Not more.", source), "\n```text\nNot more.\n```\n\n- `add(a, b)`: The sum of both.\n");
     }
 }

@@ -172,8 +172,10 @@ impl Doc {
 fn lua_literal(rust: &str) -> String {
     match rust {
         "None" | "Data::Nil" => "nil".to_owned(),
-        "Options::default()" | "Vec::new()" | "Data::Array(Vec::new())" | "Rest(Vec::new())" => "{}".to_owned(),
-        "String::new()" => "''".to_owned(),
+        "Options::default()" | "Vec::new()" | "Data::Array(Vec::new())" | "Rest(Vec::new())" | "Table(Data::Nil)" => {
+            "{}".to_owned()
+        }
+        "String::new()" | "Bytes(Vec::new())" => "''".to_owned(),
         "PI" => "math.pi".to_owned(),
         "Frame::World" | "Frame::default()" => "sim.handle_world".to_owned(),
         _ if rust.starts_with("special::") => rust.replace("special::", "sim.handle_").to_lowercase(),
@@ -190,7 +192,7 @@ fn lua_literal(rust: &str) -> String {
 mod tests {
     #[test]
     fn defaults_are_in_luas_spelling() {
-        for function in super::super::functions() {
+        for function in super::super::functions().into_iter().chain(super::super::module_functions()) {
             for default in function.parameters.iter().filter_map(|parameter| parameter.default.as_ref()) {
                 assert!(!default.contains("::") && default != "None", "{}: {default}", function.name);
             }

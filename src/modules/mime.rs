@@ -12,7 +12,11 @@ use crate::wire::mime::{
     wrap_quoted_printable, wrap_text,
 };
 
-pub(super) static MODULE: Module = Module { functions: &[("Filters", FUNCTIONS)], ..Module::new("mime.core") };
+pub(super) static MODULE: Module = Module {
+    about: "The low-level filters of mime.",
+    functions: &[("Filters", FUNCTIONS)],
+    ..Module::new("mime.core")
+};
 
 const FUNCTIONS: &[ApiFn] = functions![b64, unb64, qp, unqp, wrp, qpwrp, eol, dot];
 

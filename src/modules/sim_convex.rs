@@ -11,11 +11,19 @@ use crate::scene::shape::Shape;
 use crate::scene::{Data, Handle, Kind, SceneError};
 use crate::script::{Handles, Table};
 
-pub(super) static MODULE: Module = Module { functions: &[("Convex shapes", FUNCTIONS)], ..Module::new("simConvex") };
+pub(super) static MODULE: Module = Module {
+    about: "Convex hulls and convex decomposition of shapes.",
+    functions: &[("Convex shapes", FUNCTIONS)],
+    ..Module::new("simConvex")
+};
 
 const FUNCTIONS: &[ApiFn] = functions![hull, qhull, vhacd, hacd];
 
-/// The hull of shapes, dummies, point clouds and octrees together.
+/// The convex hull of shapes, dummies, point clouds and octrees, as a new shape with the frame of the world.
+///
+/// @param objectHandles the objects
+/// @param growth moves the faces outwards, metres
+/// @return shapeHandle
 #[api("simConvex.hull")]
 fn hull(cx: &mut Cx, object_handles: Handles, #[default(0.0)] growth: f64) -> Result<Handle> {
     let mut points = Vec::new();
@@ -31,7 +39,12 @@ fn hull(cx: &mut Cx, object_handles: Handles, #[default(0.0)] growth: f64) -> Re
     cx.add_object("shape", Kind::Shape(Box::new(shape)))
 }
 
-/// The hull of points.
+/// The convex hull of points.
+///
+/// @param points three coordinates each
+/// @param growth moves the faces outwards, metres
+/// @return vertices three coordinates each
+/// @return indices three of each triangle, from 0
 #[api("simConvex.qhull")]
 fn qhull(_cx: &Cx, points: Vec<f64>, #[default(0.0)] growth: f64) -> Result<(Vec<f64>, Vec<i64>)> {
     if points.is_empty() {
@@ -45,13 +58,21 @@ fn qhull(_cx: &Cx, points: Vec<f64>, #[default(0.0)] growth: f64) -> Result<(Vec
     Ok((hull.flat_vertices(), hull.flat_indices()))
 }
 
-/// Convex pieces of a shape, as new shapes.
+/// Convex decomposition of a shape into new shapes; the original stays.
+///
+/// @param shapeHandle the shape
+/// @param params resolution (100000: voxels in all, at most 16 million), concavity (0.1), plane_downsampling (4), hull_downsampling (4), alpha (0.05), beta (0.05); other fields have no effect
+/// @return shapeHandles
 #[api("simConvex.vhacd")]
 fn vhacd(cx: &mut Cx, shape_handle: Handle, #[default(Table(Data::Nil))] params: Table) -> Result<Vec<Handle>> {
     divide(cx, shape_handle, fineness(&params.0)?)
 }
 
-/// The same: the parameters of the other algorithm mean nothing here.
+/// Convex decomposition by the same algorithm as vhacd.
+///
+/// @param shapeHandle the shape
+/// @param params without effect
+/// @return shapeHandles
 #[api("simConvex.hacd")]
 fn hacd(cx: &mut Cx, shape_handle: Handle, #[default(Table(Data::Nil))] params: Table) -> Result<Vec<Handle>> {
     let _ = params;

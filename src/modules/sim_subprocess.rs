@@ -14,7 +14,11 @@ use crate::io::{Process, ProcessError, Program};
 use crate::scene::Data;
 use crate::script::{Bytes, Nil, Results, Table};
 
-pub(super) static MODULE: Module = Module { functions: &[("Programs", FUNCTIONS)], ..Module::new("simSubprocess") };
+pub(super) static MODULE: Module = Module {
+    about: "Starts programs, where that is allowed (`--allow-run`).",
+    functions: &[("Programs", FUNCTIONS)],
+    ..Module::new("simSubprocess")
+};
 
 const FUNCTIONS: &[ApiFn] = functions![exec, exec_async, is_running, wait, kill, getpid];
 
@@ -51,7 +55,17 @@ fn processes(cx: &Cx) -> Rc<RefCell<Processes>> {
     cx.script_state()
 }
 
-/// Runs a program to its end; the simulator waits.
+/// Runs a program and waits until it exits. Ctrl-c ends it with an error.
+///
+/// A program that ends by a signal is an error: the process crashed. So is one that cannot be started: waitForStarted timed out.
+///
+/// @param programPath the program
+/// @param arguments a list of strings
+/// @param input its standard input
+/// @param opts useSearchPath (true): looks a name up in PATH; workingDir: a folder; openNewConsole: for Windows
+/// @return exitCode
+/// @return output at most 256 MiB
+/// @return errorOutput at most 256 MiB
 #[api("simSubprocess.exec")]
 fn exec(
     cx: &mut Cx,
@@ -69,7 +83,12 @@ fn exec(
     Ok((exit_code.into(), Bytes(out), Bytes(err)))
 }
 
-/// Starts a program.
+/// Starts a program, which inherits the simulator's output. It is killed when the calling script ends.
+///
+/// @param programPath the program
+/// @param arguments a list of strings
+/// @param opts as in simSubprocess.exec
+/// @return handle valid in the calling script
 #[api("simSubprocess.execAsync")]
 fn exec_async(
     cx: &mut Cx,
@@ -84,13 +103,20 @@ fn exec_async(
     Ok(handle)
 }
 
-/// Whether a program still runs.
+/// Whether a program is still running.
+///
+/// @param handle the program
+/// @return result
 #[api("simSubprocess.isRunning")]
 fn is_running(cx: &Cx, handle: String) -> Result<bool> {
     Ok(processes(cx).borrow_mut().get(&handle)?.exit_code().is_none())
 }
 
-/// Waits for the end of a program; nil when it still runs after that many seconds.
+/// Waits until a program exits. A program that ends by a signal is an error.
+///
+/// @param handle the program
+/// @param timeout seconds; negative without limit
+/// @return exitCode nil if the program is still running
 #[api("simSubprocess.wait")]
 fn wait(cx: &Cx, handle: String, #[default(5.0)] timeout: f64) -> Result<Results> {
     let processes = processes(cx);
@@ -105,14 +131,19 @@ fn limit(timeout: f64) -> Option<Duration> {
     if timeout.is_nan() { Some(Duration::ZERO) } else { Duration::try_from_secs_f64(timeout).ok() }
 }
 
-/// Ends a program at once; its handle is void then.
+/// Kills a program; its handle becomes invalid.
+///
+/// @param handle the program
 #[api("simSubprocess.kill")]
 fn kill(cx: &mut Cx, handle: String) -> Result<Nil> {
     processes(cx).borrow_mut().by_handle.remove(&handle).ok_or_else(unknown)?.kill();
     Ok(Nil)
 }
 
-/// The system's number of a program.
+/// The process id of a program.
+///
+/// @param handle the program
+/// @return pid
 #[api("simSubprocess.getpid")]
 fn getpid(cx: &Cx, handle: String) -> Result<i64> {
     Ok(processes(cx).borrow_mut().get(&handle)?.id().into())

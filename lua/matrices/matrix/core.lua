@@ -60,6 +60,7 @@ local function construct(_, rows, cols, data)
 end
 
 --- From rows, from the numbers of a column, or from {dims = {rows, cols}, data = numbers}.
+-- @api Matrix m = Matrix:fromtable(table t)
 function Matrix:fromtable(t)
     if isMatrix(t) then return t:copy() end
     if t.dims and t.data then return construct(nil, t.dims[1], t.dims[2], t.data) end
@@ -73,6 +74,7 @@ function Matrix:fromtable(t)
 end
 
 --- Rows as tables; with 'data' the numbers by rows; with 'dims' a table accepted by fromtable.
+-- @api table t = Matrix:totable(string format = nil)
 function Matrix:totable(format)
     if format == 'data' then return self:data() end
     if format == 'dims' then return {dims = {self._rows, self._cols}, data = self:data()} end
@@ -81,12 +83,24 @@ function Matrix:totable(format)
     return rows
 end
 
+--- The number of rows.
+-- @api int rows = Matrix:rows()
 function Matrix:rows() return self._rows end
+
+--- The number of columns.
+-- @api int cols = Matrix:cols()
 function Matrix:cols() return self._cols end
+
+--- The number of elements.
+-- @api int count = Matrix:count()
 function Matrix:count() return self._rows * self._cols end
+
+--- Whether another matrix has the same numbers of rows and columns.
+-- @api bool result = Matrix:sameshape(Matrix m)
 function Matrix:sameshape(m) return self._rows == m._rows and self._cols == m._cols end
 
 --- Place of an element in dataref().
+-- @api int index = Matrix:offset(int i, int j)
 function Matrix:offset(i, j)
     if not (math.type(i) == 'integer' and math.type(j) == 'integer' and i >= 1 and i <= self._rows and j >= 1 and j <= self._cols) then
         error(('Matrix: no element %s, %s in %d x %d'):format(i, j, self._rows, self._cols), 3)
@@ -94,28 +108,47 @@ function Matrix:offset(i, j)
     return self._offset + (i - 1) * self._cols + j
 end
 
+--- An element.
+-- @api float value = Matrix:get(int i, int j)
 function Matrix:get(i, j) return self._data[self:offset(i, j)] end
+
+--- Sets an element.
+-- @api Matrix:set(int i, int j, float value)
 function Matrix:set(i, j, value) self._data[self:offset(i, j)] = value end
 Matrix.item, Matrix.setitem = Matrix.get, Matrix.set
 
 --- The numbers by rows, copied.
+-- @api float[] data = Matrix:data()
 function Matrix:data() return table.move(self._data, self._offset + 1, self._offset + self:count(), 1, {}) end
 --- The numbers themselves; of a row from rowref, those of the whole matrix.
+-- @api float[] data = Matrix:dataref()
 function Matrix:dataref() return self._data end
+
+--- A copy.
+-- @api Matrix m = Matrix:copy()
 function Matrix:copy() return new(self._rows, self._cols, self:data()) end
 
+--- The elements from a row and column to another.
+-- @api Matrix m = Matrix:slice(int fromrow, int fromcol, int torow, int tocol)
 function Matrix:slice(fromrow, fromcol, torow, tocol)
     return construct(nil, math.max(0, torow - fromrow + 1), math.max(0, tocol - fromcol + 1), function(i, j)
         return self:get(fromrow + i - 1, fromcol + j - 1)
     end)
 end
 
+--- A copy of a row.
+-- @api Matrix m = Matrix:row(int i)
 function Matrix:row(i) return self:slice(i, 1, i, self._cols) end
+
+--- A copy of a column.
+-- @api Matrix m = Matrix:col(int j)
 function Matrix:col(j) return self:slice(1, j, self._rows, j) end
 --- A row that shares its numbers with the matrix.
+-- @api Matrix m = Matrix:rowref(int i)
 function Matrix:rowref(i) return new(1, self._cols, self._data, self:offset(i, 1) - 1) end
 
 --- Writes m into the matrix, from an element on.
+-- @api Matrix m = Matrix:assign(int startrow, int startcol, Matrix m)
 function Matrix:assign(startrow, startcol, m)
     if not isMatrix(m) then m = Matrix:fromtable(m) end
     for i = 1, m._rows do
@@ -130,10 +163,16 @@ local function numbersOf(m, count)
     return data
 end
 
+--- Sets a row.
+-- @api Matrix m = Matrix:setrow(int i, any m)
 function Matrix:setrow(i, m) return self:assign(i, 1, new(1, self._cols, numbersOf(m, self._cols))) end
+
+--- Sets a column.
+-- @api Matrix m = Matrix:setcol(int j, any m)
 function Matrix:setcol(j, m) return self:assign(1, j, new(self._rows, 1, numbersOf(m, self._rows))) end
 
 --- Rows (1) or columns (2) in reverse.
+-- @api Matrix m = Matrix:flip(int dim = 1)
 function Matrix:flip(dim)
     return construct(nil, self._rows, self._cols, function(i, j)
         return dim == 2 and self:get(i, self._cols + 1 - j) or dim ~= 2 and self:get(self._rows + 1 - i, j)
@@ -155,12 +194,18 @@ local function indices(list, n)
 end
 
 --- The elements where these rows and columns (tables, or nil for all) cross.
+-- @api Matrix m = Matrix:at(any rowidx = nil, any colidx = nil)
 function Matrix:at(rowidx, colidx)
     rowidx, colidx = indices(rowidx, self._rows), indices(colidx, self._cols)
     return construct(nil, #rowidx, #colidx, function(i, j) return self:get(rowidx[i], colidx[j]) end)
 end
 
+--- A copy without a row.
+-- @api Matrix m = Matrix:droprow(int i)
 function Matrix:droprow(i) return self:at(without(self._rows, i), nil) end
+
+--- A copy without a column.
+-- @api Matrix m = Matrix:dropcol(int j)
 function Matrix:dropcol(j) return self:at(nil, without(self._cols, j)) end
 
 local function called(self, ...)
@@ -169,6 +214,7 @@ local function called(self, ...)
 end
 
 --- One below the other.
+-- @api Matrix m = Matrix:vertcat(...)
 function Matrix:vertcat(...)
     local parts, rows = called(self, ...), 0
     for _, m in ipairs(parts) do
@@ -184,6 +230,7 @@ function Matrix:vertcat(...)
 end
 
 --- One beside the other.
+-- @api Matrix m = Matrix:horzcat(...)
 function Matrix:horzcat(...)
     local parts, cols = called(self, ...), 0
     for _, m in ipairs(parts) do
@@ -200,14 +247,23 @@ end
 Matrix.__concat = Matrix.horzcat
 
 --- n times below, m times beside each other.
+-- @api Matrix m = Matrix:repmat(int n, int m)
 function Matrix:repmat(n, m)
     return construct(nil, n * self._rows, m * self._cols, function(i, j)
         return self:get((i - 1) % self._rows + 1, (j - 1) % self._cols + 1)
     end)
 end
 
+--- The identity matrix.
+-- @api Matrix m = Matrix:eye(int size)
 function Matrix:eye(size) return construct(nil, size, size, function(i, j) return i == j and 1 or 0 end) end
+
+--- A matrix of ones.
+-- @api Matrix m = Matrix:ones(int rows, int cols = 1)
 function Matrix:ones(rows, cols) return construct(nil, rows, cols or 1, 1) end
+
+--- A matrix of zeros.
+-- @api Matrix m = Matrix:zeros(int rows, int cols = 1)
 function Matrix:zeros(rows, cols) return construct(nil, rows, cols or 1, 0) end
 
 ---------------------------------------------------------------- as a Lua value
@@ -261,6 +317,7 @@ function Matrix:__tocbor()
 end
 
 --- Prints the rows below each other.
+-- @api Matrix:print(string name = nil, table opts = {})
 function Matrix:print(name, opts)
     local format = opts and opts.format or '%.4g'
     local lines = {name and name .. ' =' or nil}

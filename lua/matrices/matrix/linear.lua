@@ -13,9 +13,11 @@ local function checkSquare(m)
 end
 
 --- Transposed.
+-- @api Matrix m = Matrix:t()
 function Matrix:t() return Matrix(self._cols, self._rows, function(i, j) return self:get(j, i) end) end
 
 --- Product of matrices, or of each element and a number.
+-- @api Matrix m = Matrix:mul(any m)
 function Matrix:mul(m)
     if not isMatrix(m) then return self:times(m) end
     if self._cols ~= m._rows then
@@ -34,6 +36,7 @@ function Matrix.__mul(a, b)
 end
 
 --- Product with a vector; one of 3 elements is moved by a 4 x 4 matrix as a point.
+-- @api Matrix m = Matrix:mult(any v)
 function Matrix:mult(v)
     if not isMatrix(v) then v = Matrix(#v, 1, v) end
     if self._cols == 4 and v:count() == 3 then return (self * v:hom()):nonhom() end
@@ -41,6 +44,7 @@ function Matrix:mult(v)
 end
 
 --- Integer power of a square matrix; a negative one is of the inverse.
+-- @api Matrix m = Matrix:power(int k)
 function Matrix:power(k)
     checkSquare(self)
     if math.type(k) ~= 'integer' or math.abs(k) > 1 << 32 then error('Matrix: the power is an integer', 2) end
@@ -53,6 +57,8 @@ function Matrix:power(k)
     return result
 end
 
+--- The dot product of two vectors.
+-- @api float result = Matrix:dot(Matrix m)
 function Matrix:dot(m)
     if self:count() ~= m:count() then error('Matrix: vectors of different lengths', 2) end
     local a, b, sum = self:data(), m:data(), 0
@@ -60,12 +66,16 @@ function Matrix:dot(m)
     return sum
 end
 
+--- The cross product of two vectors of 3 elements.
+-- @api Matrix m = Matrix:cross(Matrix m)
 function Matrix:cross(m)
     if self:count() ~= 3 or m:count() ~= 3 then error('Matrix: cross is for vectors of 3 elements', 2) end
     local a, b = self:data(), m:data()
     return Matrix(self._rows, self._cols, {a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1]})
 end
 
+--- The Kronecker product.
+-- @api Matrix m = Matrix:kron(Matrix m)
 function Matrix:kron(m)
     return Matrix(self._rows * m._rows, self._cols * m._cols, function(i, j)
         local a = self:get((i - 1) // m._rows + 1, (j - 1) // m._cols + 1)
@@ -74,31 +84,42 @@ function Matrix:kron(m)
 end
 
 --- Columns as homogeneous coordinates: a row of ones below.
+-- @api Matrix m = Matrix:hom()
 function Matrix:hom()
     if self._rows == 1 and self._cols > 1 then return self:t():hom():t() end
     return self:vertcat(Matrix(1, self._cols, 1))
 end
 
 --- The reverse: divided by the last row.
+-- @api Matrix m = Matrix:nonhom()
 function Matrix:nonhom()
     if self._rows == 1 and self._cols > 1 then return self:t():nonhom():t() end
     local n = self._rows
     return Matrix(n - 1, self._cols, function(i, j) return self:get(i, j) / self:get(n, j) end)
 end
 
+--- The Euclidean norm of all elements.
+-- @api float norm = Matrix:norm()
 function Matrix:norm() return self:dot(self) ^ 0.5 end
+
+--- The matrix divided by its norm.
+-- @api Matrix m = Matrix:normalized()
 function Matrix:normalized() return self / self:norm() end
 
 --- The diagonal as a column; Matrix:diag(t) is a matrix with the diagonal t.
+-- @api Matrix m = Matrix:diag(any t = nil)
 function Matrix:diag(t)
     if t == nil then return Matrix(math.min(self._rows, self._cols), 1, function(i) return self:get(i, i) end) end
     local values = isMatrix(t) and t:data() or t
     return Matrix(#values, #values, function(i, j) return i == j and values[i] or 0 end)
 end
 
+--- The sum of the diagonal.
+-- @api float trace = Matrix:trace()
 function Matrix:trace() return self:diag():sum() end
 
 --- Column x, y or z (or 1 to 3) of a rotation or pose as a vector of 3.
+-- @api Matrix v = Matrix:axis(any which)
 function Matrix:axis(which)
     local j = ({x = 1, y = 2, z = 3})[which] or which
     return self:slice(1, j, 3, j)
@@ -128,6 +149,7 @@ local function eliminate(m, row, col, jordan)
 end
 
 --- Row echelon form by elimination with pivoting, reduced if `jordan`; and the determinant of the first square part.
+-- @api Matrix m, float det = Matrix:gauss(bool jordan = false)
 function Matrix:gauss(jordan)
     local m, row, det = self * 1.0, 1, 1.0
     for col = 1, m._cols do
@@ -149,11 +171,15 @@ function Matrix:gauss(jordan)
     return m, det
 end
 
+--- The determinant.
+-- @api float det = Matrix:det()
 function Matrix:det()
     checkSquare(self)
     return (select(2, self:gauss()))
 end
 
+--- The inverse.
+-- @api Matrix m = Matrix:inv()
 function Matrix:inv()
     checkSquare(self)
     local n = self._rows
@@ -199,6 +225,7 @@ local function jacobi(m)
 end
 
 --- Singular values (a column, the largest first), U, V, and with b the least-squares solution of A x = b. U and V are thin.
+-- @api Matrix s, Matrix u, Matrix v, Matrix x = Matrix:svd(bool computeu = nil, bool computev = nil, Matrix b = nil)
 function Matrix:svd(_, _, b)
     if self._rows < self._cols then
         local s, v, u = self:t():svd()
@@ -214,6 +241,7 @@ function Matrix:svd(_, _, b)
 end
 
 --- Pseudo-inverse, or its product with b. With a damping d each singular value s counts as (s^2 + d^2) / s.
+-- @api Matrix m = Matrix:pinv(Matrix b = nil, float damping = 0)
 function Matrix:pinv(b, damping)
     local s, u, v = self:svd()
     local smallest = 1e-12 * math.max(self._rows, self._cols) * (s:count() > 0 and s[1] or 0)

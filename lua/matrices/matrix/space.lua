@@ -47,6 +47,8 @@ end
 
 ---------------------------------------------------------------- vectors
 
+--- The numbers from start to stop; both ends are included.
+-- @api Matrix v = Vector:range(float start, float stop = nil, float step = 1)
 function Vector:range(start, stop, step)
     local list = {}
     if stop == nil then start, stop = 1, start end
@@ -55,6 +57,7 @@ function Vector:range(start, stop, step)
 end
 
 --- num numbers from start to stop, which is left out when endpoint is false.
+-- @api Matrix v = Vector:linspace(float start, float stop, int num = 50, bool endpoint = true)
 function Vector:linspace(start, stop, num, endpoint)
     num = num or 50
     local steps = endpoint == false and num or num - 1
@@ -62,11 +65,13 @@ function Vector:linspace(start, stop, num, endpoint)
 end
 
 --- base to the powers of linspace.
+-- @api Matrix v = Vector:logspace(float start, float stop, int num = 50, bool endpoint = true, float base = 10)
 function Vector:logspace(start, stop, num, endpoint, base)
     return Vector:linspace(start, stop, num, endpoint):applyfunc(function(x) return (base or 10) ^ x end)
 end
 
 --- Numbers with equal ratios.
+-- @api Matrix v = Vector:geomspace(float start, float stop, int num = 50, bool endpoint = true)
 function Vector:geomspace(start, stop, num, endpoint)
     local sign = start < 0 and -1 or 1
     local powers = Vector:linspace(math.log(start * sign), math.log(stop * sign), num, endpoint)
@@ -74,6 +79,7 @@ function Vector:geomspace(start, stop, num, endpoint)
 end
 
 --- The point of homogeneous coordinates.
+-- @api Matrix v = Vector3:hom(any v)
 function Vector3:hom(v)
     v = numbers(v)
     local w = v[4] or 1
@@ -81,14 +87,18 @@ function Vector3:hom(v)
 end
 
 --- The homogeneous coordinates of a point.
+-- @api Matrix v = Vector4:hom(any v)
 function Vector4:hom(v)
     v = numbers(v)
     return Vector4{v[1], v[2], v[3], v[4] or 1}
 end
 
+--- Three random numbers from 0 to 1.
+-- @api Matrix v = Vector3:random()
 function Vector3:random() return Matrix(3, 1):random() end
 
 --- A direction, all equally likely (Archimedes: z is uniform).
+-- @api Matrix v = Vector3:unitrandom()
 function Vector3:unitrandom()
     local random = Matrix(2, 1):random()
     local z, angle = 2 * random[1] - 1, 2 * math.pi * random[2]
@@ -98,21 +108,29 @@ end
 
 ---------------------------------------------------------------- rotations
 
+--- The rotation about the x axis.
+-- @api Matrix m = Matrix3x3:rotx(float angle)
 function Matrix3x3:rotx(angle)
     local c, s = math.cos(angle), math.sin(angle)
     return Matrix3x3{1, 0, 0, 0, c, -s, 0, s, c}
 end
 
+--- The rotation about the y axis.
+-- @api Matrix m = Matrix3x3:roty(float angle)
 function Matrix3x3:roty(angle)
     local c, s = math.cos(angle), math.sin(angle)
     return Matrix3x3{c, 0, s, 0, 1, 0, -s, 0, c}
 end
 
+--- The rotation about the z axis.
+-- @api Matrix m = Matrix3x3:rotz(float angle)
 function Matrix3x3:rotz(angle)
     local c, s = math.cos(angle), math.sin(angle)
     return Matrix3x3{c, -s, 0, s, c, 0, 0, 0, 1}
 end
 
+--- The rotation of a quaternion x, y, z, w.
+-- @api Matrix m = Matrix3x3:fromquaternion(any q)
 function Matrix3x3:fromquaternion(q)
     local x, y, z, w = table.unpack(numbers(q), 1, 4)
     local n = (x * x + y * y + z * z + w * w) ^ 0.5
@@ -124,11 +142,15 @@ function Matrix3x3:fromquaternion(q)
     }
 end
 
+--- The rotation of Euler angles.
+-- @api Matrix m = Matrix3x3:fromeuler(any e)
 function Matrix3x3:fromeuler(e)
     e = numbers(e)
     return Matrix3x3:rotx(e[1]) * Matrix3x3:roty(e[2]) * Matrix3x3:rotz(e[3])
 end
 
+--- The rotation about an axis.
+-- @api Matrix m = Matrix3x3:fromaxisangle(any axis, float angle)
 function Matrix3x3:fromaxisangle(axis, angle)
     local a = Vector3(axis):normalized()
     local s = math.sin(angle / 2)
@@ -157,10 +179,16 @@ local function euler(m)
     return {math.atan(-m:get(2, 3), m:get(3, 3)), b, math.atan(-m:get(1, 2), m:get(1, 1))}
 end
 
+--- The quaternion of a rotation; its numbers are written into t if that is a table.
+-- @api Matrix q = Matrix3x3:toquaternion(Matrix m, table t = nil)
 function Matrix3x3:toquaternion(m, t) return result(Vector4, quaternion(m), t) end
+
+--- The Euler angles of a rotation; they are written into t if that is a table.
+-- @api Matrix e = Matrix3x3:toeuler(Matrix m, table t = nil)
 function Matrix3x3:toeuler(m, t) return result(Vector3, euler(m), t) end
 
 --- All rotations equally likely (Shoemake 1992).
+-- @api Matrix m = Matrix3x3:random()
 function Matrix3x3:random()
     local u = Matrix(3, 1):random()
     local a, b, tau = (1 - u[1]) ^ 0.5, u[1] ^ 0.5, 2 * math.pi
@@ -169,6 +197,8 @@ function Matrix3x3:random()
     }
 end
 
+--- Whether a matrix is a rotation, within a tolerance.
+-- @api bool result = Matrix3x3:isorthonormal(Matrix m, float tol = 1e-9)
 function Matrix3x3:isorthonormal(m, tol)
     local off = (m * m:t() - Matrix:eye(3)):abs():max()
     return off <= (tol or 1e-9)
@@ -176,38 +206,69 @@ end
 
 ---------------------------------------------------------------- poses
 
+--- The pose of a rotation and a position.
+-- @api Matrix m = Matrix4x4:fromrt(any r, any t)
 function Matrix4x4:fromrt(r, t)
     local m = Matrix:eye(4) * 1.0
     m:assign(1, 1, r)
     return m:assign(1, 4, Vector3(t))
 end
 
+--- The pose of a rotation at the origin.
+-- @api Matrix m = Matrix4x4:fromrotation(Matrix m)
 function Matrix4x4:fromrotation(m) return Matrix4x4:fromrt(m, {0.0, 0.0, 0.0}) end
+
+--- The pose of a quaternion at the origin.
+-- @api Matrix m = Matrix4x4:fromquaternion(any q)
 function Matrix4x4:fromquaternion(q) return Matrix4x4:fromrotation(Matrix3x3:fromquaternion(q)) end
+
+--- The pose of Euler angles at the origin.
+-- @api Matrix m = Matrix4x4:fromeuler(any e)
 function Matrix4x4:fromeuler(e) return Matrix4x4:fromrotation(Matrix3x3:fromeuler(e)) end
+
+--- The pose of a position without rotation.
+-- @api Matrix m = Matrix4x4:fromposition(any v)
 function Matrix4x4:fromposition(v) return Matrix4x4:fromrt(Matrix:eye(3), v) end
 
+--- The pose of a position and a quaternion.
+-- @api Matrix m = Matrix4x4:frompose(any p)
 function Matrix4x4:frompose(p)
     p = numbers(p)
     return Matrix4x4:fromrt(Matrix3x3:fromquaternion{p[4], p[5], p[6], p[7]}, {p[1], p[2], p[3]})
 end
 
+--- The rotation of a pose.
+-- @api Matrix m = Matrix4x4:torotation(Matrix m)
 function Matrix4x4:torotation(m) return m:slice(1, 1, 3, 3) end
+
+--- The quaternion of a pose; its numbers are written into t if that is a table.
+-- @api Matrix q = Matrix4x4:toquaternion(Matrix m, table t = nil)
 function Matrix4x4:toquaternion(m, t) return result(Vector4, quaternion(m), t) end
+
+--- The Euler angles of a pose; they are written into t if that is a table.
+-- @api Matrix e = Matrix4x4:toeuler(Matrix m, table t = nil)
 function Matrix4x4:toeuler(m, t) return result(Vector3, euler(m), t) end
+
+--- The position of a pose; its numbers are written into t if that is a table.
+-- @api Matrix v = Matrix4x4:toposition(Matrix m, table t = nil)
 function Matrix4x4:toposition(m, t) return result(Vector3, m:slice(1, 4, 3, 4):data(), t) end
 
+--- The position and quaternion of a pose; its numbers are written into t if that is a table.
+-- @api Matrix p = Matrix4x4:topose(Matrix m, table t = nil)
 function Matrix4x4:topose(m, t)
     local pose = table.move(quaternion(m), 1, 4, 4, m:slice(1, 4, 3, 4):data())
     return result(Vector7, pose, t)
 end
 
 --- The inverse of a pose: quicker than that of any matrix.
+-- @api Matrix m = Matrix4x4:inv(Matrix m)
 function Matrix4x4:inv(m)
     local back = Matrix4x4:torotation(m):t()
     return Matrix4x4:fromrt(back, -(back * Matrix4x4:toposition(m)))
 end
 
+--- A random pose.
+-- @api Matrix m = Matrix4x4:random()
 function Matrix4x4:random() return Matrix4x4:fromrt(Matrix3x3:random(), Vector3:random()) end
 
 return M

@@ -28,7 +28,11 @@ const fn required(name: &'static str, ty: &'static str) -> Param {
 }
 
 pub(super) static CBOR: Module = Module { inner: &[TREES], ..Module::new("org.conman.cbor") };
-pub(super) static CBOR_HEADS: Module = Module { functions: &[("CBOR", HEADS)], ..Module::new("org.conman.cbor_c") };
+pub(super) static CBOR_HEADS: Module = Module {
+    about: "The heads of CBOR items: low-level functions of org.conman.cbor.",
+    functions: &[("CBOR", HEADS)],
+    ..Module::new("org.conman.cbor_c")
+};
 pub(super) static SIM_CBOR: Module = Module { inner: &[TREES], ..Module::new("simCBOR") };
 
 const TREES: &[ApiFn] = &[

@@ -18,10 +18,18 @@ use crate::scene::{Data, Key};
 use crate::script::Results;
 use lock::system_words;
 
-pub(super) static LFS: Module =
-    Module { functions: &[("Files", FUNCTIONS), ("Files", lock::FUNCTIONS)], inner: &[INNER], ..Module::new("lfs") };
+pub(super) static LFS: Module = Module {
+    about: "Files and folders, with the interface of LuaFileSystem.",
+    functions: &[("Files", FUNCTIONS), ("Files", lock::FUNCTIONS)],
+    inner: &[INNER],
+    ..Module::new("lfs")
+};
 
-pub(super) static LFSX: Module = Module { functions: &[("Paths", PATHS)], ..Module::new("lfsx") };
+pub(super) static LFSX: Module = Module {
+    about: "lfs with functions on paths and folder trees: `require 'lfsx'` adds them to lfs.",
+    functions: &[("Paths", PATHS)],
+    ..Module::new("lfsx")
+};
 
 const FUNCTIONS: &[ApiFn] = functions![current_dir, change_dir, make_dir, remove_dir, link];
 /// Behind functions of `lua/public/lfs.lua`.

@@ -14,6 +14,7 @@ use crate::script::{Bytes, Handler, Hooks, ScriptFunction};
 use endpoints::{Endpoint, HandlerKind, Role, WebSockets, handle_number};
 
 pub(super) static MODULE: Module = Module {
+    about: "WebSocket servers and clients.",
     functions: &[("WebSocket", FUNCTIONS)],
     constants: "opcode.continuation\t0\nopcode.text\t1\nopcode.binary\t2\n",
     hooks: Hooks { start_of_iteration: Some(endpoints::start_of_iteration), ..Hooks::NONE },

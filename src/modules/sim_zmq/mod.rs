@@ -21,6 +21,7 @@ use objects::objects;
 pub(crate) use objects::has_sockets;
 
 pub(super) static MODULE: Module = Module {
+    about: "ZeroMQ: sockets that carry whole messages between programs.",
     functions: &[
         ("Contexts", contexts::FUNCTIONS),
         ("Sockets", sockets::FUNCTIONS),

@@ -9,6 +9,8 @@ use super::hooks::Hooks;
 /// name, below `lua/`, is its Lua part: it gets a table of everything that is native as its second argument and returns the module.
 pub struct Module {
     pub name: &'static str,
+    /// What the module is for, in one line; empty if the head of its Lua part says it.
+    pub about: &'static str,
     /// Functions for scripts, by category. A name without a dot is a global function.
     pub functions: &'static [(&'static str, &'static [ApiFn])],
     /// Functions for the module's Lua part only.
@@ -33,6 +35,7 @@ impl Module {
     pub const fn new(name: &'static str) -> Self {
         Self {
             name,
+            about: "",
             functions: &[],
             inner: &[],
             constants: "",
