@@ -12,7 +12,7 @@ const SCRIPT: &[u8] = b"
 local REFUSED = 'attempt to load a binary chunk'
 
 local function check(text, f, message)
-    if text:sub(1, 1) ~= '\27' then return end
+    if text:sub(1, 1) ~= '\\27' then return end
     assert(f == nil and message:find(REFUSED, 1, true), 'bytecode was loaded')
 end
 
@@ -34,8 +34,8 @@ end
 function load_all(text)
     local f = try(text)
     if f then try(string.dump(f)) end
-    try('\27' .. text)
-    try('\27Lua' .. text)
+    try('\\27' .. text)
+    try('\\27Lua' .. text)
 end
 ";
 

@@ -1,43 +1,35 @@
 //! The ZeroMQ end of the remote API: a REP socket that knows which connection sent what, and when one goes.
 //!
 //! The sockets live on the simulator's own thread and move with its event loop: a request costs no change of threads, which takes longer
-//! than most requests. An answer goes straight to the system; what the system does not take at once follows as it can.
+//! than most requests. An answer goes straight to the system; what the system does not accept at once is sent later.
+
+mod connection;
+mod receiver;
 
 use std::collections::HashMap;
-use std::io::{self, ErrorKind};
-use std::mem::MaybeUninit;
+use std::io;
 use std::net::TcpListener;
-use std::pin::Pin;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::task::{Context, Poll, ready};
 use std::time::Duration;
 
-use tokio::io::{AsyncRead, ReadBuf};
 use tokio::net::TcpStream;
-use tokio::net::tcp::{OwnedReadHalf, OwnedWriteHalf};
-use tokio::sync::Notify;
 use tokio::task::JoinSet;
 use tokio::time::Instant;
 
 use super::event_loop::{Deliver, EventLoop, Inbox, Task};
-use super::zmtp::{self, Decoder, Said};
+use connection::Connection;
+use receiver::Receiver;
 
 /// What may wait for the simulator: of each connection a request and its end.
 const MOST_ARRIVALS: usize = 2 * LIMITS.connections + 1;
-/// Bytes read of a connection whose request waits for its turn: the end of the connection shows behind them.
-const MOST_AHEAD: usize = 1 << 20;
 /// Those of a server.
 const LIMITS: Limits = Limits { connections: 512, silence: Duration::from_secs(10) };
-/// Bytes that may wait for a client to read them, beyond the answer that made it so many.
-const MOST_UNREAD: usize = 64 << 20;
 /// How long a client may take to introduce itself.
 const HANDSHAKE: Duration = Duration::from_secs(10);
 /// Rest after a connection that could not be accepted.
 const REST: Duration = Duration::from_millis(50);
-/// How much is read at a time.
-const CHUNK: usize = 64 << 10;
 
 /// A connection, as long as it lasts.
 pub(crate) type Peer = u64;
@@ -70,37 +62,6 @@ pub(crate) struct ZmqServer {
 /// Those that have introduced themselves.
 #[derive(Default)]
 struct Connections(Mutex<HashMap<Peer, Arc<Connection>>>);
-
-/// The sending side of a connection.
-struct Connection {
-    stream: OwnedWriteHalf,
-    outgoing: Mutex<Outgoing>,
-    /// Wakes the connection's task when there is something to send, or when it is its turn.
-    more: Notify,
-    state: Mutex<State>,
-}
-
-/// What a connection is waiting for.
-struct State {
-    /// Its request waits for the simulator. The next one has to wait as well, so that all connections have their turn.
-    is_queued: bool,
-    /// More has come in meanwhile.
-    has_more: bool,
-    /// Its request has no answer yet.
-    is_asking: bool,
-    /// When it asked or was answered last.
-    last_active: Instant,
-}
-
-#[derive(Default)]
-struct Outgoing {
-    /// How the answer to the last request begins.
-    envelope: Vec<u8>,
-    /// What the system has not taken yet.
-    unsent: Vec<u8>,
-    /// Nothing can be sent any more.
-    given_up: bool,
-}
 
 impl ZmqServer {
     /// Serves the connections that `listener` accepts. Once `stop` is set, waits end.
@@ -166,179 +127,10 @@ impl Connections {
         let silent = connections.values().filter_map(|connection| Some((connection.silent_since()?, connection)));
         match silent.min_by_key(|(since, _)| *since) {
             Some((since, connection)) if now.duration_since(since) >= silence => {
-                connection.give_up();
+                connection.abandon();
                 true
             }
             _ => false,
-        }
-    }
-}
-
-impl Connection {
-    fn new(stream: OwnedWriteHalf) -> Self {
-        let state = State { is_queued: false, has_more: false, is_asking: false, last_active: Instant::now() };
-        Self { stream, outgoing: Mutex::default(), more: Notify::new(), state: state.into() }
-    }
-
-    fn state(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// A request is going to wait for the simulator.
-    fn enter_queue(&self) {
-        *self.state() = State { is_queued: true, has_more: false, is_asking: true, last_active: Instant::now() };
-    }
-
-    /// The simulator has the request.
-    fn leave_queue(&self) {
-        let mut state = self.state();
-        state.is_queued = false;
-        // Usually the next request comes after the answer, which wakes the task by itself.
-        if state.has_more {
-            self.more.notify_one();
-        }
-    }
-
-    /// None while it waits for an answer.
-    fn silent_since(&self) -> Option<Instant> {
-        let state = self.state();
-        (!state.is_asking && !self.outgoing().given_up).then_some(state.last_active)
-    }
-
-    /// Its task ends and says so.
-    fn give_up(&self) {
-        self.outgoing().given_up = true;
-        self.more.notify_one();
-    }
-
-    fn outgoing(&self) -> MutexGuard<'_, Outgoing> {
-        self.outgoing.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn answer(&self, content: &[u8]) {
-        let mut state = self.state();
-        (state.is_asking, state.last_active) = (false, Instant::now());
-        drop(state);
-        let mut outgoing = self.outgoing();
-        let bytes = zmtp::answer(&outgoing.envelope, content);
-        if self.send(&mut outgoing, &bytes).is_err() {
-            drop(outgoing);
-            self.give_up();
-        }
-    }
-
-    /// Gives bytes to the system, and keeps what it does not take.
-    fn send(&self, outgoing: &mut Outgoing, bytes: &[u8]) -> io::Result<()> {
-        if outgoing.unsent.len() > MOST_UNREAD {
-            return Err(ErrorKind::OutOfMemory.into());
-        }
-        let sent = if outgoing.unsent.is_empty() { self.write(bytes)? } else { 0 };
-        if sent < bytes.len() {
-            outgoing.unsent.extend_from_slice(&bytes[sent..]);
-            self.more.notify_one();
-        }
-        Ok(())
-    }
-
-    /// Writes as much as the system takes without waiting.
-    fn write(&self, bytes: &[u8]) -> io::Result<usize> {
-        let mut sent = 0;
-        while sent < bytes.len() {
-            match self.stream.try_write(&bytes[sent..]) {
-                Ok(count) => sent += count,
-                Err(error) if error.kind() == ErrorKind::WouldBlock => break,
-                Err(error) => return Err(error),
-            }
-        }
-        Ok(sent)
-    }
-
-    /// Sends what was kept.
-    fn flush(&self) -> io::Result<()> {
-        let mut outgoing = self.outgoing();
-        let sent = self.write(&outgoing.unsent)?;
-        outgoing.unsent.drain(..sent);
-        Ok(())
-    }
-
-    /// Whether something was kept.
-    fn has_unsent(&self) -> io::Result<bool> {
-        let outgoing = self.outgoing();
-        if outgoing.given_up { Err(ErrorKind::ConnectionAborted.into()) } else { Ok(!outgoing.unsent.is_empty()) }
-    }
-
-    /// Waits until what was kept can be sent on.
-    async fn wait_to_send(&self) -> io::Result<()> {
-        if self.has_unsent()? {
-            self.stream.writable().await?;
-            self.flush()
-        } else {
-            self.more.notified().await;
-            Ok(())
-        }
-    }
-}
-
-/// The receiving side of a connection.
-struct Receiver {
-    stream: OwnedReadHalf,
-    decoder: Decoder,
-}
-
-impl Receiver {
-    /// Takes what has come; an error at its end.
-    fn poll_read(&mut self, context: &mut Context<'_>) -> Poll<io::Result<()>> {
-        let mut chunk = [MaybeUninit::uninit(); CHUNK];
-        let mut chunk = ReadBuf::uninit(&mut chunk);
-        ready!(Pin::new(&mut self.stream).poll_read(context, &mut chunk))?;
-        if chunk.filled().is_empty() {
-            return Poll::Ready(Err(ErrorKind::UnexpectedEof.into()));
-        }
-        self.decoder.feed(chunk.filled());
-        Poll::Ready(Ok(()))
-    }
-
-    /// Waits until there is something to read or to send, and does that.
-    async fn move_on(&mut self, connection: &Connection) -> io::Result<()> {
-        tokio::select! {
-            read = std::future::poll_fn(|context| self.poll_read(context)) => read,
-            sent = connection.wait_to_send() => sent,
-        }
-    }
-
-    /// Greets the peer and waits until it has introduced itself.
-    async fn shake_hands(&mut self, connection: &Connection) -> io::Result<()> {
-        connection.send(&mut connection.outgoing(), &zmtp::hello())?;
-        while !self.decoder.is_ready() {
-            self.move_on(connection).await?;
-            self.decoder.shake_hands().map_err(io::Error::other)?;
-        }
-        Ok(())
-    }
-
-    /// Waits until the simulator has the request before. What comes in meanwhile is stored, up to a limit, to see the end of the connection.
-    async fn wait_for_turn(&mut self, connection: &Connection) -> io::Result<()> {
-        loop {
-            connection.state().has_more = self.decoder.stored() > 0;
-            if !connection.state().is_queued {
-                return Ok(());
-            }
-            if self.decoder.stored() < MOST_AHEAD {
-                self.move_on(connection).await?;
-            } else {
-                connection.wait_to_send().await?;
-            }
-        }
-    }
-
-    /// What the peer asks next; pings are answered here.
-    async fn hear(&mut self, connection: &Connection) -> io::Result<zmtp::Request> {
-        loop {
-            match self.decoder.next().map_err(io::Error::other)? {
-                Some(Said::Request(request)) => return Ok(request),
-                Some(Said::Ping(context)) => connection.send(&mut connection.outgoing(), &zmtp::pong(&context))?,
-                None => self.move_on(connection).await?,
-            }
         }
     }
 }
@@ -374,13 +166,13 @@ async fn serve(stream: TcpStream, peer: Peer, connections: Arc<Connections>, del
     let _ = stream.set_nodelay(true);
     let (reading, writing) = stream.into_split();
     let connection = Arc::new(Connection::new(writing));
-    let mut receiver = Receiver { stream: reading, decoder: Decoder::new() };
+    let mut receiver = Receiver::new(reading);
     let introduced = tokio::time::timeout(HANDSHAKE, receiver.shake_hands(&connection)).await;
     if !matches!(introduced, Ok(Ok(()))) {
         return;
     }
     connections.lock().insert(peer, connection.clone());
-    while let Ok(request) = receiver.hear(&connection).await {
+    while let Ok(request) = receiver.next_request(&connection).await {
         connection.outgoing().envelope = request.envelope;
         connection.enter_queue();
         deliver.deliver(Incoming::Request(peer, request.content)).await;
@@ -394,6 +186,7 @@ async fn serve(stream: TcpStream, peer: Peer, connections: Arc<Connections>, del
 
 #[cfg(test)]
 mod tests {
+    use super::super::zmtp;
     use super::*;
     use std::io::{Read, Write};
 

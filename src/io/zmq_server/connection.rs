@@ -1,0 +1,149 @@
+//! The sending side of a connection, and what it is waiting for.
+
+use std::io::{self, ErrorKind};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use tokio::net::tcp::OwnedWriteHalf;
+use tokio::sync::Notify;
+use tokio::time::Instant;
+
+use super::super::zmtp;
+
+/// Bytes that may wait for a client to read them, beyond the answer that made it so many.
+const MOST_UNREAD: usize = 64 << 20;
+
+/// The sending side of a connection.
+pub(super) struct Connection {
+    stream: OwnedWriteHalf,
+    outgoing: Mutex<Outgoing>,
+    /// Wakes the connection's task when there is something to send, or when it is its turn.
+    more: Notify,
+    state: Mutex<State>,
+}
+
+/// What a connection is waiting for.
+pub(super) struct State {
+    /// Its request waits for the simulator. The next one has to wait as well, so that all connections have their turn.
+    pub(super) is_queued: bool,
+    /// More has come in meanwhile.
+    pub(super) has_more: bool,
+    /// Its request has no answer yet.
+    is_asking: bool,
+    /// When it asked or was answered last.
+    last_active: Instant,
+}
+
+#[derive(Default)]
+pub(super) struct Outgoing {
+    /// How the answer to the last request begins.
+    pub(super) envelope: Vec<u8>,
+    /// What the system has not accepted yet.
+    unsent: Vec<u8>,
+    /// Nothing can be sent any more.
+    is_abandoned: bool,
+}
+
+impl Connection {
+    pub(super) fn new(stream: OwnedWriteHalf) -> Self {
+        let state = State { is_queued: false, has_more: false, is_asking: false, last_active: Instant::now() };
+        Self { stream, outgoing: Mutex::default(), more: Notify::new(), state: state.into() }
+    }
+
+    pub(super) fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A request is going to wait for the simulator.
+    pub(super) fn enter_queue(&self) {
+        *self.state() = State { is_queued: true, has_more: false, is_asking: true, last_active: Instant::now() };
+    }
+
+    /// The simulator has the request.
+    pub(super) fn leave_queue(&self) {
+        let mut state = self.state();
+        state.is_queued = false;
+        // Usually the next request comes after the answer, which wakes the task by itself.
+        if state.has_more {
+            self.more.notify_one();
+        }
+    }
+
+    /// None while it waits for an answer.
+    pub(super) fn silent_since(&self) -> Option<Instant> {
+        let state = self.state();
+        (!state.is_asking && !self.outgoing().is_abandoned).then_some(state.last_active)
+    }
+
+    /// Ends the task of the connection.
+    pub(super) fn abandon(&self) {
+        self.outgoing().is_abandoned = true;
+        self.more.notify_one();
+    }
+
+    pub(super) fn outgoing(&self) -> MutexGuard<'_, Outgoing> {
+        self.outgoing.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub(super) fn answer(&self, content: &[u8]) {
+        let mut state = self.state();
+        (state.is_asking, state.last_active) = (false, Instant::now());
+        drop(state);
+        let mut outgoing = self.outgoing();
+        let bytes = zmtp::answer(&outgoing.envelope, content);
+        if self.send(&mut outgoing, &bytes).is_err() {
+            drop(outgoing);
+            self.abandon();
+        }
+    }
+
+    /// Writes bytes; what the system does not accept at once is stored.
+    pub(super) fn send(&self, outgoing: &mut Outgoing, bytes: &[u8]) -> io::Result<()> {
+        if outgoing.unsent.len() > MOST_UNREAD {
+            return Err(ErrorKind::OutOfMemory.into());
+        }
+        let sent = if outgoing.unsent.is_empty() { self.write(bytes)? } else { 0 };
+        if sent < bytes.len() {
+            outgoing.unsent.extend_from_slice(&bytes[sent..]);
+            self.more.notify_one();
+        }
+        Ok(())
+    }
+
+    /// Writes as much as the system takes without waiting.
+    fn write(&self, bytes: &[u8]) -> io::Result<usize> {
+        let mut sent = 0;
+        while sent < bytes.len() {
+            match self.stream.try_write(&bytes[sent..]) {
+                Ok(count) => sent += count,
+                Err(error) if error.kind() == ErrorKind::WouldBlock => break,
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(sent)
+    }
+
+    /// Sends what was stored.
+    fn flush(&self) -> io::Result<()> {
+        let mut outgoing = self.outgoing();
+        let sent = self.write(&outgoing.unsent)?;
+        outgoing.unsent.drain(..sent);
+        Ok(())
+    }
+
+    /// Whether something is stored.
+    fn has_unsent(&self) -> io::Result<bool> {
+        let outgoing = self.outgoing();
+        if outgoing.is_abandoned { Err(ErrorKind::ConnectionAborted.into()) } else { Ok(!outgoing.unsent.is_empty()) }
+    }
+
+    /// Waits until what is stored can be sent, or there is something to send.
+    pub(super) async fn wait_to_send(&self) -> io::Result<()> {
+        if self.has_unsent()? {
+            self.stream.writable().await?;
+            self.flush()
+        } else {
+            self.more.notified().await;
+            Ok(())
+        }
+    }
+}
