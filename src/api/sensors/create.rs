@@ -7,6 +7,7 @@ use crate::scene::appearance::colour::Component;
 use crate::scene::sensor::volume::VolumeType;
 use crate::scene::sensor::{ProximityOptions, ProximitySensor, VisionOptions, VisionSensor};
 use crate::scene::voxels::octree::{OcTree, cell_size};
+use crate::scene::voxels::options::StorageOptions;
 use crate::scene::voxels::point_cloud::PointCloud;
 use crate::scene::{Field, Handle, Kind, SceneError};
 use crate::script::Number;
@@ -84,7 +85,7 @@ fn create_octree(
     #[default(4.0)] point_size: f64,
 ) -> Result<Handle> {
     let mut octree = OcTree::new(voxel_size, point_size);
-    octree.random_colours = options.0 & 2 != 0;
+    octree.random_colours = StorageOptions::from_bits_retain(options.0).contains(StorageOptions::RANDOM_COLOURS);
     cx.add_object("octree", Kind::OcTree(Box::new(octree)))
 }
 
@@ -103,14 +104,15 @@ fn create_point_cloud(
     #[default(0)] options: Number,
     #[default(4.0)] point_size: f64,
 ) -> Result<Handle> {
+    let options = StorageOptions::from_bits_retain(options.0);
     let max_points_in_cell = max_pt_cnt_per_voxel.0.max(1);
     let cloud = PointCloud {
         max_cell_size: cell_size(max_voxel_size),
         max_points_in_cell,
         point_size: point_size as i64,
-        uses_octree: options.0 & 8 == 0,
+        uses_octree: !options.contains(StorageOptions::WITHOUT_OCTREE),
         display_fraction: 1.0,
-        random_colours: options.0 & 2 != 0,
+        random_colours: options.contains(StorageOptions::RANDOM_COLOURS),
         points: Vec::new(),
     };
     cx.add_object("pointCloud", Kind::PointCloud(Box::new(cloud)))

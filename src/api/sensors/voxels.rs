@@ -4,6 +4,7 @@ use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::voxels::octree::Voxel;
+use crate::scene::voxels::options::{PointOptions, StorageOptions};
 use crate::scene::voxels::point_cloud::{CloudPoint, PointCloud};
 use crate::scene::{Data, Field, Handle, Pose, Scene};
 use crate::script::Number;
@@ -21,35 +22,46 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     set_cloud_options,
 ];
 
-/// Points are in the frame of the object, not of the world.
-const RELATIVE: i64 = 1;
-/// A colour, and a tag, for each point.
-const EACH: i64 = 2;
 /// Distance below which points are duplicates, metres.
 const DUPLICATE_TOLERANCE: f64 = 0.0;
 
 type Point = [f64; 3];
 
+fn point_options(bits: Number) -> PointOptions {
+    PointOptions::from_bits_retain(bits.0)
+}
+
 /// Points in the frame of an object.
-fn points_in(scene: &Scene, handle: Handle, options: i64, points: &[f64]) -> Result<Vec<Point>> {
+fn points_in(scene: &Scene, handle: Handle, options: Number, points: &[f64]) -> Result<Vec<Point>> {
     if points.len() < 3 {
         return Err(ApiError::TableSize);
     }
-    let frame = if options & RELATIVE != 0 { Pose::identity() } else { scene.world_pose(handle)?.inverse() };
+    let frame = if point_options(options).contains(PointOptions::RELATIVE) {
+        Pose::identity()
+    } else {
+        scene.world_pose(handle)?.inverse()
+    };
     let local = |point: &Point| (frame * nalgebra::Point3::from(*point)).into();
     Ok(points.as_chunks().0.iter().map(local).collect())
 }
 
 /// A colour for each of `count` points: one for all, one for each, or that of the object.
-fn colours(scene: &Scene, handle: Handle, options: i64, given: Option<&[f64]>, count: usize) -> Result<Vec<[u8; 3]>> {
+fn colours(
+    scene: &Scene,
+    handle: Handle,
+    options: Number,
+    given: Option<&[f64]>,
+    count: usize,
+) -> Result<Vec<[u8; 3]>> {
     let Some(given) = given.filter(|given| !given.is_empty()) else {
         let own = scene.object(handle)?.colour.ambient_diffuse.map(|part| (255.0 * part) as u8);
         return Ok(vec![own; count]);
     };
     let colours: Vec<[u8; 3]> = given.as_chunks().0.iter().map(|c: &Point| c.map(|part| part as u8)).collect();
+    let each = point_options(options).contains(PointOptions::EACH);
     match colours.as_slice() {
-        all if options & EACH != 0 && all.len() >= count => Ok(colours),
-        [one, ..] if options & EACH == 0 => Ok(vec![*one; count]),
+        all if each && all.len() >= count => Ok(colours),
+        [one, ..] if !each => Ok(vec![*one; count]),
         _ => Err(ApiError::TableSize),
     }
 }
@@ -77,8 +89,8 @@ fn insert_voxels(
 ) -> Result<i64> {
     let mut scene = cx.scene_mut();
     scene.object(octree_handle)?.octree()?;
-    let points = points_in(&scene, octree_handle, options.0, &points)?;
-    let colours = colours(&scene, octree_handle, options.0, color.as_deref(), points.len())?;
+    let points = points_in(&scene, octree_handle, options, &points)?;
+    let colours = colours(&scene, octree_handle, options, color.as_deref(), points.len())?;
     let tags = tags(tag.filter(|_| color.is_some()), points.len())?;
     Ok(scene.try_modify(octree_handle, Field::Geometry, |object| {
         let tree = object.octree_mut()?;
@@ -115,7 +127,7 @@ fn remove_voxels(
     #[default(None)] points: Option<Vec<f64>>,
 ) -> Result<i64> {
     let mut scene = cx.scene_mut();
-    let points = points.map(|points| points_in(&scene, octree_handle, options.0, &points)).transpose()?;
+    let points = points.map(|points| points_in(&scene, octree_handle, options, &points)).transpose()?;
     Ok(scene.try_modify(octree_handle, Field::Geometry, |object| {
         let tree = object.octree_mut()?;
         match points {
@@ -148,7 +160,7 @@ fn octree_voxels(cx: &Cx, octree_handle: Handle) -> Result<Vec<f64>> {
 fn check_occupancy(cx: &Cx, octree_handle: Handle, options: Number, points: Vec<f64>) -> Result<(i64, i64, i64, i64)> {
     let scene = cx.scene();
     let tree = scene.object(octree_handle)?.octree()?;
-    let points = points_in(&scene, octree_handle, options.0, &points)?;
+    let points = points_in(&scene, octree_handle, options, &points)?;
     let found: Vec<Option<&Voxel>> = points.into_iter().map(|point| tree.voxel_at(point)).collect();
     let tag = match found.as_slice() {
         [Some(voxel)] => voxel.tag.into(),
@@ -176,8 +188,8 @@ fn insert_points(
 ) -> Result<i64> {
     let mut scene = cx.scene_mut();
     scene.object(point_cloud_handle)?.point_cloud()?;
-    let points = points_in(&scene, point_cloud_handle, options.0, &points)?;
-    let colours = colours(&scene, point_cloud_handle, options.0, color.as_deref(), points.len())?;
+    let points = points_in(&scene, point_cloud_handle, options, &points)?;
+    let colours = colours(&scene, point_cloud_handle, options, color.as_deref(), points.len())?;
     let points = points.into_iter().zip(colours).map(|(position, colour)| CloudPoint { position, colour });
     change_cloud(&mut scene, point_cloud_handle, |cloud| {
         cloud.insert(points, duplicate_tolerance.unwrap_or(DUPLICATE_TOLERANCE));
@@ -212,7 +224,7 @@ fn remove_points(
     #[default(0.0)] tolerance: f64,
 ) -> Result<i64> {
     let mut scene = cx.scene_mut();
-    let points = points.map(|points| points_in(&scene, point_cloud_handle, options.0, &points)).transpose()?;
+    let points = points.map(|points| points_in(&scene, point_cloud_handle, options, &points)).transpose()?;
     change_cloud(&mut scene, point_cloud_handle, |cloud| match points {
         Some(points) => cloud.remove(points.into_iter(), tolerance),
         None => cloud.points.clear(),
@@ -235,7 +247,7 @@ fn intersect_points(
     tolerance: f64,
 ) -> Result<i64> {
     let mut scene = cx.scene_mut();
-    let points = points_in(&scene, point_cloud_handle, options.0, &points)?;
+    let points = points_in(&scene, point_cloud_handle, options, &points)?;
     change_cloud(&mut scene, point_cloud_handle, |cloud| cloud.intersect(points.into_iter(), tolerance))
 }
 
@@ -260,8 +272,10 @@ fn cloud_points(cx: &Cx, point_cloud_handle: Handle) -> Result<Vec<f64>> {
 fn cloud_options(cx: &Cx, point_cloud_handle: Handle) -> Result<(f64, i64, i64, f64)> {
     let scene = cx.scene();
     let cloud = scene.object(point_cloud_handle)?.point_cloud()?;
-    let options = i64::from(cloud.random_colours) << 1 | i64::from(!cloud.uses_octree) << 3;
-    Ok((cloud.max_cell_size, cloud.max_points_in_cell, options, cloud.point_size as f64))
+    let mut options = StorageOptions::empty();
+    options.set(StorageOptions::RANDOM_COLOURS, cloud.random_colours);
+    options.set(StorageOptions::WITHOUT_OCTREE, !cloud.uses_octree);
+    Ok((cloud.max_cell_size, cloud.max_points_in_cell, options.bits(), cloud.point_size as f64))
 }
 
 /// Changes how a point cloud keeps and shows its points.
@@ -280,12 +294,13 @@ fn set_cloud_options(
     options: Number,
     point_size: f64,
 ) -> Result<()> {
+    let options = StorageOptions::from_bits_retain(options.0);
     let mut scene = cx.scene_mut();
     change_cloud(&mut scene, point_cloud_handle, |cloud| {
         cloud.max_cell_size = crate::scene::voxels::octree::cell_size(max_voxel_size);
         cloud.max_points_in_cell = max_pt_cnt_per_voxel.0.max(1);
-        cloud.random_colours = options.0 & 2 != 0;
-        cloud.uses_octree = options.0 & 8 == 0;
+        cloud.random_colours = options.contains(StorageOptions::RANDOM_COLOURS);
+        cloud.uses_octree = !options.contains(StorageOptions::WITHOUT_OCTREE);
         cloud.point_size = point_size as i64;
     })?;
     Ok(())

@@ -7,6 +7,7 @@ use geometry::{Mesh, MeshError};
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::shape::Shape;
+use crate::scene::shape::options::{DecompositionOptions, PathShapeOptions};
 use crate::scene::{Handle, Kind, SceneError};
 use crate::script::{Number, Rest};
 
@@ -42,7 +43,7 @@ fn convex_decompose(
 ) -> Result<Handle> {
     let _ = parameters;
     let (shape, pose) = cx.scene().convex_decomposition(shape_handle)?;
-    if options.0 & 1 != 0 {
+    if DecompositionOptions::from_bits_retain(options.0).contains(DecompositionOptions::MORPH) {
         cx.scene_mut().morph_shape(shape_handle, shape)?;
         return Ok(shape_handle);
     }
@@ -74,7 +75,8 @@ fn generate_shape_from_path(
     }
     let poses: Vec<_> = path.as_chunks().0.iter().map(pose_from_array).collect();
     let up = Some(up_vector).filter(|up| up.iter().any(|c| *c != 0.0));
-    let extrusion = Extrusion { closed: options.0 & 4 != 0, up };
+    let closed = PathShapeOptions::from_bits_retain(options.0).contains(PathShapeOptions::CLOSED);
+    let extrusion = Extrusion { closed, up };
     let mesh = extrusion.mesh(&poses, section.as_chunks().0).map_err(|error| match error {
         MeshError::Empty => refused("the path or the section has no extent."),
         other => refused(&other.to_string()),

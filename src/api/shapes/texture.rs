@@ -10,7 +10,9 @@ use crate::api::display::images::{failure, read_file};
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::format::picture::{Layout, Picture};
 use crate::scene::appearance::texture::Texture;
-use crate::scene::appearance::texture_mapping::{ApplyMode, TextureMapping, TextureOptions, TextureSource};
+use crate::scene::appearance::texture_mapping::{
+    ApplyMode, MappingMode, TextureMapping, TextureOptions, TextureSource,
+};
 use crate::scene::shape::options::MeshOptions;
 use crate::scene::shape::{Part, Shape};
 use crate::scene::{Data, Handle, Kind, Pose, Scene, SceneError};
@@ -146,9 +148,8 @@ fn set_shape_texture(
         return Ok(cx.scene_mut().set_shape_texture(shape_handle, None)?);
     }
     let source = TextureSource::from_raw(texture_id.0).ok_or(SceneError::InvalidArgument)?;
-    let mode = i32::try_from(mapping_mode.0).ok().filter(|mode| (0..=3).contains(mode));
     let mapping = TextureMapping {
-        mode: mode.ok_or(SceneError::InvalidArgument)?,
+        mode: MappingMode::from_raw(mapping_mode.0).ok_or(SceneError::InvalidArgument)?,
         scale: uv_scaling.finite().ok_or(SceneError::InvalidData)?,
         frame: frame(position.unwrap_or_default(), orientation.unwrap_or_default())?,
         ..TextureMapping::new(source).with_options(TextureOptions::from_bits_retain(options.0))

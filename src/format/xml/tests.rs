@@ -99,10 +99,10 @@ fn every_kind_of_the_simple_variant_is_understood() {
     let ground = find("ground").shape().unwrap();
     assert!((ground.bounding_box.size[0] - 4.0).abs() < 1e-6 && ground.parts[0].primitive.is_some());
     let vision = find("vision").vision_sensor().unwrap();
-    assert_eq!((vision.view.resolution, vision.entity), ([64, 32], base.handle().raw()));
+    assert_eq!((vision.view.resolution, vision.entity), ([64, 32], base.handle().into()));
     let eye = find("eye").proximity_sensor().unwrap();
     assert!(
-        scene.collections().get(eye.entity).unwrap().items.len() == 1
+        scene.collections().get(eye.entity.raw()).unwrap().items.len() == 1
             && (eye.volume.angle - 60f64.to_radians()).abs() < 1e-9
     );
     assert_eq!(find("wrist").force_sensor().unwrap().force_threshold, 7.0);

@@ -16,13 +16,22 @@ pub struct Environment {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Fog {
     pub enabled: bool,
-    /// 0 linear, 1 exponential, 2 exponential of the square.
-    pub fog_type: i32,
+    pub fog_type: FogType,
     /// Metres.
     pub start: f64,
     pub end: Option<f64>,
     pub density: f64,
     pub colour: Option<[f32; 3]>,
+}
+
+/// How fog grows with distance. Other numbers are stored as written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct FogType(pub i32);
+
+impl FogType {
+    pub const LINEAR: Self = Self(0);
+    pub const EXPONENTIAL: Self = Self(1);
+    pub const EXPONENTIAL_SQUARED: Self = Self(2);
 }
 
 impl Default for Environment {

@@ -17,8 +17,7 @@ const END: i64 = 2_280_009;
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextureMapping {
     pub source: TextureSource,
-    /// `sim.texturemap_*`: how the image is projected.
-    pub mode: i32,
+    pub mode: MappingMode,
     /// Size of the image, metres.
     pub scale: [f64; 2],
     /// Where it is projected from, in the frame of the vertices.
@@ -29,6 +28,22 @@ pub struct TextureMapping {
     pub apply_mode: ApplyMode,
     /// u and v of each corner of each triangle; empty where the image is projected. Shared between copies.
     pub coordinates: Rc<[f32]>,
+}
+
+/// `sim.texturemap_*`: how an image is projected. Files may have other numbers, which are stored as written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MappingMode(pub i32);
+
+impl MappingMode {
+    pub const PLANE: Self = Self(0);
+    pub const CYLINDER: Self = Self(1);
+    pub const SPHERE: Self = Self(2);
+    pub const CUBE: Self = Self(3);
+
+    /// From a number of a script; None for an unknown one.
+    pub fn from_raw(raw: i64) -> Option<Self> {
+        [Self::PLANE, Self::CYLINDER, Self::SPHERE, Self::CUBE].into_iter().find(|mode| i64::from(mode.0) == raw)
+    }
 }
 
 /// `sim.textureapplymode_*`: how an image and the colour below it are mixed. Other numbers are stored as written.
@@ -87,7 +102,7 @@ impl TextureMapping {
     pub fn new(source: TextureSource) -> Self {
         Self {
             source,
-            mode: 0,
+            mode: MappingMode::PLANE,
             scale: [1.0, 1.0],
             frame: Pose::identity(),
             interpolate: true,

@@ -5,7 +5,7 @@ pub mod dummy;
 pub mod flags;
 pub mod handle;
 pub(in crate::scene) mod identity;
-pub(in crate::scene) mod movement;
+pub mod movement;
 pub(in crate::scene) mod objects;
 pub mod script_object;
 

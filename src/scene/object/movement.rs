@@ -8,9 +8,19 @@ pub struct Movement {
     pub forbidden: ForbiddenMovements,
     /// Steps along (m) and about (rad) an axis; 0 for those of the application.
     pub step: [f64; 2],
-    /// What translation and rotation refer to: 0 world, 1 parent, 2 the object itself.
-    pub relativity: [i64; 2],
+    /// The frames of translation and of rotation.
+    pub relativity: [MovementFrame; 2],
     pub preferred_axes: PreferredAxes,
+}
+
+/// The frame of a movement. Other numbers are stored as written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MovementFrame(pub i64);
+
+impl MovementFrame {
+    pub const WORLD: Self = Self(0);
+    pub const PARENT: Self = Self(1);
+    pub const OWN: Self = Self(2);
 }
 
 impl Default for Movement {
@@ -19,7 +29,7 @@ impl Default for Movement {
         Self {
             forbidden: ForbiddenMovements::empty(),
             step: [0.0; 2],
-            relativity: [0, 2],
+            relativity: [MovementFrame::WORLD, MovementFrame::OWN],
             preferred_axes: PreferredAxes::TRANSLATION_X | PreferredAxes::TRANSLATION_Y | PreferredAxes::ROTATION_Z,
         }
     }

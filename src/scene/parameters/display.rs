@@ -1,7 +1,7 @@
 //! The numbered parameters of cameras, sensors, lights and voxels (`sim.visionintparam_*`, `sim.camerafloatparam_*`, ...).
 
 use crate::scene::sensor::force_sensor::ForceSensor;
-use crate::scene::sensor::{Camera, Light, ProximitySensor, RenderMode, View, VisionSensor};
+use crate::scene::sensor::{Camera, Entity, Light, ProximitySensor, RenderMode, View, VisionSensor};
 use crate::scene::{Field, Handle, Kind, Object, Pose, Scene, SceneResult};
 
 /// `sim.visionintparam_*`, `sim.visionfloatparam_*`.
@@ -89,7 +89,7 @@ impl VisionSensor {
         Some(match id {
             vision::RESOLUTION_X => self.view.resolution[0].into(),
             vision::RESOLUTION_Y => self.view.resolution[1].into(),
-            vision::ENTITY_TO_RENDER => self.entity,
+            vision::ENTITY_TO_RENDER => self.entity.raw(),
             vision::RENDER_MODE => self.render_mode.0,
             vision::PERSPECTIVE_OPERATION => self.view.perspective.into(),
             vision::RGB_IGNORED => self.ignore_image.into(),
@@ -103,7 +103,7 @@ impl VisionSensor {
         match id {
             vision::RESOLUTION_X => self.set_resolution([value, height]),
             vision::RESOLUTION_Y => self.set_resolution([width, value]),
-            vision::ENTITY_TO_RENDER => self.entity = value,
+            vision::ENTITY_TO_RENDER => self.entity = Entity::from_raw(value),
             vision::RENDER_MODE => self.render_mode = RenderMode(value),
             vision::PERSPECTIVE_OPERATION => self.view.perspective = value != 0,
             vision::RGB_IGNORED => self.ignore_image = value != 0,
@@ -118,7 +118,7 @@ impl ProximitySensor {
     fn int_param(&self, id: i64) -> Option<i64> {
         match id {
             prox::VOLUME_TYPE => Some(self.volume.volume_type.index()),
-            prox::ENTITY_TO_DETECT => Some(self.entity),
+            prox::ENTITY_TO_DETECT => Some(self.entity.raw()),
             _ => None,
         }
     }
@@ -188,7 +188,7 @@ impl Object {
     fn set_display_int_param(&mut self, id: i64, value: i64) -> bool {
         match &mut self.kind {
             Kind::VisionSensor(sensor) => return sensor.set_int_param(id, value),
-            Kind::ProximitySensor(sensor) if id == prox::ENTITY_TO_DETECT => sensor.entity = value,
+            Kind::ProximitySensor(sensor) if id == prox::ENTITY_TO_DETECT => sensor.entity = Entity::from_raw(value),
             Kind::Camera(camera) if id == camera::PERSPECTIVE_OPERATION => camera.view.perspective = value != 0,
             Kind::Light(light) if id == light::POV_CASTS_SHADOWS => light.casts_shadows = value != 0,
             _ => return false,

@@ -2,7 +2,7 @@
 
 use super::options::{ProximityOptions, VisionOptions};
 use super::volume::{Volume, VolumeType};
-use super::{ProximitySensor, RenderMode, View, VisionSensor};
+use super::{Entity, ProximitySensor, RenderMode, View, VisionSensor};
 use crate::scene::appearance::colour::Colour;
 
 const DISPLAY_SIZE: f64 = 0.01;
@@ -39,7 +39,7 @@ impl ProximitySensor {
             samples: integers[4].max(1),
             required_samples: integers[5].max(1),
             angle_threshold: limit(ProximityOptions::ANGLE_THRESHOLD, 10),
-            entity: -1,
+            entity: Entity::ALL,
             ray_colour: Colour { emission: RAY_GLOW, ..Colour::new([0.0; 3]) },
             file_faces: None,
             detection: None,
@@ -97,7 +97,7 @@ impl VisionSensor {
             view,
             explicit: options.contains(VisionOptions::EXPLICIT_HANDLING),
             size,
-            entity: -1,
+            entity: Entity::ALL,
             render_mode: RenderMode::OPENGL,
             background: [red, green, blue].map(|part| part as f32),
             background_from_environment: !options.contains(VisionOptions::OWN_BACKGROUND),

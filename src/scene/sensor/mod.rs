@@ -33,12 +33,39 @@ pub struct ProximitySensor {
     pub required_samples: i64,
     /// Largest angle between ray and surface normal, rad; 0 for any.
     pub angle_threshold: f64,
-    pub entity: i64,
+    pub entity: Entity,
     pub ray_colour: Colour,
     /// The faces of the volume that its file contains.
     pub file_faces: Option<Box<FileFaces>>,
     /// The result of the last handling.
     pub detection: Option<Detection>,
+}
+
+/// What a sensor detects or renders: all objects, an object, or a collection. Unknown handles are stored as written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Entity(i64);
+
+impl Entity {
+    pub const ALL: Self = Self(-1);
+
+    pub fn from_raw(raw: i64) -> Self {
+        Self(raw)
+    }
+
+    pub fn raw(self) -> i64 {
+        self.0
+    }
+
+    /// The object, if it is one.
+    pub fn object(self) -> Option<Handle> {
+        Handle::from_raw(self.0)
+    }
+}
+
+impl From<Handle> for Entity {
+    fn from(object: Handle) -> Self {
+        Self(object.raw())
+    }
 }
 
 /// A detection of a proximity sensor, in its own frame.
@@ -98,7 +125,7 @@ pub struct VisionSensor {
     pub view: View,
     pub explicit: bool,
     pub size: f64,
-    pub entity: i64,
+    pub entity: Entity,
     pub render_mode: RenderMode,
     /// Colour of the image where no object is.
     pub background: [f32; 3],

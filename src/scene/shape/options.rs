@@ -69,3 +69,23 @@ bitflags! {
         const _ = !0;
     }
 }
+
+bitflags! {
+    /// Options of `sim.convexDecompose`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct DecompositionOptions: i64 {
+        /// The shape itself changes.
+        const MORPH = 0x1;
+        const _ = !0;
+    }
+}
+
+bitflags! {
+    /// Options of `sim.generateShapeFromPath`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct PathShapeOptions: i64 {
+        /// The last pose is followed by the first.
+        const CLOSED = 0x4;
+        const _ = !0;
+    }
+}

@@ -7,6 +7,7 @@ use bitflags::bitflags;
 use crate::scene::appearance::texture_mapping::TextureSource;
 use crate::scene::object::script_object::ScriptObject;
 use crate::scene::pose::placement::normalized;
+use crate::scene::sensor::Entity;
 use crate::scene::shape::Velocity;
 use crate::scene::{CustomData, DynamicFlags, Handle, Kind, Measured, ModelFlags, Object, Scene, SceneResult};
 
@@ -166,6 +167,6 @@ fn redirect(object: &mut Object, copies: &BTreeMap<Handle, Handle>) {
 }
 
 /// The entity of a copied sensor: the copy of the original's entity, if there is one, else the same entity.
-fn redirected_entity(entity: i64, copies: &BTreeMap<Handle, Handle>) -> i64 {
-    Handle::from_raw(entity).and_then(|handle| copies.get(&handle)).map_or(entity, |copy| copy.raw())
+fn redirected_entity(entity: Entity, copies: &BTreeMap<Handle, Handle>) -> Entity {
+    entity.object().and_then(|handle| copies.get(&handle)).map_or(entity, |copy| (*copy).into())
 }

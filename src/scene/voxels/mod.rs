@@ -1,5 +1,6 @@
 //! Octrees and point clouds.
 
 pub mod octree;
+pub mod options;
 pub mod point_cloud;
 pub(in crate::scene) mod voxelize;

@@ -5,6 +5,7 @@ use crate::format::ttt::chunks::{Common, UserParams};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{Counted, Text};
 use crate::scene::object::assembly::Assembly;
+use crate::scene::object::movement::MovementFrame;
 use crate::scene::object::script_object::ExecutionPriority;
 use crate::scene::{
     Data, Field, ForbiddenMovements, Handle, Layers, ModelFlags, Movement, Object, ObjectFlags, Pose, PreferredAxes,
@@ -89,10 +90,10 @@ fn movement(common: &Common) -> Movement {
     let mut movement = Movement::default();
     if let Some((axes, relativity, step)) = common.translation {
         movement.preferred_axes = PreferredAxes::from_bits_retain(axes.into());
-        (movement.relativity[0], movement.step[0]) = (relativity.into(), step);
+        (movement.relativity[0], movement.step[0]) = (MovementFrame(relativity.into()), step);
     }
     if let Some((relativity, step)) = common.rotation {
-        (movement.relativity[1], movement.step[1]) = (relativity.into(), step);
+        (movement.relativity[1], movement.step[1]) = (MovementFrame(relativity.into()), step);
     }
     movement.forbidden = forbidden(common);
     movement

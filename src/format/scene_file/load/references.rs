@@ -7,6 +7,7 @@ use crate::format::ttt::chunks::{Collection as CollectionChunk, CollectionElemen
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{Counted, EngineBlock, File};
 use crate::scene::joint::{Dependency, JointMode};
+use crate::scene::sensor::Entity;
 use crate::scene::{CollectionItem, Field, Handle, Members, ReferenceLists, References, Scene, SceneResult};
 
 /// Larger numbers are handles of collections.
@@ -15,8 +16,8 @@ const LAST_OBJECT: i32 = 999_999;
 pub(super) fn connect(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) -> SceneResult<()> {
     let collections = collections(scene, &file.contents.collections, map)?;
     let entity = |handle: i32| match handle {
-        0..=LAST_OBJECT => map.get(&handle).map_or(-1, |handle| handle.raw()),
-        _ => collections.get(&handle).copied().unwrap_or(-1),
+        0..=LAST_OBJECT => map.get(&handle).map_or(Entity::ALL, |object| (*object).into()),
+        _ => collections.get(&handle).map_or(Entity::ALL, |collection| Entity::from_raw(*collection)),
     };
     for (object, handle) in file.contents.objects.iter().zip(objects) {
         connect_one(scene, object, *handle, map)?;
@@ -91,7 +92,7 @@ fn dependency(joint: &JointChunk, map: &HandleMap) -> Option<Dependency> {
 }
 
 /// What a sensor looks at.
-fn watch(scene: &mut Scene, object: &FileObject, handle: Handle, entity: impl Fn(i32) -> i64) -> SceneResult<()> {
+fn watch(scene: &mut Scene, object: &FileObject, handle: Handle, entity: impl Fn(i32) -> Entity) -> SceneResult<()> {
     let seen = match &object.class {
         Class::ProximitySensor(sensor) => sensor.detectable,
         Class::VisionSensor(sensor) => sensor.renderable,

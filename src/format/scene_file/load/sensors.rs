@@ -6,9 +6,8 @@ use crate::format::ttt::chunks as file;
 use crate::scene::appearance::colour::Colour;
 use crate::scene::sensor::volume::{Volume, VolumeType};
 use crate::scene::sensor::volume_faces::VolumeFaces;
-use crate::scene::sensor::{Camera, Light, LightType, ProximitySensor, RenderMode, View, VisionSensor};
+use crate::scene::sensor::{Camera, Entity, Light, LightType, ProximitySensor, RenderMode, View, VisionSensor};
 
-const EVERYTHING: i32 = -1;
 /// Where this bit of a colour is clear, it is translucent.
 const OPAQUE: u8 = 0x4;
 /// How much brighter colours of sensors and the like were meant before serialization 17.
@@ -68,7 +67,7 @@ pub(super) fn proximity_sensor(context: &Context<'_>, chunk: &file::ProximitySen
         samples: samples.into(),
         required_samples: required.into(),
         angle_threshold: chunk.angle_threshold.or(old_angle).unwrap_or(0.0),
-        entity: chunk.detectable.unwrap_or(EVERYTHING).into(),
+        entity: chunk.detectable.map_or(Entity::ALL, |raw| Entity::from_raw(raw.into())),
         ray_colour: chunk
             .colour3
             .as_ref()
@@ -141,7 +140,7 @@ pub(super) fn vision_sensor(chunk: &file::VisionSensor) -> VisionSensor {
         view,
         explicit: third & 2 != 0,
         size: chunk.size.or(chunk.old_size.map(|[size, ..]| size.into())).unwrap_or(0.01),
-        entity: chunk.renderable.unwrap_or(EVERYTHING).into(),
+        entity: chunk.renderable.map_or(Entity::ALL, |raw| Entity::from_raw(raw.into())),
         render_mode: match chunk.render_mode {
             // The same with a window of its own.
             Some(6) => RenderMode::EXTERNAL,

@@ -4,7 +4,7 @@ use super::custom_data;
 use super::material::load_all;
 use crate::format::ttt::chunks::{self, Dynamics, Simulation};
 use crate::format::ttt::{File, Text};
-use crate::scene::appearance::environment::{Environment, Fog};
+use crate::scene::appearance::environment::{Environment, Fog, FogType};
 use crate::scene::parameters::engine::{Engine, SelectedEngine};
 use crate::scene::{Data, DynamicsSettings, Layers, Scene, SceneResult, Settings};
 
@@ -98,8 +98,14 @@ fn environment(settings: &mut Settings, chunk: &chunks::Environment) {
     let switches = chunk.switches.unwrap_or(0);
     settings.locked = switches & LOCKED != 0;
     let (fog_type, [start, density]) = chunk.fog.unwrap_or_default();
-    let fog =
-        Fog { enabled: switches & FOG != 0, fog_type, start, end: chunk.fog_end, density, colour: chunk.fog_colour };
+    let fog = Fog {
+        enabled: switches & FOG != 0,
+        fog_type: FogType(fog_type),
+        start,
+        end: chunk.fog_end,
+        density,
+        colour: chunk.fog_colour,
+    };
     let usual = Environment::default();
     let [largest, relative] = usual.triangle_sizes;
     settings.environment = Environment {

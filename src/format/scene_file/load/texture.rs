@@ -6,13 +6,13 @@ use super::HandleMap;
 use crate::format::ttt::chunks::{Texture as Chunk, TextureMapping as MappingChunk};
 use crate::format::ttt::{Rest, Text};
 use crate::scene::appearance::texture::Texture;
-use crate::scene::appearance::texture_mapping::{ApplyMode, TextureMapping, TextureSource};
+use crate::scene::appearance::texture_mapping::{ApplyMode, MappingMode, TextureMapping, TextureSource};
 use crate::scene::{Field, Handle, Scene, SceneResult};
 
 /// Larger numbers are textures, smaller ones handles of vision sensors.
 const LAST_OBJECT: i32 = 999_999;
 const INTERPOLATE: u8 = 0x1;
-/// Before there were modes of application.
+/// A bit of files from before there were apply modes.
 const DECAL: u8 = 0x2;
 const REPEAT_U: u8 = 0x4;
 const REPEAT_V: u8 = 0x8;
@@ -46,7 +46,7 @@ pub(super) fn mapping(chunk: &MappingChunk) -> Option<TextureMapping> {
     let flags = chunk.flags.unwrap_or(old);
     Some(TextureMapping {
         source,
-        mode,
+        mode: MappingMode(mode),
         scale,
         frame: chunk.projection.and_then(|frame| frame.pose()).unwrap_or_default(),
         interpolate: flags & INTERPOLATE != 0,

@@ -3,10 +3,9 @@
 use super::{Context, colour};
 use crate::format::ttt::Counted;
 use crate::format::ttt::chunks as file;
-use crate::scene::Handle;
 use crate::scene::sensor::volume::Volume;
 use crate::scene::sensor::volume_faces::VolumeFaces;
-use crate::scene::sensor::{Camera, Light, ProximitySensor, VisionSensor};
+use crate::scene::sensor::{Camera, Entity, Light, ProximitySensor, VisionSensor};
 
 /// What kinds of detectable objects there once were.
 const ULTRASONIC: i32 = 16;
@@ -23,10 +22,10 @@ pub(super) fn bits(switches: &[(bool, u8)]) -> u8 {
 }
 
 /// An object, a collection, or everything.
-fn entity(context: &Context<'_>, raw: i64) -> i32 {
-    match context.scene.collections().get(raw) {
-        Ok(_) => raw as i32,
-        Err(_) => context.file_handle(Handle::from_raw(raw)),
+fn entity(context: &Context<'_>, entity: Entity) -> i32 {
+    match context.scene.collections().get(entity.raw()) {
+        Ok(_) => entity.raw() as i32,
+        Err(_) => context.file_handle(entity.object()),
     }
 }
 

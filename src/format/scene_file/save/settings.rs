@@ -82,7 +82,7 @@ fn environment(scene: &Scene) -> Environment {
         max_tri_size: Some(largest),
         min_rel_tri: Some(relative),
         fog_end: fog.end,
-        fog: Some((fog.fog_type, [fog.start, fog.density])),
+        fog: Some((fog.fog_type.0, [fog.start, fog.density])),
         fog_colour: fog.colour,
         bg_up: around.background.map(|[up, _]| up),
         bg_down: around.background.map(|[_, down]| down),
@@ -125,8 +125,8 @@ pub(super) fn collections(context: &Context<'_>) -> Vec<Collection> {
 
 fn entity(object: &Object) -> Option<i64> {
     match &object.kind {
-        Kind::ProximitySensor(sensor) => Some(sensor.entity),
-        Kind::VisionSensor(sensor) => Some(sensor.entity),
+        Kind::ProximitySensor(sensor) => Some(sensor.entity.raw()),
+        Kind::VisionSensor(sensor) => Some(sensor.entity.raw()),
         _ => None,
     }
 }

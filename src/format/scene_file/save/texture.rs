@@ -33,7 +33,7 @@ pub(super) fn mapping(context: &Context<'_>, texture: &TextureMapping) -> Mappin
         // Older programs know one mode, as a flag.
         old_flags: Some(flags | u8::from(texture.apply_mode == ApplyMode::DECAL) << 1),
         flags: Some(flags),
-        source: Some(([id, texture.mode], texture.scale)),
+        source: Some(([id, texture.mode.0], texture.scale)),
         projection: Some(texture.frame.into()),
         uv: Some(Rest(texture.coordinates.to_vec())),
         apply_mode: Some(texture.apply_mode.0 as i32),

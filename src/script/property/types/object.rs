@@ -5,6 +5,7 @@ use geometry::pose::{pose_from_array, pose_to_array};
 use super::access::{Accessor, object_properties, pair, placed_properties, refused};
 use super::table::object_class;
 use super::{Long, PoseArray, Text, Vector3};
+use crate::scene::object::movement::MovementFrame;
 use crate::scene::{
     ForbiddenMovements, Handle, Layers, ModelFlags, Object, ObjectFlags, PreferredAxes, Scene, SceneResult,
     SpecialFlags, clean_alias,
@@ -96,7 +97,8 @@ macro_rules! movement {
 pub(in crate::script::property) const MOVEMENT: &[Accessor] = movement! {
     "mov.optionsFlags": i64, forbidden, |bits| ForbiddenMovements::from_bits_retain(bits), |flags| flags.bits();
     "mov.stepSize": Vec<f64>, step, |steps| pair(&steps)?, |steps| steps.to_vec();
-    "mov.relativity": Vec<i64>, relativity, |frames| int_pair(&frames)?, |frames| frames.to_vec();
+    "mov.relativity": Vec<i64>, relativity,
+        |frames| int_pair(&frames)?.map(MovementFrame), |frames| frames.map(|frame| frame.0).to_vec();
     "mov.preferredAxesFlags": i64, preferred_axes,
         |bits| PreferredAxes::from_bits_retain(bits) & PreferredAxes::ALL_AXES, |axes| axes.bits();
 };
