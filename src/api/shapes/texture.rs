@@ -61,7 +61,7 @@ fn create_texture(
     let [x, y, angle] = std::array::from_fn(|i| xy_g.as_ref().and_then(|xy_g| xy_g.get(i)).copied().unwrap_or(0.0));
     let (scale, frame) =
         (scaling_uv.unwrap_or(plane).finite().ok_or(SceneError::InvalidData)?, frame([x, y, 0.0], [0.0, 0.0, angle])?);
-    let id = cx.scene_mut().add_texture(texture)?;
+    let id = cx.scene_mut().textures_mut().add(texture)?;
     let options = TextureOptions::from_bits_retain(options.0);
     let mapping =
         TextureMapping { scale, frame, ..TextureMapping::new(TextureSource::Texture(id)).with_options(options) };
@@ -228,8 +228,11 @@ pub(in crate::api) fn of_mesh(
     let picture = Picture::new(pixels, resolution.map(|side| side as i64), layout).map_err(failure)?;
     let picture = picture
         .flipped(options.contains(MeshOptions::FLIP_TEXTURE_X), !options.contains(MeshOptions::TEXTURE_FROM_BOTTOM));
-    let id =
-        cx.scene_mut().add_texture(of_picture(NAME, picture, options.contains(MeshOptions::TEXTURE_HAS_ALPHA))?)?;
+    let id = cx.scene_mut().textures_mut().add(of_picture(
+        NAME,
+        picture,
+        options.contains(MeshOptions::TEXTURE_HAS_ALPHA),
+    )?)?;
     Ok(TextureMapping {
         interpolate: !options.contains(MeshOptions::TEXTURE_NOT_INTERPOLATED),
         apply_mode: ApplyMode::decal_if(options.contains(MeshOptions::TEXTURE_AS_DECAL)),

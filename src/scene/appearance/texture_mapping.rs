@@ -157,11 +157,11 @@ impl Shape {
 pub struct Textures(BTreeMap<i64, Texture>);
 
 impl Textures {
-    /// Adds an image; one that is there already is used again. Its number.
+    /// Adds an image and returns its number; an equal image is shared.
     ///
     /// # Errors
     /// When there are too many.
-    fn add(&mut self, texture: Texture) -> SceneResult<i64> {
+    pub fn add(&mut self, texture: Texture) -> SceneResult<i64> {
         if let Some((id, _)) = self.0.iter().find(|(_, other)| **other == texture) {
             return Ok(*id);
         }
@@ -184,6 +184,11 @@ impl Textures {
         self.0.iter().map(|(id, texture)| (*id, texture))
     }
 
+    /// Removes all images.
+    pub fn clear(&mut self) {
+        self.0.clear();
+    }
+
     fn get_mut(&mut self, id: i64) -> SceneResult<&mut Texture> {
         self.0.get_mut(&id).ok_or_else(no_texture)
     }
@@ -194,12 +199,9 @@ impl Scene {
         &self.textures
     }
 
-    /// Adds an image; one that is there already is used again. Its number.
-    ///
-    /// # Errors
-    /// When there are too many.
-    pub fn add_texture(&mut self, texture: Texture) -> SceneResult<i64> {
-        self.textures.add(texture)
+    /// Images are no part of what the journal records: meshes are, when they get one.
+    pub fn textures_mut(&mut self) -> &mut Textures {
+        &mut self.textures
     }
 
     /// Changes an image on all meshes that use it.
@@ -248,11 +250,6 @@ impl Scene {
             }
         }
     }
-
-    /// Forgets all textures, of an empty scene.
-    pub fn clear_textures(&mut self) {
-        self.textures = Textures::default();
-    }
 }
 
 fn uses(object: &Object, id: i64) -> bool {
@@ -282,9 +279,9 @@ mod tests {
     fn an_image_is_kept_once_and_while_it_is_used() {
         let mut scene = Scene::new();
         let (a, b) = (cube(&mut scene), cube(&mut scene));
-        let id = scene.add_texture(image("a")).unwrap();
+        let id = scene.textures_mut().add(image("a")).unwrap();
         assert_eq!(
-            (id, scene.add_texture(image("b")), scene.add_texture(image("a"))),
+            (id, scene.textures_mut().add(image("b")), scene.textures_mut().add(image("a"))),
             (FIRST, Ok(FIRST + 1), Ok(FIRST))
         );
         let mapping = TextureMapping::new(TextureSource::Texture(id));

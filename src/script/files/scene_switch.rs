@@ -120,7 +120,7 @@ impl Sim {
         self.app.borrow_mut().closed_scenes += 1;
         let mut scene = self.scene.borrow_mut();
         scene.inert = InertValues::default();
-        scene.clear_textures();
+        scene.textures_mut().clear();
         scene.modify_settings(|settings| *settings = Settings::default());
         for namespace in [Namespace::CustomData, Namespace::Signal] {
             scene.edit_named_values(None, namespace, Edit::Clear)?;

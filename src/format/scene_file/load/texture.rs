@@ -24,7 +24,7 @@ pub(super) type TextureMap = BTreeMap<i64, i64>;
 /// Adds the images of a file. Those without all of their pixels are left out.
 pub(super) fn add(scene: &mut Scene, chunks: &[Chunk]) -> SceneResult<TextureMap> {
     let images = chunks.iter().filter_map(|chunk| Some((i64::from(chunk.id_and_size?[0]), image(chunk)?)));
-    images.map(|(id, image)| Ok((id, scene.add_texture(image)?))).collect()
+    images.map(|(id, image)| Ok((id, scene.textures_mut().add(image)?))).collect()
 }
 
 fn image(chunk: &Chunk) -> Option<Texture> {
