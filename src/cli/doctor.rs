@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use super::{refuse, say};
 use crate::docs::{self, Support, Use};
 use crate::format::{scene_file, script_file};
+use crate::permissions::read_bounded;
 
 /// Exit code when something a script calls is approximated or missing.
 const NOT_ALL_WORKS: u8 = 1;
@@ -82,7 +83,7 @@ struct Report {
 impl Report {
     fn add_file(&mut self, path: &Path, compat: bool) -> Result<(), String> {
         let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
-        let bytes = std::fs::read(path).map_err(|error| unreadable(error.to_string()))?;
+        let bytes = read_bounded(path).map_err(|error| unreadable(error.to_string()))?;
         let name = path.display().to_string();
         if scene_file::is_scene(&bytes) && !script_file::describes_robot(path) {
             let file = super::files::scene(path)?;

@@ -6,7 +6,7 @@ use super::scene_file::{self, SceneFile, ScriptSources};
 use super::scene_folder;
 use super::script_file;
 use super::ttt::{File, FileResult};
-use crate::permissions::Permissions;
+use crate::permissions::{Permissions, read_bounded};
 
 /// A scene or model that has been read, from which any number of simulators can be filled.
 #[derive(Debug)]
@@ -60,7 +60,7 @@ fn read_folder(path: &Path, permissions: &Permissions) -> Result<SceneInput, Str
 }
 
 fn read_file(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
-    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+    let bytes = read_bounded(path).map_err(|error| error.to_string())?;
     if !scene_file::is_scene(&bytes) || script_file::describes_robot(path) {
         script_file::check(path, &bytes).map_err(|reason| reason.to_string())?;
         return Ok(SceneInput::Script(bytes));

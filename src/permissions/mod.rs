@@ -7,6 +7,7 @@
 //! script can do makes the path lead elsewhere, since it can neither make symbolic links nor change the working directory. Not covered:
 //! other programs that swap links meanwhile, and what a permission itself brings along (a program or a library may do anything).
 
+mod bounded;
 mod network;
 mod resolve;
 
@@ -14,6 +15,7 @@ use std::fmt;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
+pub use bounded::read_bounded;
 pub use network::HostRule;
 pub(crate) use resolve::c_path;
 use resolve::{resolve, resolve_entry};
@@ -260,7 +262,7 @@ impl Permissions {
     /// When it may not or cannot be read.
     pub fn read_file(&self, path: &Path) -> std::io::Result<Vec<u8>> {
         self.check_read(path)?;
-        std::fs::read(path)
+        read_bounded(path)
     }
 }
 

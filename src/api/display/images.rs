@@ -7,6 +7,7 @@ use api_macro::api;
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::format::picture::{Layout, Picture, PictureError};
 use crate::format::scene_file::write_whole;
+use crate::permissions::read_bounded;
 use crate::script::{Bytes, IntPair};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_image, save_image, get_scaled_image, transform_image];
@@ -50,7 +51,7 @@ fn load_image(cx: &Cx, options: i64, filename: Bytes) -> Result<(Bytes, IntPair)
 pub(in crate::api) fn read_file(cx: &Cx, name: &[u8]) -> Result<Vec<u8>> {
     let name = String::from_utf8_lossy(name);
     cx.permissions().check_read(Path::new(&*name))?;
-    std::fs::read(&*name).map_err(|error| ApiError::Other(format!("cannot read {name}: {error}.")))
+    read_bounded(Path::new(&*name)).map_err(|error| ApiError::Other(format!("cannot read {name}: {error}.")))
 }
 
 /// Writes an image to a file.

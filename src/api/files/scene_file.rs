@@ -9,6 +9,7 @@ use api_macro::api;
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::format::scene_file::{SceneFile, read_file};
 use crate::format::scene_input::SceneInput;
+use crate::permissions::read_bounded;
 use crate::scene::{Data, Handle, SceneError, special};
 use crate::script::{SceneSource, readable_bytes};
 
@@ -105,7 +106,7 @@ impl FileOrBytes {
 
 fn read(cx: &Cx, name: &str) -> Result<Vec<u8>> {
     cx.permissions().check_read(Path::new(name))?;
-    std::fs::read(name).map_err(|error| match error.kind() {
+    read_bounded(Path::new(name)).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => ApiError::Other("file does not exist.".into()),
         _ => ApiError::Other(format!("'{name}' could not be read: {error}.")),
     })

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::format::ttt::{self, File, FileError, FileResult};
 use crate::format::xml;
-use crate::permissions::Permissions;
+use crate::permissions::{Permissions, read_bounded};
 
 /// True where the bytes begin as a scene or model does, binary or XML.
 pub fn is_scene(bytes: &[u8]) -> bool {
@@ -24,6 +24,6 @@ pub fn read_file(bytes: &[u8], folder: Option<&Path>, permissions: &Permissions)
 /// # Errors
 /// In words.
 pub fn read_path(path: &Path) -> Result<File, String> {
-    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+    let bytes = read_bounded(path).map_err(|error| error.to_string())?;
     read_file(&bytes, path.parent(), &Permissions::all()).map_err(|error: FileError| error.to_string())
 }

@@ -23,8 +23,17 @@ pub struct LogLine<'a> {
 
 impl LogLine<'_> {
     /// The line as a terminal shows it. `sim.verbosity_undecorated` is for status bars: terminals show the author all the same.
+    /// A further line of the text is indented where it begins like one of an author, so that it cannot pass for it.
     pub fn decorated(&self) -> String {
-        format!("[{}:{}]   {}", self.origin, verbosity::name(self.level), self.plain_text())
+        let text = self.plain_text().replace("\r\n", "\n").replace('\r', "\n");
+        let mut lines = text.split('\n');
+        let mut shown = format!("[{}:{}]   ", self.origin, verbosity::name(self.level));
+        shown.extend(lines.next());
+        for line in lines {
+            shown.push_str(if line.starts_with('[') { "\n    " } else { "\n" });
+            shown.push_str(line);
+        }
+        shown
     }
 
     /// The text; where it is marked as HTML, by `@html` at its end, without mark and tags.
@@ -58,6 +67,9 @@ pub trait Console {
 
     fn log(&mut self, line: &LogLine<'_>);
 
+    /// A script could not write to standard output, or to another pipe that `io.output` is, since nobody reads it any more.
+    fn pipe_closed(&mut self) {}
+
     /// What a script wrote to a stream of the process, where scripts have none of their own: parts of lines.
     fn write(&mut self, text: &[u8], stream: Stream, time: f64) {
         let _ = (text, stream, time);
@@ -88,5 +100,15 @@ mod tests {
         assert_eq!(plain("<b>bold</b> text@html"), "bold text");
         assert_eq!(plain("<b>bold</b> text"), "<b>bold</b> text");
         assert_eq!(plain("1 < 2@html"), "1 < 2");
+    }
+
+    #[test]
+    fn a_text_cannot_pass_for_a_line_of_another_author() {
+        let text = "mine\n[CoppeliaSim:error]   yours\r\n[/a:error]   his\r[/b:info]   hers";
+        let line = LogLine { origin: "/script", level: verbosity::SCRIPT_INFOS, text, time: 0.0, status: false };
+        let shown = line.decorated();
+        let forged = shown.split(['\n', '\r']).skip(1).filter(|line| !line.starts_with("    "));
+        assert_eq!(forged.count(), 0, "{shown}");
+        assert_eq!(shown.lines().count(), 4, "{shown}");
     }
 }

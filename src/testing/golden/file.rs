@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::io::{self, Write as _};
 use std::path::Path;
 
+use crate::permissions::read_bounded;
 use crate::script::test_bench::Trace;
 
 const FIRST_LINE: &str = "# swanilda golden 1";
@@ -22,7 +23,7 @@ pub(super) fn read(path: &Path) -> Result<Option<Trace>, String> {
         Ok(data) if data.len() > MAX_SIZE => return Err(format!("the file is larger than {MAX_SIZE} bytes.")),
         _ => {}
     }
-    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+    let bytes = read_bounded(path).map_err(|error| error.to_string())?;
     parse(&String::from_utf8_lossy(&bytes)).map(Some)
 }
 

@@ -1,0 +1,62 @@
+//! Whole files up to a size: a device may have no end, and a sparse file more bytes than there is memory.
+
+use std::fs::File;
+use std::io::{Error, Read, Result};
+use std::path::Path;
+
+/// Bytes of the largest file that is read.
+const LARGEST_FILE: u64 = 2 << 30;
+/// Bytes that are read from a device or a pipe, which do not say how many they have.
+const LARGEST_STREAM: u64 = 64 << 20;
+
+/// The bytes of a file.
+///
+/// # Errors
+/// When it cannot be read, or is too large.
+pub fn read_bounded(path: &Path) -> Result<Vec<u8>> {
+    let file = File::open(path)?;
+    let metadata = file.metadata()?;
+    let (limit, what) = if metadata.is_file() {
+        (LARGEST_FILE, "it is larger than")
+    } else {
+        (LARGEST_STREAM, "this device or pipe has more than")
+    };
+    let too_large = || Error::other(format!("{what} {} MiB", limit >> 20));
+    if metadata.len() > limit {
+        return Err(too_large());
+    }
+    let mut bytes = Vec::with_capacity(metadata.len() as usize);
+    file.take(limit + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > limit { Err(too_large()) } else { Ok(bytes) }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::read_bounded;
+
+    #[test]
+    fn files_are_read_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        std::fs::write(&path, "text").unwrap();
+        assert_eq!(read_bounded(&path).unwrap(), b"text");
+    }
+
+    #[test]
+    fn what_is_too_large_is_refused_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sparse");
+        std::fs::File::create(&path).unwrap().set_len(1 << 40).unwrap();
+        assert_eq!(read_bounded(&path).unwrap_err().to_string(), "it is larger than 2048 MiB");
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn devices_are_read_up_to_a_bound() {
+        assert_eq!(read_bounded(Path::new("/dev/null")).unwrap(), b"");
+        let error = read_bounded(Path::new("/dev/zero")).unwrap_err().to_string();
+        assert_eq!(error, "this device or pipe has more than 64 MiB");
+    }
+}
