@@ -94,6 +94,55 @@ fn a_test_that_is_stopped_tells_where_it_was() {
 }
 
 #[test]
+fn a_test_that_hangs_while_it_is_closed_fails_alone() {
+    let suite = "
+    local sim = require 'sim'
+    it('hangs', function() left = setmetatable({}, { __gc = function() while true do end end }) end)
+    it('goes on', function() end)
+    it('empties what it can reach', function()
+        local registry = debug.getregistry()
+        for key in next, registry do registry[key] = false end
+        for key in next, package.loaded do package.loaded[key] = false end
+    end)";
+    let (code, output) = run(&[("close_test.lua", suite)], &["-v", "--timeout", "1"]);
+    assert_eq!(code, 1, "{output}");
+    assert!(output.contains("ERROR close_test.lua::hangs") && output.contains("in a finalizer (__gc)"), "{output}");
+    assert!(output.contains("PASS close_test.lua::goes on") && output.contains("1 error"), "{output}");
+}
+
+#[test]
+fn a_hook_of_a_script_runs_beside_the_time_limit() {
+    let suite = "
+    local sim = require 'sim'
+    it('has none', function() debug.sethook() while true do end end)
+    it('has one for lines', function() debug.sethook(function() end, 'l') while true do
+        end end)
+    it('has one that counts', function() debug.sethook(function() end, '', 100) while true do end end)
+    it('has one in a coroutine', function()
+        local co = coroutine.create(function() while true do end end)
+        debug.sethook(co)
+        coroutine.resume(co)
+    end)
+    it('is called and found', function()
+        local lines, counts = 0, 0
+        local function line() lines = lines + 1 end
+        debug.sethook(line, 'l')
+        local x = 1
+        x = 2
+        assert.same({line, 'l', 0}, {debug.gethook()})
+        debug.sethook(function() counts = counts + 1 end, '', 10)
+        for i = 1, 1000 do x = i end
+        assert.equal(10, select(3, debug.gethook()))
+        debug.sethook()
+        assert.is_true(lines > 1 and counts > 50)
+    end)";
+    let (code, output) = run(&[("hook_test.lua", suite)], &["-v", "--timeout", "1"]);
+    assert_eq!(code, 1, "{output}");
+    assert!(output.contains("1 passed, 4 errors"), "{output}");
+    assert_eq!(output.matches("It was at hook_test.lua").count(), 4, "each is stopped where it is: {output}");
+}
+
+#[test]
 fn what_scripts_write_belongs_to_their_test() {
     let suite = "
     local sim = require 'sim'

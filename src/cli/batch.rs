@@ -86,7 +86,7 @@ fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
     batch::run(&args.config(interrupt), &batch, &missing, &mut |row, params_read| {
         read.extend(params_read.iter().cloned());
         if let Some(error) = &row.error {
-            bar.suspend(|| eprintln!("run {} (seed {}): {error}", row.run.number, row.run.seed));
+            bar.suspend(|| super::complain(&format!("run {} (seed {}): {error}", row.run.number, row.run.seed)));
         }
         bar.inc(1);
         lost = lost.take().or(store.add(row).err());
@@ -100,16 +100,17 @@ fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
     }
     let table = store.finish().map_err(|error| error.to_string())?;
     let (done, failed) = (store.rows().count(), store.failed());
-    println!("{done} of {} runs done, {failed} failed: {}", runs.len(), table.display());
+    let line = format!("{done} of {} runs done, {failed} failed: {}\n", runs.len(), table.display());
+    super::say(line.as_bytes());
     Ok(if interrupt.is_requested() { INTERRUPTED } else { u8::from(failed > 0) * FAILED })
 }
 
 /// Names the swept parameters that no run has read: its rows differ by chance only, or not at all.
 fn warn_of_unread(batch: &Batch, read: &BTreeSet<String>) {
     for (name, _) in batch.sweeps.iter().filter(|(name, _)| !read.contains(name)) {
-        eprintln!(
-            "swanilda: no run has read the parameter {name}; scripts read it with sim.getNamedStringParam('{name}') or, after batch = require 'swanilda.batch', with batch.param('{name}')"
-        );
+        super::complain(&format!(
+            "no run has read the parameter {name}; scripts read it with sim.getNamedStringParam('{name}') or, after batch = require 'swanilda.batch', with batch.param('{name}')"
+        ));
     }
 }
 

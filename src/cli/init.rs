@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use serde_json::json;
 
-use super::refuse;
+use super::{refuse, say};
 use crate::docs;
 
 /// Where the stubs go, seen from the folder.
@@ -34,12 +34,9 @@ pub(super) fn init(args: &Args) -> ExitCode {
             return refuse(&format!("cannot write {}: {error}", path.display()));
         }
     }
-    println!(
-        "wrote {} and {} files below {}",
-        files[0].0.display(),
-        files.len() - 1,
-        args.folder.join(STUBS).display()
-    );
+    let folder = args.folder.join(STUBS);
+    let line = format!("wrote {} and {} files below {}\n", files[0].0.display(), files.len() - 1, folder.display());
+    say(line.as_bytes());
     ExitCode::SUCCESS
 }
 

@@ -109,8 +109,13 @@ impl Command {
 
 /// Prints an error about the request; returns its exit code.
 fn refuse(reason: &str) -> ExitCode {
-    eprintln!("swanilda: {reason}");
+    complain(reason);
     ExitCode::from(USAGE)
+}
+
+/// Writes to standard error, in the name of the program. A closed pipe is not an error.
+fn complain(reason: &str) {
+    let _ = writeln!(std::io::stderr(), "swanilda: {reason}");
 }
 
 /// Writes to standard output. A closed pipe is not an error.

@@ -16,8 +16,6 @@ use crate::{RunLimits, RunTotals, ScriptKind, Simulator};
 
 /// Exit code when a script raised an error.
 const SCRIPT_ERROR: u8 = 1;
-/// Exit code after ctrl-c, as shells expect it.
-const INTERRUPTED: u8 = 130;
 
 /// Run a scene
 #[derive(clap::Args)]
@@ -72,9 +70,9 @@ pub(super) fn run(args: &Args) -> ExitCode {
         Ok(sources) => sources,
         Err(reason) => return refuse(&reason),
     };
-    let interrupt = Interrupt::install(INTERRUPTED);
+    let interrupt = Interrupt::of_scripts_here();
     let progress = Progress::new(args.limits(), args.setup.quiet || args.setup.json || args.no_start);
-    let output = args.setup.output(&progress);
+    let output = args.setup.output(&progress, &interrupt);
     let begun = Instant::now();
     let options = args.remote.guard(args.setup.options(Some(&args.scene), &interrupt));
     let mut sim = Simulator::with_console(options, Box::new(output.clone()));
@@ -105,7 +103,7 @@ pub(super) fn run(args: &Args) -> ExitCode {
     let errors = sim.errors();
     drop(sim);
     let code = match (interrupt.is_requested(), errors) {
-        (true, _) => INTERRUPTED,
+        (true, _) => interrupt.exit_code(),
         (false, 0) => 0,
         (false, _) => SCRIPT_ERROR,
     };

@@ -15,8 +15,6 @@ use crate::{RunLimits, ScriptKind, Simulator};
 const NAP: Duration = Duration::from_millis(50);
 /// The same while a real-time step is due soon, or while scripts poll their own sockets.
 const SHORT_NAP: Duration = Duration::from_millis(1);
-/// Exit code after a second ctrl-c.
-const INTERRUPTED: u8 = 130;
 
 /// Start a simulator that remote API clients control
 #[derive(clap::Args)]
@@ -39,8 +37,8 @@ pub(super) fn serve(args: &Args) -> ExitCode {
         Ok(sources) => sources,
         Err(reason) => return refuse(&reason),
     };
-    let interrupt = Interrupt::install(INTERRUPTED);
-    let output = args.setup.output(&Progress::new(RunLimits::default(), true));
+    let interrupt = Interrupt::of_scripts_here();
+    let output = args.setup.output(&Progress::new(RunLimits::default(), true), &interrupt);
     let options = args.remote.guard(args.setup.options(scene, &interrupt));
     let mut sim = Simulator::with_console(options, Box::new(output.clone()));
     args.setup.fill(&mut sim, sources, ScriptKind::Customization, scene);

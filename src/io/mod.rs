@@ -4,6 +4,7 @@ mod event_loop;
 mod file_lock;
 mod process;
 mod serial;
+pub(crate) mod signals;
 pub(crate) mod socket;
 mod ws;
 pub(crate) mod zmq;

@@ -62,7 +62,7 @@ pub(crate) use lifecycle::instance::Detached;
 pub(crate) use lifecycle::order::Group;
 pub(crate) use lifecycle::yields::changed_level;
 pub(crate) use log::auxiliary_consoles::AuxiliaryConsole;
-pub(crate) use lua::{Object, Stack, Type as LuaType};
+pub(crate) use lua::{Object, Stack, Type as LuaType, calls_begun, interrupt_running_code, place_of_interruption};
 pub(crate) use lua_runtime::LuaLanguage;
 pub(crate) use lua_runtime::embedded::FILES;
 pub(crate) use lua_runtime::reference_modules::ReferenceModule;

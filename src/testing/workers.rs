@@ -23,6 +23,8 @@ use crate::Simulator;
 const TICK: Duration = Duration::from_millis(20);
 /// Time for a test to stop on request.
 const GRACE: Duration = Duration::from_secs(2);
+/// The same when the user waits for the end.
+const GRACE_OF_USER: Duration = Duration::from_millis(500);
 
 /// A piece of work.
 #[derive(Debug, Clone)]
@@ -95,6 +97,8 @@ struct Watch<'a> {
     sender: Sender<(usize, News)>,
     news: Receiver<(usize, News)>,
     receive: &'a mut dyn FnMut(Message) -> bool,
+    /// When the user wanted an end.
+    interrupted: Option<Instant>,
 }
 
 /// Does the tasks on `config.jobs` threads and hands over what comes back, until all is done or `receive` wants no more to be begun.
@@ -103,7 +107,7 @@ pub(super) fn work(config: &Config, tasks: Vec<Task>, receive: &mut dyn FnMut(Me
     let queue = Mutex::new(Queue { tasks: tasks.into(), given_up: HashSet::new() });
     let shared = Arc::new(Shared { config: config.clone(), queue, cancelled: AtomicBool::new(false) });
     let (sender, news) = mpsc::channel();
-    let mut watch = Watch { shared, workers: HashMap::new(), next: 0, sender, news, receive };
+    let mut watch = Watch { shared, workers: HashMap::new(), next: 0, sender, news, receive, interrupted: None };
     for _ in 0..count {
         watch.spawn();
     }
@@ -164,6 +168,10 @@ impl Watch<'_> {
         let interrupted = self.is_interrupted();
         if interrupted {
             self.shared.cancel();
+            if self.interrupted.get_or_insert_with(Instant::now).elapsed() > GRACE_OF_USER {
+                // The process ends without those that are left.
+                return self.workers.clear();
+            }
         }
         let limit = self.shared.config.allowance.wall;
         let mut stuck = Vec::new();
@@ -191,7 +199,7 @@ impl Watch<'_> {
         drop(queue);
         let Some(Some(running)) = self.workers.remove(&worker) else { return };
         let message = too_long(self.shared.config.allowance.wall)
-            + " It could not be ended: it is in a function that is not written in Lua.";
+            + " It could not be ended: it is in a finalizer (__gc), or in a function that is not written in Lua.";
         let mut outcome = Outcome::new(Arc::clone(&running.test), Status::Error, message);
         outcome.wall = running.begun.elapsed();
         let message = if running.test.index == 0 {
@@ -282,10 +290,17 @@ impl Worker {
                 Some(broken) => Outcome { test, ..broken.clone() },
                 None => session.run(&test),
             };
+            let is_last = tests.is_empty() || stop.load(Ordering::Relaxed);
             if tests.is_empty() {
                 session.finish(&mut outcome);
             }
             session.take_line_counts(&mut outcome);
+            if is_last {
+                // What hangs or crashes while the simulator is closed is the test's as well.
+                drop(session);
+                self.finished(outcome);
+                return tests;
+            }
             self.finished(outcome);
         }
         tests

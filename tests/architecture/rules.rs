@@ -46,6 +46,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("httparse", "src/io/ws"),
     ("image", "src/format/picture.rs"),
     ("indicatif", "src/cli"),
+    ("libc", "src/io/signals.rs"),
     ("memchr", "src/format/xml"),
     ("memchr", "src/io/socket"),
     ("memchr", "src/wire/mime"),
@@ -210,7 +211,7 @@ pub const LUA_NAMES: &[&str] =
 pub const FUNCTIONS_FOR_SCRIPTS: &[&str] = &["src/api", "src/modules"];
 
 /// The edges to libraries written in C.
-pub const UNSAFE: &[&str] = &["src/script/lua", "src/io/zmq/libzmq.rs"];
+pub const UNSAFE: &[&str] = &["src/script/lua", "src/io/signals.rs", "src/io/zmq/libzmq.rs"];
 
 /// What a script may need a permission for, as code writes it.
 pub const SYSTEM_CALLS: &[&str] = &[

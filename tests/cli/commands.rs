@@ -67,3 +67,29 @@ fn completions_and_version() {
     let version = swanilda().arg("--version").output().expect("the command starts");
     assert_eq!(stdout(&version), format!("swanilda {}\n", env!("CARGO_PKG_VERSION")));
 }
+
+#[test]
+#[cfg(unix)]
+fn endless_files_are_refused() {
+    for command in ["run", "doctor", "inspect"] {
+        let output = swanilda().args([command, "/dev/zero"]).output().expect("the command starts");
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        assert!(
+            stderr(&output).contains("cannot read /dev/zero: this device or pipe has more than 64 MiB"),
+            "{command}"
+        );
+    }
+    let scene = Scene::new(
+        "sim = require 'sim'
+        print(pcall(sim.loadModel, '/dev/zero'))
+        print(pcall(sim.loadScene, '/dev/zero'))
+        print(pcall(sim.loadImage, 0, '/dev/zero'))
+        print(pcall(sim.createPath, {0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0, 1}, 0, 1 << 30))",
+    );
+    let output = scene.run(&["--no-start"]);
+    let told = stdout(&output);
+    assert_eq!(told.lines().count(), 4, "{told}");
+    assert!(told.lines().all(|line| line.starts_with("false, ")), "{told}");
+    assert_eq!(told.matches("more than 64 MiB").count(), 3, "{told}");
+    assert!(told.contains("100000 at most"), "{told}");
+}

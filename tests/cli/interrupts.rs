@@ -1,10 +1,10 @@
-//! Interrupts from the keyboard.
+//! Requests to end: from the keyboard, by signals, and by a reader of the output that is gone.
 
 use std::io::{BufRead, BufReader, Read};
-use std::process::{Command, Output, Stdio};
-use std::time::Duration;
+use std::process::{Child, ChildStdout, Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
-use super::{Scene, stdout, swanilda};
+use super::{Scene, stderr, stdout, swanilda};
 
 #[test]
 fn interrupted_runs_clean_up() {
@@ -23,22 +23,152 @@ fn a_second_interrupt_ends_a_hanging_script() {
     assert_eq!(interrupt(&scene, &["--empty"], 2).status.code(), Some(130));
 }
 
-/// Runs a scene, sends ctrl-c so many times once it has printed a line, and waits for the end.
-fn interrupt(scene: &Scene, args: &[&str], times: u32) -> Output {
+/// Scripts that do not end by themselves, each in line 2.
+const ENDLESS: [&str; 6] = [
+    "while true do end",
+    "while true do pcall(function() while true do end end) end",
+    "coroutine.wrap(function() sim.setThreadAutomaticSwitch(false) while true do end end)()",
+    "while true do sim.moveToObject(a, b, 3, 0, 1e-9) end",
+    "load('while true do end')()",
+    "while true do xpcall(error, function() while true do end end) end",
+];
+
+#[test]
+fn one_interrupt_ends_lua_code_wherever_it_is() {
+    for code in ENDLESS {
+        let scene = Scene::new(&format!(
+            "sim = require 'sim' a, b = sim.createDummy(0.1), sim.createDummy(0.1) print('ready')\n{code}"
+        ));
+        let begun = Instant::now();
+        let output = interrupt(&scene, &[], 1);
+        assert_eq!(output.status.code(), Some(130), "{code}: {}", stderr(&output));
+        assert!(begun.elapsed() < LIMIT, "{code}: {:?}", begun.elapsed());
+        assert!(stderr(&output).contains("Script\"]:2"), "{code}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn a_script_that_was_interrupted_cleans_up() {
+    let scene = Scene::new(
+        "sim = require 'sim' print('ready')
+        function sysCall_actuation() while true do pcall(string.rep, 'x', 10) end end
+        function sysCall_cleanup() print('cleanup') end",
+    );
+    let output = interrupt(&scene, &["--as", "simulation", "--quiet"], 1);
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(stdout(&output), "ready\ncleanup\n", "{}", stderr(&output));
+    assert!(stderr(&output).contains("interrupted at ") && stderr(&output).contains("]:2"), "{}", stderr(&output));
+}
+
+#[test]
+fn functions_that_cannot_be_interrupted_end_with_the_process() {
+    let pattern = "(('a'):rep(40)):find(('a?'):rep(40) .. ('a'):rep(40))";
+    let output = interrupt(&Scene::new(&format!("print('ready')\nlocal x = 1\n{pattern}")), &["--empty"], 1);
+    assert_eq!(output.status.code(), Some(130));
+    let told = stderr(&output);
+    assert!(told.contains("ended in the middle of a script, at ") && told.contains("/Script\"]:3"), "{told}");
+}
+
+#[test]
+fn a_blocked_open_is_interrupted() {
+    let scene = Scene::new("");
+    let made = Command::new("mkfifo").arg(scene.path().with_file_name("fifo")).status();
+    assert!(made.expect("mkfifo is there").success());
+    let code = format!("print('ready')\nio.open('{}')", scene.path().with_file_name("fifo").display());
+    std::fs::write(scene.path(), code).expect("our own folder is writable");
+    let output = interrupt(&scene, &["--empty"], 1);
+    assert_eq!(output.status.code(), Some(130));
+    assert!(stderr(&output).contains("]:2"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_termination_has_its_own_exit_code() {
+    let endless = Scene::new("print('ready') while true do end");
+    assert_eq!(signal(&endless, &["--empty"], "-TERM", 1).status.code(), Some(143));
+    let simulating = Scene::new("print('ready')");
+    assert_eq!(signal(&simulating, &["--empty"], "-TERM", 1).status.code(), Some(143));
+}
+
+#[test]
+fn a_run_ends_quietly_when_nobody_reads_its_output() {
+    let scripts = [
+        "sim = require 'sim' print('ready') function sysCall_actuation() print('more') end",
+        "print('ready') while true do print('more') end",
+        "print('ready') io.stdout:setvbuf('no') while true do io.write('more\\n') end",
+        "print('ready') while true do io.stdout:write('more\\n') end",
+    ];
+    for code in scripts {
+        let scene = Scene::new(code);
+        let begun = Instant::now();
+        let (child, out) = start(&scene, &["--empty"]);
+        drop(out);
+        let output = child.wait_with_output().expect("the child is ours");
+        assert_eq!(output.status.code(), Some(141), "{code}: {}", stderr(&output));
+        assert!(begun.elapsed() < LIMIT, "{code}: {:?}", begun.elapsed());
+        let told = stderr(&output);
+        assert!(
+            !told.contains("interrupted") && !told.contains("traceback") && !told.contains("panic"),
+            "{code}: {told}"
+        );
+    }
+}
+
+#[test]
+fn tests_that_cannot_be_interrupted_do_not_hold_up_the_end() {
+    let scene = Scene::new("");
+    let code = "it('hangs', function() os.remove('begun'); (('a'):rep(40)):find(('a?'):rep(40) .. ('a'):rep(40)) end)";
+    let begun = scene.path().with_file_name("begun");
+    std::fs::write(&begun, "").expect("our own folder is writable");
+    std::fs::write(scene.path().with_file_name("hang_test.lua"), code).expect("our own folder is writable");
+    let mut command = swanilda();
+    command.arg("test").current_dir(begun.parent().expect("the folder")).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let child = command.spawn().expect("the command starts");
+    let limit = Instant::now() + LIMIT;
+    while begun.exists() && Instant::now() < limit {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let asked = Instant::now();
+    send(&child, "-INT");
+    let output = child.wait_with_output().expect("the child is ours");
+    assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
+    assert!(asked.elapsed() < LIMIT && stdout(&output).contains("interrupted"), "{}", stdout(&output));
+}
+
+/// Time for an end, on machines that have other things to do as well.
+const LIMIT: Duration = Duration::from_secs(5);
+
+/// Starts a scene and waits until it has printed its first line.
+fn start(scene: &Scene, args: &[&str]) -> (Child, BufReader<ChildStdout>) {
     let mut command = swanilda();
     command.arg("run").arg(scene.path()).args(args).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().expect("the command starts");
     let mut out = BufReader::new(child.stdout.take().expect("piped"));
     let mut line = String::new();
     out.read_line(&mut line).expect("the scene prints");
+    assert_eq!(line, "ready\n");
+    (child, out)
+}
+
+/// Runs a scene, sends ctrl-c so many times once it has printed a line, and waits for the end.
+fn interrupt(scene: &Scene, args: &[&str], times: u32) -> Output {
+    signal(scene, args, "-INT", times)
+}
+
+/// The same with a signal.
+fn signal(scene: &Scene, args: &[&str], signal: &str, times: u32) -> Output {
+    let (child, mut out) = start(scene, args);
     for _ in 0..times {
-        let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-        assert!(killed.expect("kill is there").success());
+        send(&child, signal);
         std::thread::sleep(Duration::from_millis(100));
     }
     let mut rest = Vec::new();
     out.read_to_end(&mut rest).expect("the pipe is readable");
     let mut output = child.wait_with_output().expect("the child is ours");
-    output.stdout = [line.into_bytes(), rest].concat();
+    output.stdout = [b"ready\n".to_vec(), rest].concat();
     output
+}
+
+fn send(child: &Child, signal: &str) {
+    let killed = Command::new("kill").args([signal, &child.id().to_string()]).status();
+    assert!(killed.expect("kill is there").success());
 }

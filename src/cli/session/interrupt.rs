@@ -1,36 +1,126 @@
-//! Ctrl-c: the first one asks for a clean end, the second one ends at once.
+//! Requests to end: ctrl-c, SIGTERM, SIGHUP, and a reader of standard output that is gone.
+//!
+//! The first one asks for a clean end, the second one ends at once. A script that does not end by itself is interrupted after a short time, and
+//! one that cannot be interrupted ends with the process; where it was is told.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
+use std::time::{Duration, Instant};
 
-/// Set when the user interrupts the program.
+use crate::io::signals::{self, InterruptibleThread};
+use crate::script::{calls_begun, interrupt_running_code, place_of_interruption};
+
+/// How long a call into a script may take after the request, before it is interrupted.
+const PATIENCE: Duration = Duration::from_millis(300);
+/// The same before the process ends without it.
+const LAST_PATIENCE: Duration = Duration::from_millis(700);
+/// How often scripts are looked at meanwhile.
+const TICK: Duration = Duration::from_millis(25);
+/// Time for what an interrupted script leaves to others, such as `sysCall_cleanup`, before the next interruption.
+const PAUSE: Duration = Duration::from_millis(150);
+
+/// Set when the program shall end. Cheap to clone.
+#[derive(Clone)]
 pub(in crate::cli) struct Interrupt {
     requested: Arc<AtomicBool>,
+    /// The number of the signal, or 0.
+    signal: Arc<AtomicI32>,
+    /// Where scripts run, unless somebody else watches them.
+    scripts: Option<InterruptibleThread>,
 }
 
 impl Interrupt {
-    /// Installs the handler; `code` is the exit code after a second interrupt.
+    /// Listens; `code` is the exit code after a second request.
     pub(in crate::cli) fn install(code: u8) -> Self {
-        let requested = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&requested);
-        let listening = ctrlc::set_handler(move || {
-            if flag.swap(true, Ordering::Relaxed) {
-                std::process::exit(i32::from(code));
-            }
-        });
-        if let Err(error) = listening {
-            // Then ctrl-c does what the system does by default.
-            eprintln!("swanilda: cannot listen for ctrl-c: {error}");
-        }
-        Self { requested }
+        Self::listen(None, Some(code))
     }
 
-    /// Becomes true on the first interrupt.
+    /// The same for scripts that run on this thread, which are interrupted.
+    pub(in crate::cli) fn of_scripts_here() -> Self {
+        Self::listen(Some(InterruptibleThread::current(interrupt_running_code)), None)
+    }
+
+    fn listen(scripts: Option<InterruptibleThread>, code: Option<u8>) -> Self {
+        let interrupt = Self { requested: Arc::default(), signal: Arc::default(), scripts };
+        let handler = interrupt.clone();
+        let listening = ctrlc::set_handler(move || {
+            if handler.is_requested() {
+                std::process::exit(i32::from(code.unwrap_or_else(|| handler.exit_code())));
+            }
+            handler.request(signals::last_request());
+        });
+        match listening {
+            Ok(()) => signals::note_requests(),
+            // Then ctrl-c does what the system does by default.
+            Err(error) => super::super::complain(&format!("cannot listen for ctrl-c: {error}")),
+        }
+        interrupt
+    }
+
+    /// Nobody reads standard output any more: a clean end, without a word.
+    pub(in crate::cli) fn request_quietly(&self) {
+        if !self.is_requested() {
+            self.request(signals::CLOSED_PIPE);
+        }
+    }
+
+    fn request(&self, signal: i32) {
+        self.signal.store(signal, Ordering::Relaxed);
+        self.requested.store(true, Ordering::Relaxed);
+        if let Some(scripts) = self.scripts {
+            let interrupt = self.clone();
+            // Without a thread, a second request is what ends a script.
+            let _ = std::thread::Builder::new().spawn(move || interrupt.watch(scripts));
+        }
+    }
+
+    /// Interrupts scripts that go on, until the process ends.
+    fn watch(&self, scripts: InterruptibleThread) -> ! {
+        let (mut calls, mut begun) = (calls_begun(), Instant::now());
+        let mut due = PATIENCE;
+        loop {
+            std::thread::sleep(TICK);
+            if calls_begun() != calls {
+                (calls, begun, due) = (calls_begun(), Instant::now(), PATIENCE);
+            }
+            if begun.elapsed() > LAST_PATIENCE {
+                self.end_at_once();
+            }
+            if begun.elapsed() > due {
+                scripts.wake();
+                due += PAUSE;
+            }
+        }
+    }
+
+    fn end_at_once(&self) -> ! {
+        if !self.is_quiet() {
+            let place = place_of_interruption();
+            super::super::complain(&match place {
+                Some(place) => format!("ended in the middle of a script, at {place}"),
+                None => "ended in the middle of a script".into(),
+            });
+        }
+        std::process::exit(i32::from(self.exit_code()));
+    }
+
+    /// Becomes true on the first request.
     pub(in crate::cli) fn flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.requested)
     }
 
     pub(in crate::cli) fn is_requested(&self) -> bool {
         self.requested.load(Ordering::Relaxed)
+    }
+
+    /// Whether nobody is left to read what the program says.
+    pub(in crate::cli) fn is_quiet(&self) -> bool {
+        self.signal.load(Ordering::Relaxed) == signals::CLOSED_PIPE
+    }
+
+    /// The exit code that shells expect after the signal.
+    pub(in crate::cli) fn exit_code(&self) -> u8 {
+        let signal = self.signal.load(Ordering::Relaxed);
+        u8::try_from(128 + signal).unwrap_or(u8::MAX)
     }
 }

@@ -9,6 +9,8 @@ use std::time::Duration;
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
 
+use super::interrupt::Interrupt;
+use crate::io::signals::standard_output_is_closed;
 use crate::script::log::{status, verbosity};
 use crate::{Console, LogLine, RunTotals};
 
@@ -30,6 +32,8 @@ pub(in crate::cli) struct Output {
     bar: ProgressBar,
     /// What has happened since the last error of a script.
     aftermath: Rc<Cell<Aftermath>>,
+    /// Requested when nobody reads standard output any more.
+    interrupt: Interrupt,
 }
 
 /// A script error pauses the simulation, and a run that nobody resumes is then stopped. Of the four lines about that, people read one.
@@ -45,8 +49,8 @@ enum Aftermath {
 }
 
 impl Output {
-    pub(in crate::cli) fn new(format: Format, quiet: bool, bar: ProgressBar) -> Self {
-        Self { format, quiet, bar, aftermath: Rc::new(Cell::new(Aftermath::None)) }
+    pub(in crate::cli) fn new(format: Format, quiet: bool, bar: ProgressBar, interrupt: Interrupt) -> Self {
+        Self { format, quiet, bar, aftermath: Rc::new(Cell::new(Aftermath::None)), interrupt }
     }
 
     /// A message of the command line itself, under the simulator's name in the log.
@@ -76,7 +80,7 @@ impl Output {
             (Aftermath::GivenUp, status::STOPPED) => (Aftermath::None, Some(STOPPED_AFTER_ERROR)),
             (Aftermath::Paused, text) => {
                 // Somebody has resumed it: the pause is told after all.
-                self.write_line(&LogLine { text: status::PAUSED, ..*line });
+                self.write_error(&LogLine { text: status::PAUSED, ..*line });
                 (Aftermath::None, Some(text))
             }
             (_, text) => (Aftermath::None, Some(text)),
@@ -88,8 +92,8 @@ impl Output {
     /// Reports the address of a server.
     pub(in crate::cli) fn listening(&self, api: &str, address: SocketAddr) {
         match self.format {
-            Format::Text => write_stdout(format!("{api} remote API at {address}").as_bytes()),
-            Format::Json => write_json(&json!({
+            Format::Text => self.write_line(format!("{api} remote API at {address}").as_bytes()),
+            Format::Json => self.write_json(&json!({
                 "type": "listening", "api": api, "address": address.ip(), "port": address.port(),
             })),
         }
@@ -97,22 +101,23 @@ impl Output {
 
     /// The last line: steps, times and errors of the run.
     pub(in crate::cli) fn summary(&self, totals: RunTotals, wall: Duration, errors: u64, exit_code: u8) {
-        if self.quiet {
+        if self.quiet || self.interrupt.is_quiet() {
             return;
         }
         let RunTotals { steps, time } = totals;
         let wall = wall.as_secs_f64();
         let ratio = time / wall.max(1e-9);
         match self.format {
-            Format::Text => eprintln!(
+            Format::Text => drop(writeln!(
+                std::io::stderr(),
                 "{steps} steps, {time:.3} s simulated in {wall:.3} s of wall time ({ratio:.1} times as fast){}",
                 match errors {
                     0 => String::new(),
                     1 => ", 1 script error".to_owned(),
                     _ => format!(", {errors} script errors"),
                 }
-            ),
-            Format::Json => write_json(&json!({
+            )),
+            Format::Json => self.write_json(&json!({
                 "type": "summary", "steps": steps, "time": time, "wallTime": wall, "ratio": ratio, "errors": errors,
                 "exitCode": exit_code,
             })),
@@ -120,22 +125,35 @@ impl Output {
     }
 
     fn write_log(&self, line: &LogLine<'_>) {
-        if self.quiet && line.status {
+        if self.quiet && line.status || self.interrupt.is_quiet() {
             return;
         }
         match self.format {
-            Format::Text => self.condensed(line).iter().for_each(|line| self.write_line(line)),
-            Format::Json => write_json(&json!({
+            Format::Text => self.condensed(line).iter().for_each(|line| self.write_error(line)),
+            Format::Json => self.write_json(&json!({
                 "type": "log", "level": verbosity::name(line.level), "origin": line.origin, "text": line.plain_text(),
                 "time": line.time,
             })),
         }
     }
 
-    fn write_line(&self, line: &LogLine<'_>) {
+    fn write_error(&self, line: &LogLine<'_>) {
         self.bar.suspend(|| {
             let _ = writeln!(std::io::stderr().lock(), "{}", line.decorated());
         });
+    }
+
+    fn write_json(&self, value: &Value) {
+        self.write_line(value.to_string().as_bytes());
+    }
+
+    /// Writes a line to standard output. When nobody reads it any more, the program ends.
+    fn write_line(&self, line: &[u8]) {
+        let mut out = std::io::stdout().lock();
+        let written = out.write_all(line).and_then(|()| out.write_all(b"\n")).and_then(|()| out.flush());
+        if written.is_err_and(|error| error.kind() == std::io::ErrorKind::BrokenPipe) {
+            self.interrupt.request_quietly();
+        }
     }
 }
 
@@ -145,22 +163,18 @@ const STOPPED_AFTER_ERROR: &str = "Simulation stopped because of the error.";
 impl Console for Output {
     fn print(&mut self, line: &[u8], _: f64) {
         match self.format {
-            Format::Text => self.bar.suspend(|| write_stdout(line)),
-            Format::Json => write_json(&json!({"type": "print", "text": String::from_utf8_lossy(line)})),
+            Format::Text => self.bar.suspend(|| self.write_line(line)),
+            Format::Json => self.write_json(&json!({"type": "print", "text": String::from_utf8_lossy(line)})),
         }
     }
 
     fn log(&mut self, line: &LogLine<'_>) {
         self.write_log(line);
     }
-}
 
-fn write_json(value: &Value) {
-    write_stdout(value.to_string().as_bytes());
-}
-
-/// Writes a line. A closed pipe is no reason to stop a simulation.
-fn write_stdout(line: &[u8]) {
-    let mut out = std::io::stdout().lock();
-    let _ = out.write_all(line).and_then(|()| out.write_all(b"\n")).and_then(|()| out.flush());
+    fn pipe_closed(&mut self) {
+        if standard_output_is_closed() {
+            self.interrupt.request_quietly();
+        }
+    }
 }

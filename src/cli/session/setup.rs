@@ -9,7 +9,7 @@ use crate::format::scene_file::{self, SceneFile};
 use crate::format::scene_input::SceneInput;
 use crate::format::script_file;
 use crate::format::ttt::FileError;
-use crate::permissions::Permissions;
+use crate::permissions::{Permissions, read_bounded};
 use crate::script::log::verbosity;
 use crate::{Options, ScriptKind, Simulator};
 
@@ -93,8 +93,9 @@ impl Setup {
         self.define.iter().rev().find(|(defined, _)| defined == name).map(|(_, value)| value.as_str())
     }
 
-    pub(in crate::cli) fn output(&self, progress: &Progress) -> Output {
-        Output::new(if self.json { Format::Json } else { Format::Text }, self.quiet, progress.bar())
+    pub(in crate::cli) fn output(&self, progress: &Progress, interrupt: &Interrupt) -> Output {
+        let format = if self.json { Format::Json } else { Format::Text };
+        Output::new(format, self.quiet, progress.bar(), interrupt.clone())
     }
 
     pub(in crate::cli) fn options(&self, scene: Option<&Path>, interrupt: &Interrupt) -> Options {
@@ -163,7 +164,7 @@ impl Setup {
 fn read(path: impl AsRef<Path>) -> Result<Source, String> {
     let path = path.as_ref();
     let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
-    let code = std::fs::read(path).map_err(|error| unreadable(error.to_string()))?;
+    let code = read_bounded(path).map_err(|error| unreadable(error.to_string()))?;
     script_file::check(path, &code).map_err(|reason| unreadable(reason.to_string()))?;
     Ok((name_of(path), code))
 }

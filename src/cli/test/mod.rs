@@ -124,7 +124,7 @@ fn watch(args: &Args, config: &Config, interrupt: &Interrupt) -> Result<u8, Stri
     let watch = Watch::new(&config.paths).map_err(|error| error.to_string())?;
     let mut code = run(args, config)?;
     while let Some(changed) = watch.next(interrupt) {
-        println!("\n{} has changed", changed.display());
+        super::say(format!("\n{} has changed\n", changed.display()).as_bytes());
         code = run(args, config)?;
     }
     Ok(code)
@@ -133,7 +133,7 @@ fn watch(args: &Args, config: &Config, interrupt: &Interrupt) -> Result<u8, Stri
 fn init() -> ExitCode {
     match init::write(Path::new("")) {
         Ok(written) => {
-            written.iter().for_each(|path| println!("wrote {}", path.display()));
+            written.iter().for_each(|path| super::say(format!("wrote {}\n", path.display()).as_bytes()));
             ExitCode::SUCCESS
         }
         Err(error) => refuse(&error.to_string()),
@@ -185,7 +185,7 @@ fn exit_code(config: &Config, summary: &Summary) -> u8 {
 }
 
 fn refuse(reason: &str) -> ExitCode {
-    eprintln!("swanilda: {reason}");
+    super::complain(reason);
     ExitCode::from(USAGE)
 }
 

@@ -65,6 +65,11 @@ impl Log {
         self.console.borrow_mut().print(line, time);
     }
 
+    /// A script could not write, since nobody reads the pipe.
+    pub(super) fn pipe_closed(&self) {
+        self.console.borrow_mut().pipe_closed();
+    }
+
     /// What a script wrote to a stream of the process.
     pub(super) fn write(&self, text: &[u8], stream: Stream, time: f64) {
         self.console.borrow_mut().write(text, stream, time);

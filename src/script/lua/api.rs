@@ -46,6 +46,7 @@ struct Known<'a>(Stack<'a>);
 unsafe extern "C-unwind" {
     pub(super) safe fn lua_gettop(stack: Stack<'_>) -> c_int;
     pub(super) safe fn lua_checkstack(stack: Stack<'_>, count: c_int) -> c_int;
+    pub(super) safe fn lua_gethookcount(stack: Stack<'_>) -> c_int;
     pub(super) safe fn lua_isyieldable(stack: Stack<'_>) -> c_int;
     pub(super) safe fn lua_type(stack: Stack<'_>, slot: Slot) -> c_int;
     pub(super) safe fn lua_iscfunction(stack: Stack<'_>, slot: Slot) -> c_int;

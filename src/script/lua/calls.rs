@@ -7,6 +7,7 @@ use mlua::{Error, ffi};
 
 use super::api;
 use super::entry::{Exit, push_function};
+use super::interrupt::Running;
 use super::seal::seal_top;
 use super::stack::Stack;
 
@@ -51,8 +52,10 @@ impl Stack<'_> {
         assert!(results <= 0 || api::lua_checkstack(self, results) != 0, "stack overflow");
         let budget = self.budget();
         let before = budget.enter(false);
+        let running = Running::begin(self);
         // SAFETY: the handler, the function and its arguments are on the stack, which has room for the results. Every error is caught.
         let status = unsafe { ffi::lua_pcall(self.raw(), arguments, results, handler) };
+        drop(running);
         budget.leave(before);
         if status == ffi::LUA_OK { Ok(()) } else { Err(self.pop_error()) }
     }

@@ -7,6 +7,7 @@ use mlua::ffi;
 
 use super::callback::panic_message;
 use super::guard::{Next, guarded, install};
+use super::interrupt::{is_requested, place_of_interruption};
 use super::{Stack, api};
 
 /// Virtual machine instructions between two checks of the budget.
@@ -52,6 +53,13 @@ pub(crate) fn set_count_hook(stack: Stack<'_>, on: bool) {
     set_interval(stack, if on || stack.owner().is_interruptible() { HOOK_INTERVAL } else { 0 });
 }
 
+/// Puts the count hook of the running coroutine back after an interruption: as of a new coroutine, where it may be a hook for nothing.
+pub(super) fn restore_count_hook(stack: Stack<'_>) {
+    let is_main = api::lua_pushthread(stack.room()) != 0;
+    set_hook(stack, if is_main && !stack.owner().is_interruptible() { 0 } else { HOOK_INTERVAL });
+    stack.pop(1);
+}
+
 /// Makes the count hook of the running coroutine come in a few instructions, until it is set again.
 pub(crate) fn hasten_count_hook(stack: Stack<'_>) {
     set_interval(stack, SOON);
@@ -84,10 +92,12 @@ pub(crate) enum Verdict {
     Yield,
     /// Raise this text.
     Fail(&'static str),
+    /// Raise where the code was interrupted.
+    Interrupt,
 }
 
 /// The hook: yields, with no values, or raises when the host says so.
-unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
+pub(super) unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
     // SAFETY: Lua calls the hook of a running coroutine. Yields and errors leave it by `longjmp`; nothing is owned here.
     unsafe {
         match ask(Stack::from_raw(raw)) {
@@ -100,18 +110,23 @@ unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debu
 
 /// What is left to do when everything Rust owns is gone.
 #[derive(Debug, PartialEq, Eq)]
-enum Step {
+pub(super) enum Step {
     GoOn,
     Yield,
     /// The text is on the stack.
     Raise,
 }
 
-fn ask(stack: Stack<'_>) -> Step {
+pub(super) fn ask(stack: Stack<'_>) -> Step {
     let Some(on_count) = ON_COUNT.get() else { return Step::GoOn };
     let budget = stack.budget();
     let before = budget.enter(true);
-    let step = step(stack, || on_count(stack, api::lua_isyieldable(stack) != 0));
+    let step = step(stack, || {
+        if is_requested(stack) {
+            return Verdict::Interrupt;
+        }
+        on_count(stack, api::lua_isyieldable(stack) != 0)
+    });
     budget.leave(before);
     step
 }
@@ -123,6 +138,11 @@ fn step(stack: Stack<'_>, verdict: impl FnOnce() -> Verdict) -> Step {
         Ok(Verdict::Yield) => Step::Yield,
         Ok(Verdict::Fail(text)) => {
             stack.push_bytes(text.as_bytes());
+            Step::Raise
+        }
+        Ok(Verdict::Interrupt) => {
+            let place = place_of_interruption().map(|place| format!(" at {place}"));
+            stack.push_bytes(format!("interrupted{}.", place.unwrap_or_default()).as_bytes());
             Step::Raise
         }
         Err(panic) => {

@@ -8,6 +8,7 @@ use std::ffi::{CStr, c_int};
 
 use mlua::{Lua, Table, ffi};
 
+use super::debug_hook::keep_watch;
 use super::guard::{Next, guarded, install};
 use super::{Stack, Type, api};
 
@@ -20,6 +21,9 @@ pub(crate) fn restrict_debug(stack: Stack<'_>, lua: &Lua) -> mlua::Result<()> {
     install::<{ guarded::SET_METATABLE }, _>(stack, "setmetatable", set_metatable);
     install::<{ guarded::GET_UPVALUE }, _>(stack, "getupvalue", access_upvalue);
     install::<{ guarded::SET_UPVALUE }, _>(stack, "setupvalue", access_upvalue);
+    if stack.owner().is_interruptible() {
+        keep_watch(stack);
+    }
     stack.pop(1);
     let registry = public_registry(lua)?;
     let get_registry = lua.create_function(move |_, ()| Ok(registry.clone()))?;

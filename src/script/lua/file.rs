@@ -9,7 +9,8 @@ use std::ptr::NonNull;
 
 use mlua::ffi;
 
-use super::stack::Stack;
+use super::guard::{Next, guarded, install};
+use super::stack::{Stack, Type};
 use crate::io::FileLock;
 
 /// Lua's `luaL_Stream`.
@@ -28,6 +29,33 @@ impl Stack<'_> {
         let stream = unsafe { ffi::luaL_testudata(self.raw(), index, c"FILE*".as_ptr()).cast::<Stream>().as_ref() }?;
         stream.close?;
         Some(apply(File(stream.file?, PhantomData), lock))
+    }
+}
+
+/// C's number for writing to a pipe that nobody reads.
+const CLOSED_PIPE: i64 = 32;
+
+/// From now on the log learns when a script writes to a pipe that nobody reads, which Lua's functions only return.
+pub(crate) fn report_closed_pipes(stack: Stack<'_>) {
+    stack.push_global("io");
+    install::<{ guarded::IO_WRITE }, _>(stack, "write", |_| Next::OriginalThen(report_closed_pipe));
+    stack.raw_get_field(-1, "stdout");
+    if stack.push_metatable(-1) {
+        stack.raw_get_field(-1, "__index");
+        install::<{ guarded::FILE_WRITE }, _>(stack, "write", |_| Next::OriginalThen(report_closed_pipe));
+        stack.pop(2);
+    }
+    stack.pop(2);
+}
+
+/// The results of a failed call are on top: nil, a text, the number.
+fn report_closed_pipe(stack: Stack<'_>) {
+    if stack.kind(-3) == Type::Nil
+        && stack.kind(-1) == Type::Number
+        && stack.integer(-1) == Some(CLOSED_PIPE)
+        && let Some(sim) = stack.owner().sim.upgrade()
+    {
+        sim.log.pipe_closed();
     }
 }
 

@@ -33,7 +33,11 @@ pub(super) mod guarded {
     pub const OS_REMOVE: usize = 19;
     pub const OS_RENAME: usize = 20;
     pub const OS_TMPNAME: usize = 21;
-    pub const COUNT: usize = 22;
+    pub const IO_WRITE: usize = 22;
+    pub const FILE_WRITE: usize = 23;
+    pub const SET_HOOK: usize = 24;
+    pub const GET_HOOK: usize = 25;
+    pub const COUNT: usize = 26;
 }
 
 /// What follows a guard.

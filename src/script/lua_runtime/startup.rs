@@ -25,6 +25,7 @@ pub(super) fn fill(sim: &Rc<Sim>, state: &State, user_modules: &[UserModule]) ->
     threads::install(stack);
     lua::install_coroutine_hooks(stack, threads::on_count);
     lua::restrict_debug(stack, state.lua())?;
+    lua::report_closed_pipes(stack);
     let is_restricted = !sim.options.permissions.is_all();
     if is_restricted {
         lua::restrict_libraries(stack);

@@ -1,0 +1,137 @@
+//! Signals of the operating system: which one asks for the end, and one that interrupts a thread in the middle of what it does.
+//!
+//! Elsewhere than on Unix there are none: the end is asked for by ctrl-c, and threads cannot be interrupted.
+
+#[cfg(not(unix))]
+pub(crate) use elsewhere::{InterruptibleThread, last_request, note_requests, standard_output_is_closed};
+#[cfg(unix)]
+pub(crate) use unix::{InterruptibleThread, last_request, note_requests, standard_output_is_closed};
+
+/// The number of the signal that ctrl-c sends.
+pub(crate) const INTERRUPT: i32 = 2;
+/// The number of the signal for writing to a pipe that nobody reads.
+pub(crate) const CLOSED_PIPE: i32 = 13;
+
+#[cfg(unix)]
+mod unix {
+    use std::mem::MaybeUninit;
+    use std::sync::OnceLock;
+    use std::sync::atomic::{AtomicI32, AtomicUsize, Ordering};
+
+    use libc::c_int;
+    use rustix::event::{PollFd, PollFlags, Timespec, poll};
+
+    /// Signals that ask for the end.
+    const REQUESTS: [c_int; 3] = [libc::SIGINT, libc::SIGTERM, libc::SIGHUP];
+    /// A signal that is ignored where nobody handles it.
+    const WAKE: c_int = libc::SIGURG;
+
+    static LAST: AtomicI32 = AtomicI32::new(super::INTERRUPT);
+    /// The handlers that were there before, in the order of `REQUESTS`.
+    static NEXT: [AtomicUsize; 3] = [const { AtomicUsize::new(0) }; 3];
+    static ON_WAKE: OnceLock<fn()> = OnceLock::new();
+
+    /// From now on remembers which signal asked for the end, and calls the handlers that are there already.
+    pub(crate) fn note_requests() {
+        for (next, &signal) in NEXT.iter().zip(&REQUESTS) {
+            if let Some(before) = handle(signal, note, libc::SA_RESTART)
+                && before != note as *const () as usize
+            {
+                next.store(before, Ordering::Relaxed);
+            }
+        }
+    }
+
+    /// The number of the signal that asked for the end last.
+    pub(crate) fn last_request() -> i32 {
+        LAST.load(Ordering::Relaxed)
+    }
+
+    extern "C" fn note(signal: c_int) {
+        LAST.store(signal, Ordering::Relaxed);
+        let Some(next) = REQUESTS.iter().position(|&request| request == signal) else { return };
+        let next = NEXT[next].load(Ordering::Relaxed);
+        if next != libc::SIG_DFL && next != libc::SIG_IGN {
+            // SAFETY: the system had this address as a handler without `SA_SIGINFO`.
+            let next = unsafe { std::mem::transmute::<usize, extern "C" fn(c_int)>(next) };
+            next(signal);
+        }
+    }
+
+    /// Sets a handler; returns the address of the one before, if it is one of a number only.
+    fn handle(signal: c_int, handler: extern "C" fn(c_int), flags: c_int) -> Option<usize> {
+        let mut before = MaybeUninit::<libc::sigaction>::zeroed();
+        // SAFETY: records of zeros are valid, and the handlers only do what is allowed in one.
+        unsafe {
+            let mut action = MaybeUninit::<libc::sigaction>::zeroed().assume_init();
+            action.sa_sigaction = handler as *const () as usize;
+            action.sa_flags = flags;
+            if libc::sigaction(signal, &raw const action, before.as_mut_ptr()) != 0 {
+                return None;
+            }
+            let before = before.assume_init();
+            (before.sa_flags & libc::SA_SIGINFO == 0).then_some(before.sa_sigaction)
+        }
+    }
+
+    /// A thread that another one can interrupt.
+    #[derive(Debug, Clone, Copy)]
+    pub(crate) struct InterruptibleThread(libc::pthread_t);
+
+    impl InterruptibleThread {
+        /// The running thread, which lives as long as the process. `on_wake` runs in a signal handler, so it neither allocates nor waits; it
+        /// is the same one for all threads.
+        pub(crate) fn current(on_wake: fn()) -> Self {
+            ON_WAKE.get_or_init(|| on_wake);
+            // Without `SA_RESTART`: what waits in the system is to return.
+            handle(WAKE, wake, 0);
+            // SAFETY: it has no conditions.
+            Self(unsafe { libc::pthread_self() })
+        }
+
+        /// Runs `on_wake` in the middle of what the thread does.
+        pub(crate) fn wake(self) {
+            // SAFETY: the thread lives as long as the process.
+            unsafe { libc::pthread_kill(self.0, WAKE) };
+        }
+    }
+
+    extern "C" fn wake(_: c_int) {
+        if let Some(on_wake) = ON_WAKE.get() {
+            on_wake();
+        }
+    }
+
+    /// Whether nobody reads standard output any more.
+    pub(crate) fn standard_output_is_closed() -> bool {
+        let stdout = std::io::stdout();
+        let mut polled = [PollFd::new(&stdout, PollFlags::empty())];
+        let at_once = Timespec { tv_sec: 0, tv_nsec: 0 };
+        poll(&mut polled, Some(&at_once)).is_ok() && polled[0].revents().contains(PollFlags::ERR)
+    }
+}
+
+#[cfg(not(unix))]
+mod elsewhere {
+    pub(crate) fn note_requests() {}
+
+    pub(crate) fn last_request() -> i32 {
+        super::INTERRUPT
+    }
+
+    pub(crate) fn standard_output_is_closed() -> bool {
+        false
+    }
+
+    /// A thread that cannot be interrupted here.
+    #[derive(Debug, Clone, Copy)]
+    pub(crate) struct InterruptibleThread;
+
+    impl InterruptibleThread {
+        pub(crate) fn current(_: fn()) -> Self {
+            Self
+        }
+
+        pub(crate) fn wake(self) {}
+    }
+}

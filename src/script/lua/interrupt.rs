@@ -1,0 +1,180 @@
+//! Stopping Lua code in the middle of what it does, from a signal handler of its thread.
+//!
+//! Code outside of coroutines runs without a hook, at full speed. The handler sets one, which Lua allows at any time (`lua_sethook`), and
+//! notes the line the code is at. From then on every instruction raises an error, also in code that catches errors, until the innermost call
+//! from outside has ended. A function written in C runs to its end first. The line is read while the thread stands still, from the
+//! records of its calls; nothing is written there.
+
+use std::cell::Cell;
+use std::ffi::{CStr, c_int};
+use std::mem::MaybeUninit;
+use std::ptr::null_mut;
+use std::sync::atomic::{AtomicU8, AtomicU64, AtomicUsize, Ordering};
+
+use mlua::ffi;
+
+use super::coroutine::{hook, restore_count_hook};
+use super::{Stack, api};
+
+/// Coroutines within coroutines that are looked at.
+const LONGEST_CHAIN: usize = 250;
+/// Calls that are looked at for one with a line.
+const DEEPEST_LEVEL: c_int = 50;
+/// Lines of calls that a place consists of.
+const MOST_LINES: usize = 6;
+/// Bytes of a place that are kept.
+const LONGEST_PLACE: usize = 512;
+
+thread_local! {
+    /// Where the innermost call into Lua on this thread was made; null while there is none.
+    static RUNNING: Cell<*mut ffi::lua_State> = const { Cell::new(null_mut()) };
+    /// The code that runs is to stop.
+    static REQUESTED: Cell<bool> = const { Cell::new(false) };
+}
+
+static CALLS: AtomicU64 = AtomicU64::new(0);
+static PLACE: [AtomicU8; LONGEST_PLACE] = [const { AtomicU8::new(0) }; LONGEST_PLACE];
+static PLACE_LENGTH: AtomicUsize = AtomicUsize::new(0);
+
+/// A call into Lua from outside. Nested ones end in reverse order.
+pub(super) struct Running {
+    outer: *mut ffi::lua_State,
+}
+
+impl Running {
+    pub(super) fn begin(stack: Stack<'_>) -> Self {
+        let outer = RUNNING.replace(stack.raw());
+        if outer.is_null() {
+            REQUESTED.set(false);
+            CALLS.fetch_add(1, Ordering::Relaxed);
+        }
+        Self { outer }
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        RUNNING.set(self.outer);
+        // What was interrupted has ended; what called it may clean up.
+        REQUESTED.set(false);
+    }
+}
+
+/// How many calls into Lua have begun, those inside of others not counted. While the number stays, the same call runs.
+pub(crate) fn calls_begun() -> u64 {
+    CALLS.load(Ordering::Relaxed)
+}
+
+/// Where code was when it was last interrupted: the function written in C that it waits for, chunks and lines.
+pub(crate) fn place_of_interruption() -> Option<String> {
+    let length = PLACE_LENGTH.load(Ordering::Acquire);
+    let bytes: Vec<u8> = PLACE[..length].iter().map(|byte| byte.load(Ordering::Relaxed)).collect();
+    (length > 0).then(|| String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// Stops the Lua code of this thread. For signal handlers: it neither allocates nor waits.
+pub(crate) fn interrupt_running_code() {
+    let mut state = RUNNING.get();
+    if state.is_null() {
+        return;
+    }
+    REQUESTED.set(true);
+    for _ in 0..LONGEST_CHAIN {
+        // SAFETY: `state` is alive, being called or inside of such a call on this very thread, which stands still meanwhile. Setting the
+        // hook is what Lua allows a signal handler to do; the other functions only read.
+        unsafe {
+            ffi::lua_sethook(state, Some(hook as ffi::lua_Hook), ffi::LUA_MASKCOUNT, 1);
+            note_place(state);
+            match resumed_by(state) {
+                Some(coroutine) => state = coroutine,
+                None => return,
+            }
+        }
+    }
+}
+
+/// Whether the running code is to stop; the hook calls. An interruption that is over leaves nothing behind.
+pub(super) fn is_requested(stack: Stack<'_>) -> bool {
+    let is_requested = REQUESTED.get();
+    if !is_requested && api::lua_gethookcount(stack) == 1 {
+        restore_count_hook(stack);
+    }
+    is_requested
+}
+
+/// The coroutine that the function written in C on top of `state`'s calls has resumed.
+unsafe fn resumed_by(state: *mut ffi::lua_State) -> Option<*mut ffi::lua_State> {
+    // SAFETY: the caller's. Indices beyond what is there are "none" to Lua.
+    unsafe {
+        let mut record = MaybeUninit::<ffi::lua_Debug>::zeroed().assume_init();
+        if ffi::lua_getstack(state, 0, &raw mut record) == 0 {
+            return None;
+        }
+        ffi::lua_getinfo(state, c"S".as_ptr(), &raw mut record);
+        if CStr::from_ptr(record.what) != c"C" {
+            return None;
+        }
+        let candidates = [ffi::lua_tothread(state, 1), ffi::lua_tothread(state, ffi::lua_upvalueindex(1))];
+        candidates.into_iter().find(|&coroutine| {
+            !coroutine.is_null()
+                && coroutine != state
+                && ffi::lua_status(coroutine) == ffi::LUA_OK
+                && ffi::lua_getstack(coroutine, 0, &raw mut record) != 0
+        })
+    }
+}
+
+/// Notes the lines of the innermost calls, up to a few: the first may be in the library.
+unsafe fn note_place(state: *mut ffi::lua_State) {
+    let mut place = Place { length: 0 };
+    let mut lines = 0;
+    // SAFETY: the caller's; names last as long as the functions that run.
+    unsafe {
+        let mut record = MaybeUninit::<ffi::lua_Debug>::zeroed().assume_init();
+        for level in 0..DEEPEST_LEVEL {
+            if lines == MOST_LINES || ffi::lua_getstack(state, level, &raw mut record) == 0 {
+                break;
+            }
+            ffi::lua_getinfo(state, c"nSl".as_ptr(), &raw mut record);
+            if record.currentline > 0 {
+                place.push(if lines > 0 { b", called from " } else { b"" });
+                place.push(CStr::from_ptr(record.short_src.as_ptr()).to_bytes());
+                place.push(b":");
+                place.push_number(record.currentline);
+                lines += 1;
+            } else if level == 0 && !record.name.is_null() {
+                place.push(b"function '");
+                place.push(CStr::from_ptr(record.name).to_bytes());
+                place.push(b"', called from ");
+            }
+        }
+    }
+    if lines > 0 {
+        PLACE_LENGTH.store(place.length, Ordering::Release);
+    }
+}
+
+/// A text that grows in `PLACE`.
+struct Place {
+    length: usize,
+}
+
+impl Place {
+    fn push(&mut self, bytes: &[u8]) {
+        for (slot, &byte) in PLACE[self.length..].iter().zip(bytes) {
+            slot.store(byte, Ordering::Relaxed);
+            self.length += 1;
+        }
+    }
+
+    fn push_number(&mut self, number: c_int) {
+        let mut divisor = 1;
+        while number / divisor >= 10 {
+            divisor *= 10;
+        }
+        while divisor > 0 {
+            self.push(&[b'0' + (number / divisor % 10) as u8]);
+            divisor /= 10;
+        }
+    }
+}
