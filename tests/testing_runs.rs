@@ -111,6 +111,25 @@ fn a_test_that_hangs_while_it_is_closed_fails_alone() {
 }
 
 #[test]
+#[cfg(unix)]
+fn isolated_tests_crash_alone() {
+    let suite = "
+    local sim = require 'sim'
+    local t = require 'swanilda.test'
+    it('goes on', function() print('first') t.step(2) end)
+    it('is killed', function() os.execute('kill -ABRT $PPID') end)
+    it('fails', function() print('last words') assert.equal(1, 2) end)
+    it('loops', function() while true do end end)
+    pending('is to be written')";
+    let (code, output) = run(&[("crash_test.lua", suite)], &["-v", "--isolate", "--timeout", "2", "-j", "2"]);
+    assert_eq!(code, 1, "{output}");
+    assert!(output.contains("the test has ended its process") && output.contains("SIGABRT"), "{output}");
+    assert!(output.contains("1 passed, 1 failed, 2 errors, 1 pending"), "{output}");
+    assert!(output.contains("last words") && output.contains("longer than 2 s"), "{output}");
+    assert!(output.contains("crash_test.lua:6"), "{output}");
+}
+
+#[test]
 fn a_hook_of_a_script_runs_beside_the_time_limit() {
     let suite = "
     local sim = require 'sim'

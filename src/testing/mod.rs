@@ -10,6 +10,7 @@ mod coverage;
 mod discover;
 mod excerpt;
 mod golden;
+mod isolated;
 mod plan;
 pub mod report;
 mod results;
@@ -59,6 +60,10 @@ pub struct Config {
     pub allowance: Allowance,
     /// What scripts may do; the scene's folder is that of the test's file.
     pub permissions: Permissions,
+    /// The command that runs a test in a process of its own and prints its outcome as JSON; None: tests run here.
+    pub isolate: Option<fn(&TestCase) -> std::process::Command>,
+    /// Number and repetition of the only test to run.
+    pub only: Option<(usize, u32)>,
     /// Becomes true when the user wants an end.
     pub interrupted: Arc<AtomicBool>,
 }
@@ -79,6 +84,8 @@ impl Config {
             coverage: None,
             allowance,
             permissions: Permissions::all(),
+            isolate: None,
+            only: None,
             interrupted,
         }
     }

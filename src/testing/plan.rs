@@ -61,7 +61,7 @@ impl Plan {
                 number += 1;
             }
             plan.tests.extend(chosen.iter().cloned());
-            plan.jobs.extend(jobs(config, chosen, collection.simulates));
+            plan.jobs.extend(jobs(config, chosen, collection.simulates || config.isolate.is_some()));
             plan.broken.extend(collection.broken);
         }
         plan
@@ -88,6 +88,9 @@ fn cases(config: &Config, collection: &Collection) -> Vec<TestCase> {
 }
 
 fn is_chosen(config: &Config, test: &TestCase, number: usize) -> bool {
+    if let Some(only) = config.only {
+        return (test.index, test.repetition) == only;
+    }
     let id = test.id();
     let named = config.filters.is_empty() || config.filters.iter().any(|filter| id.contains(filter));
     named && config.shard.is_none_or(|(part, parts)| number % parts + 1 == part)

@@ -7,6 +7,7 @@
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -15,6 +16,7 @@ use std::time::{Duration, Instant};
 use super::Config;
 use super::batch;
 use super::case::{Outcome, Status, TestCase};
+use super::isolated;
 use super::plan::{Collection, Job};
 use super::session::Session;
 use crate::Simulator;
@@ -25,6 +27,8 @@ const TICK: Duration = Duration::from_millis(20);
 const GRACE: Duration = Duration::from_secs(2);
 /// The same when the user waits for the end.
 const GRACE_OF_USER: Duration = Duration::from_millis(500);
+/// Time for a process of a test to start, and to give the test up itself.
+const FOR_PROCESS: Duration = Duration::from_secs(5);
 
 /// A piece of work.
 #[derive(Debug, Clone)]
@@ -173,7 +177,8 @@ impl Watch<'_> {
                 return self.workers.clear();
             }
         }
-        let limit = self.shared.config.allowance.wall;
+        let config = &self.shared.config;
+        let limit = config.allowance.wall + if config.isolate.is_some() { FOR_PROCESS } else { Duration::ZERO };
         let mut stuck = Vec::new();
         for (&worker, running) in &self.workers {
             let Some(running) = running else { continue };
@@ -217,6 +222,10 @@ impl Watch<'_> {
     }
 }
 
+pub(super) fn rest(time: Duration) {
+    std::thread::sleep(time);
+}
+
 fn too_long(limit: Duration) -> String {
     format!("the test took longer than {} s (--timeout).", limit.as_secs_f64())
 }
@@ -233,7 +242,10 @@ impl Worker {
         while let Some(task) = self.shared.next_task(self.id) {
             match task {
                 Task::Collect(file) => self.collect(&file),
-                Task::Run(job) => self.run(job.tests),
+                Task::Run(job) => match self.shared.config.isolate {
+                    Some(command) => self.run_isolated(&job.tests, command),
+                    None => self.run(job.tests),
+                },
                 Task::Simulate(job) => self.simulate(&job),
             }
         }
@@ -276,6 +288,15 @@ impl Worker {
                 self.finished(Outcome::new(first, Status::Error, CRASHED));
                 tests.split_off(1)
             });
+        }
+    }
+
+    /// Each test in a process of its own.
+    fn run_isolated(&self, tests: &[Arc<TestCase>], command: fn(&TestCase) -> Command) {
+        for (number, test) in tests.iter().enumerate().filter(|_| !self.is_to_end()) {
+            let stop = Arc::new(AtomicBool::new(false));
+            self.begin(test, &tests[number + 1..], &stop);
+            self.finished(isolated::run(command(test), test, &stop));
         }
     }
 

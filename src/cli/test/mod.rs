@@ -14,6 +14,7 @@ use crate::testing::{self, Allowance, Config, Summary};
 mod coverage;
 mod failure;
 mod init;
+mod isolate;
 mod paint;
 mod reports;
 mod terminal;
@@ -76,6 +77,9 @@ pub(super) struct Args {
     /// Measure line coverage of scripts and Lua files and write it in LCOV format [default FILE: lcov.info]
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "lcov.info")]
     coverage: Option<PathBuf>,
+    /// Run each test in a child process, so that a crash in native code ends this test only
+    #[arg(long, conflicts_with = "coverage")]
+    isolate: bool,
     /// Run the tests again whenever a file next to or below them changes
     #[arg(long)]
     watch: bool,
@@ -97,7 +101,11 @@ pub(super) fn test(args: &Args) -> ExitCode {
         return refuse(&reason);
     }
     let interrupt = Interrupt::install(INTERRUPTED);
-    let config = args.config(&interrupt);
+    let mut config = args.config(&interrupt);
+    if args.isolate && isolate::restrict(&mut config) {
+        let ran = testing::run(&config, &mut reports::Reports::json());
+        std::process::exit(i32::from(ran.is_err()));
+    }
     let ran = match (args.list, args.watch) {
         (true, _) => list(&config),
         (_, true) => watch(args, &config, &interrupt),
@@ -159,6 +167,8 @@ impl Args {
                 memory: (self.memory as usize) << 20,
             },
             permissions: self.permissions.permissions(),
+            isolate: self.isolate.then_some(isolate::command),
+            only: None,
             interrupted: interrupt.flag(),
         }
     }

@@ -88,6 +88,13 @@ pub(super) struct Reports {
     stream: Option<Stream>,
 }
 
+impl Reports {
+    /// Nothing but lines of JSON.
+    pub(super) fn json() -> Self {
+        Self { terminal: None, stream: Some(Stream::Json) }
+    }
+}
+
 /// A report on standard output.
 enum Stream {
     /// With the number of the last test.

@@ -1,0 +1,33 @@
+//! `swanilda test --isolate`: each test in a child, which is called like its parent, and told by its environment which test to run.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::Command;
+
+use crate::testing::{Config, TestCase};
+
+/// The variable with the number, repetition and file of the one test to run.
+const TEST: &str = "SWANILDA_ISOLATED_TEST";
+
+/// The command for a child that runs the test.
+pub(super) fn command(test: &TestCase) -> Command {
+    let program = std::env::current_exe().unwrap_or_else(|_| "swanilda".into());
+    let mut which = OsString::from(format!("{} {} ", test.index, test.repetition));
+    which.push(&test.file);
+    let mut command = Command::new(program);
+    command.args(std::env::args_os().skip(1)).env(TEST, which);
+    command
+}
+
+/// In a child: restricts the tests to the one.
+pub(super) fn restrict(config: &mut Config) -> bool {
+    let Some(which) = std::env::var_os(TEST) else { return false };
+    let which = which.to_string_lossy().into_owned();
+    let mut parts = which.splitn(3, ' ');
+    let mut number = || parts.next().and_then(|part| part.parse::<usize>().ok()).unwrap_or_default();
+    config.only = Some((number(), number() as u32));
+    config.paths = parts.next().map(PathBuf::from).into_iter().collect();
+    config.isolate = None;
+    (config.filters, config.shard, config.jobs) = (Vec::new(), None, 1);
+    true
+}

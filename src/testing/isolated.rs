@@ -1,0 +1,101 @@
+//! A test in a process of its own, which may crash: what it prints as JSON becomes the outcome again.
+
+use std::io::Read;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use serde_json::Value;
+
+use super::case::{Outcome, Status, TestCase};
+use super::excerpt::Excerpt;
+use crate::script::test_bench::ConsoleLine;
+
+/// How often the process is looked at.
+const TICK: Duration = Duration::from_millis(5);
+
+/// Runs a test by `command`, which prints its outcome; kills the process when `stop` is set.
+pub(super) fn run(mut command: Command, test: &Arc<TestCase>, stop: &AtomicBool) -> Outcome {
+    let started = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn();
+    let ended = started.and_then(|child| wait(child, stop));
+    let failed = |message: String| Outcome::new(Arc::clone(test), Status::Error, message);
+    match ended {
+        Err(error) => failed(format!("the test could not be run in a process of its own: {error}")),
+        Ok((status, text)) => outcome(&text, test).unwrap_or_else(|| {
+            failed(format!("the test has ended its process, which ran nothing else (--isolate): {status}"))
+        }),
+    }
+}
+
+fn wait(mut child: Child, stop: &AtomicBool) -> std::io::Result<(ExitStatus, String)> {
+    let mut out = child.stdout.take().ok_or(std::io::ErrorKind::BrokenPipe)?;
+    let reader = std::thread::spawn(move || {
+        let mut bytes = Vec::new();
+        // What has come before an error is all there is.
+        let _ = out.read_to_end(&mut bytes);
+        String::from_utf8_lossy(&bytes).into_owned()
+    });
+    let status = loop {
+        if let Some(status) = child.try_wait()? {
+            break status;
+        }
+        if stop.load(Ordering::Relaxed) {
+            child.kill()?;
+            break child.wait()?;
+        }
+        crate::testing::workers::rest(TICK);
+    };
+    // A program that the test has left behind may keep the pipe open.
+    for _ in 0..200 {
+        if reader.is_finished() {
+            break;
+        }
+        crate::testing::workers::rest(TICK);
+    }
+    let text = if reader.is_finished() { reader.join().unwrap_or_default() } else { String::new() };
+    Ok((status, text))
+}
+
+/// The outcome among the lines, as `report::json` writes it.
+fn outcome(text: &str, test: &Arc<TestCase>) -> Option<Outcome> {
+    let values = text.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
+    let value = values.into_iter().find(|value| value["type"] == "test")?;
+    let status = match value["status"].as_str()? {
+        "passed" => Status::Passed,
+        "failed" => Status::Failed,
+        "pending" => Status::Pending,
+        _ => Status::Error,
+    };
+    let mut outcome = Outcome::new(Arc::clone(test), status, string(&value["message"]));
+    outcome.todo = value["todo"].as_bool().unwrap_or_default();
+    outcome.trace = string(&value["trace"]);
+    outcome.line = value["line"].as_u64().map(|line| line as u32);
+    outcome.script = value["script"].as_str().map(str::to_owned);
+    outcome.time = value["time"].as_f64().unwrap_or(f64::NAN);
+    outcome.steps = value["steps"].as_u64().unwrap_or_default();
+    outcome.excerpts = list(&value["excerpts"]).map(excerpt).collect();
+    outcome.console = list(&value["console"]).map(console_line).collect();
+    Some(outcome)
+}
+
+fn excerpt(value: &Value) -> Excerpt {
+    let number = |name: &str| value[name].as_u64().unwrap_or_default() as u32;
+    let lines = list(&value["lines"]).map(string).collect();
+    Excerpt { place: string(&value["place"]), line: number("line"), first: number("first"), lines }
+}
+
+fn console_line(value: &Value) -> ConsoleLine {
+    const LEVELS: [&str; 9] = ["print", "stderr", "error", "warning", "loadinfo", "info", "debug", "trace", "tracelua"];
+    let level = LEVELS.into_iter().find(|level| value["level"] == *level).unwrap_or("unknown");
+    let origin = value["origin"].as_str().map(str::to_owned);
+    ConsoleLine { time: value["time"].as_f64().unwrap_or_default(), origin, level, text: string(&value["text"]) }
+}
+
+fn list(value: &Value) -> impl Iterator<Item = &Value> {
+    value.as_array().into_iter().flatten()
+}
+
+fn string(value: &Value) -> String {
+    value.as_str().unwrap_or_default().to_owned()
+}
