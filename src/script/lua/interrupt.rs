@@ -30,6 +30,8 @@ thread_local! {
     static RUNNING: Cell<*mut ffi::lua_State> = const { Cell::new(null_mut()) };
     /// The code that runs is to stop.
     static REQUESTED: Cell<bool> = const { Cell::new(false) };
+    /// The place was read while Lua had not stored its line: the hook reads it again.
+    static IS_ROUGH: Cell<bool> = const { Cell::new(false) };
 }
 
 static CALLS: AtomicU64 = AtomicU64::new(0);
@@ -79,6 +81,7 @@ pub(crate) fn interrupt_running_code() {
         return;
     }
     REQUESTED.set(true);
+    IS_ROUGH.set(true);
     for _ in 0..LONGEST_CHAIN {
         // SAFETY: `state` is alive, being called or inside of such a call on this very thread, which stands still meanwhile. Setting the
         // hook is what Lua allows a signal handler to do; the other functions only read.
@@ -98,6 +101,10 @@ pub(super) fn is_requested(stack: Stack<'_>) -> bool {
     let is_requested = REQUESTED.get();
     if !is_requested && api::lua_gethookcount(stack) == 1 {
         restore_count_hook(stack);
+    }
+    if is_requested && IS_ROUGH.take() {
+        // SAFETY: the coroutine runs this hook, on this thread.
+        unsafe { note_place(stack.raw()) };
     }
     is_requested
 }
