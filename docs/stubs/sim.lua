@@ -25,7 +25,7 @@ function getAutoYield() end
 ---@return boolean allowed
 function getYieldAllowed() end
 
---- Native plugins of CoppeliaSim cannot be loaded; the error says so.
+--- Native plugins of CoppeliaSim cannot be loaded: this is an error.
 ---@param name string the plugin
 function loadPlugin(name) end
 
@@ -63,7 +63,7 @@ function sim.acquireLock() end
 ---@param size number of points and lines
 ---@param duplicateTolerance number items closer than this are one
 ---@param parentObjectHandle integer -1 for the world
----@param maxItemCount integer more are refused or replace old ones, as the type says
+---@param maxItemCount integer further ones are refused or replace old ones, depending on the type
 ---@param ... any
 ---@return integer drawingObjectHandle its handle
 function sim.addDrawingObject(objectType, size, duplicateTolerance, parentObjectHandle, maxItemCount, ...) end
@@ -137,7 +137,7 @@ function sim.addObjectToCollection(collectionHandle, objectHandle, what, options
 ---@param objectHandle? integer the object meant
 function sim.addObjectToSelection(what, objectHandle) end
 
---- A source of particles. They are not simulated; a warning says so.
+--- A source of particles. They are not simulated, with a warning.
 ---@param objectType integer sim.particle_*
 ---@param size number of a particle
 ---@param density number of a particle
@@ -405,7 +405,7 @@ function sim.convexDecompose(shapeHandle, options, ...) end
 ---@return number[] matrixOut the same
 function sim.copyMatrix(matrixIn) end
 
---- Copies objects. Copies whose ancestors are not copied become roots; all keep their place in the world.
+--- Copies objects. Copies whose ancestors are not copied become roots; all keep their world poses.
 ---@param objectHandles integer[] the objects
 ---@param options? integer 1: whole models; without 2: scripts; 4: custom data; 8: referenced handles; 32: being models
 ---@return integer[] copiedObjectHandles the copies, in the order of the originals; nothing if none was copied
@@ -451,7 +451,7 @@ function sim.createHeightfieldShape(options, shadingAngle, xPointCount, yPointCo
 ---@return integer jointHandle the joint
 function sim.createJoint(jointType, jointMode, options, sizes) end
 
---- A new shape from a mesh given in world coordinates; its frame is the world's.
+--- A new shape from a mesh in world coordinates; its frame is the world's.
 ---
 --- 8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
 ---@deprecated sim.createShape
@@ -525,7 +525,7 @@ function sim.createPureShape(primitiveType, options, sizes, mass, precision) end
 ---@return integer scriptHandle
 function sim.createScript(scriptType, scriptText, options, lang) end
 
---- A new shape from a mesh given in world coordinates; its frame is the world's.
+--- A new shape from a mesh in world coordinates; its frame is the world's.
 ---
 --- 8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first
 ---@param options integer 1: back faces culled, 2: edges visible, 128: keep duplicate vertices; for the texture 4: pixels are not interpolated,
@@ -542,11 +542,11 @@ function sim.createShape(options, shadingAngle, vertices, indices, normals, text
 --- A new plane with an image on it, from a file or white.
 ---@param fileName string PNG, JPEG, BMP or TGA; an empty text for a new image
 ---@param options integer 1: pixels are not interpolated, 2: applied as a decal, 4: repeated along u, 8: repeated along v
----@param planeSizes? number[] of the plane, metres; nothing: one metre wide, as high as the image says
+---@param planeSizes? number[] of the plane, metres; default: one metre wide, with the aspect ratio of the image
 ---@param scalingUv? number[]
 ---@param xyG? number[]
 ---@param fixedResolution? integer 1: the image of a file is brought to the resolution too
----@param resolution? number[] of a new image, pixels; 256 times 256 if nothing is said
+---@param resolution? number[] of a new image, pixels; 256 times 256 by default
 ---@return integer shapeHandle the plane
 ---@return integer textureId of the image
 ---@return integer[] resolution pixels
@@ -1264,12 +1264,12 @@ function sim.getObjectStringParameter(objectHandle, parameterId) end
 ---@return integer objectType sim.sceneobject_*
 function sim.getObjectType(objectHandle) end
 
---- Identifier of an object that is never given out twice.
+--- Unique identifier of an object, which is never reused.
 ---@param objectHandle integer the object
 ---@return integer uid the identifier
 function sim.getObjectUid(objectHandle) end
 
---- Identifier of an object that is never given out twice.
+--- Unique identifier of an object, which is never reused.
 ---@deprecated sim.getObjectUid
 ---@param objectHandle integer the object
 ---@return integer uid the identifier
@@ -1471,7 +1471,7 @@ function sim.getRotationAxis(matrixStart, matrixGoal) end
 --- An image in another size.
 ---@param imageIn string|table rows of pixels
 ---@param resolutionIn number[] width and height
----@param desiredResolutionOut number[] width and height wished for
+---@param desiredResolutionOut number[] desired width and height
 ---@param options integer 1: the image has an alpha channel; 2: the result has one; 4: keep the proportions
 ---@return string|table imageOut
 ---@return integer[] effectiveResolutionOut
@@ -1531,7 +1531,7 @@ function sim.getScriptName(scriptHandle) end
 --- A parameter of a script, or of the object the script is attached to.
 ---@param scriptHandle integer the script, or sim.handle_self
 ---@param parameterName string its name
----@param forceStringReturn? boolean give the text; otherwise `true`, `12` and the like come as what they look like
+---@param forceStringReturn? boolean return a string; otherwise texts such as `true` and `12` are converted
 ---@return any value nil when there is no such parameter
 function sim.getScriptSimulationParameter(scriptHandle, parameterName, forceStringReturn) end
 
@@ -1576,7 +1576,7 @@ function sim.getShapeBB(shapeHandle) end
 
 --- A colour of a shape.
 ---@param shapeHandle integer the shape
----@param colorName? string nil: the first mesh, a text: the first mesh whose colour is called so, '@compound': of each mesh
+---@param colorName? string nil: the first mesh; a name: the first mesh whose colour has that name; '@compound': of each mesh
 ---@param colorComponent integer sim.colorcomponent_*
 ---@return integer result 1, or 0 when no mesh is called so
 ---@return number[] rgbData red, green, blue; one number for transparency, 1 for opaque
@@ -1843,7 +1843,7 @@ function sim.handleEmbeddedScripts(callType, ...) end
 --- Lets plugins of the original handle what came from outside. There are none; main scripts call it all the same.
 function sim.handleExtCalls() end
 
---- Records a slot: the values the streams have been given, and gaps.
+--- Records a slot: the values set on the streams, and gaps for the others.
 ---@param objectHandle integer the graph, sim.handle_all or sim.handle_all_except_explicit
 ---@param simulationTime number of the values
 function sim.handleGraph(objectHandle, simulationTime) end
@@ -2228,7 +2228,7 @@ function sim.pauseSimulation() end
 ---@return string|table dataValue nothing if there is none
 function sim.persistentDataRead(dataTag) end
 
---- Keeps data with the application, whatever scene is open.
+--- Stores data in the application, independent of the open scene.
 ---@deprecated properties
 ---@param dataTag string its name
 ---@param dataValue string|table empty: removes the tag
@@ -2695,8 +2695,8 @@ function sim.setArrayParameter(parameter, parameterValues) end
 function sim.setAutoYield(allow) end
 
 --- Sets how long a thread runs before it is pre-empted. A slice is measured in Lua instructions, so that results do not depend on
---- the machine; a second stands for a fixed number of them.
----@param delay number seconds, kept as whole milliseconds
+--- the machine; a second is a fixed number of them.
+---@param delay number seconds, rounded to milliseconds
 function sim.setAutoYieldDelay(delay) end
 
 --- Turns a switch on or off.
@@ -3224,7 +3224,7 @@ function sim.setShapeBB(shapeHandle, size) end
 
 --- Colours a shape.
 ---@param shapeHandle any the shape; scripts from before 3.1.4 put '@backCompatibility1:' before it
----@param colorName? string nil: every mesh, a text: meshes whose colour is called so, '@compound': each mesh its own
+---@param colorName? string nil: every mesh; a name: meshes whose colour has that name; '@compound': a colour for each mesh
 ---@param colorComponent integer sim.colorcomponent_*
 ---@param rgbData number[] red, green, blue; one number for transparency, 1 for opaque
 ---@return integer result 1
@@ -3399,7 +3399,7 @@ function sim.switchThread() end
 
 --- Acquires or releases a semaphore shared by all programs on the machine. Acquiring waits until it is free.
 ---@param key string|table its name
----@param acquire boolean true to take it, false to give it back
+---@param acquire boolean true to acquire it, false to release it
 function sim.systemSemaphore(key, acquire) end
 
 --- Calls a function, but not more often than once per period; other calls do nothing.

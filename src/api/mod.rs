@@ -1,7 +1,7 @@
 //! What scripts can call as `sim`: one file per category of the manual.
 //!
-//! A function is said once, with `#[api]`; its row joins the table of its file, and the tables join here. Names that need no code of
-//! their own stand in tables: constants, aliases, deprecations, old names, and the reference that tells what is missing.
+//! A function is described once, with `#[api]`; its row is in the table of its file, and the tables are listed here. Names that need no code of
+//! their own are in tables: constants, aliases, deprecations, old names, and the reference, which shows what is missing.
 
 mod data;
 mod display;

@@ -1,6 +1,6 @@
 //! The event loop all sockets of a simulator live on.
 //!
-//! It runs on the simulator's own thread and moves only while that thread says so, by `turn` or `wait`. What has arrived lies in
+//! It runs on the simulator's own thread, only during calls of `turn` and `wait`. What has arrived is in
 //! inboxes until it is fetched.
 
 use std::future::Future;
@@ -36,7 +36,7 @@ struct Waiting {
 
 impl EventLoop {
     /// # Errors
-    /// When the system gives no event queue.
+    /// When the system has no event queue.
     pub(crate) fn new() -> io::Result<Self> {
         let mut builder = tokio::runtime::Builder::new_current_thread();
         let runtime = builder.enable_io().enable_time().event_interval(TASKS_PER_LOOK).build()?;
@@ -50,7 +50,7 @@ impl EventLoop {
     /// Moves the sockets without waiting for anything.
     pub(crate) fn turn(&self) {
         self.block_on(async {
-            // First the system tells which sockets are ready, then the tasks run that own them.
+            // First the system reports which sockets are ready, then their tasks run.
             tokio::task::yield_now().await;
             tokio::task::yield_now().await;
         });

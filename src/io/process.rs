@@ -6,7 +6,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
 
-/// Bytes kept of each of the two outputs of a program.
+/// Maximum size of each of the two outputs of a program.
 pub(crate) const MAX_OUTPUT: usize = 256 << 20;
 
 /// Why a program gave no result. In the words of CoppeliaSim.
@@ -71,7 +71,7 @@ impl Program {
     /// Starts it detached: it outlives the simulator.
     pub(crate) fn launch(&self) -> io::Result<()> {
         let mut child = self.command()?.stdin(Stdio::null()).spawn()?;
-        // When it ends, somebody has to take note of it.
+        // A process that has ended must be reaped.
         Builder::new().spawn(move || drop(child.wait())).map(drop)
     }
 }
@@ -167,7 +167,7 @@ impl Collected {
     }
 }
 
-/// Reads to the end, or a little more than is kept.
+/// Reads to the end, or a little more than the maximum.
 fn collect(mut pipe: impl Read, bytes: &Mutex<Vec<u8>>) {
     let mut part = vec![0; 1 << 16];
     loop {

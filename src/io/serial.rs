@@ -1,6 +1,6 @@
 //! Serial ports: bytes to and from a device at a rate, with 8 data bits, no parity and one stop bit.
 //!
-//! Handles, and what a script has fetched but not read, are kept elsewhere.
+//! Handles, and input that scripts have not read yet, are in `api`.
 
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
@@ -8,11 +8,11 @@ use std::time::Duration;
 
 use serialport::ClearBuffer;
 
-/// The rates CoppeliaSim knows.
+/// The baud rates of CoppeliaSim.
 const BAUD_RATES: &[u32] =
     &[50, 75, 110, 134, 150, 200, 300, 600, 1200, 1800, 2400, 4800, 9600, 19_200, 38_400, 57_600, 115_200, 230_400];
 
-/// A device that says it is ready takes that many bytes without making the writer wait.
+/// A device that is ready accepts that many bytes without blocking the writer.
 const CHUNK: usize = 256;
 /// How long one wait for the device lasts.
 const SLICE: Duration = Duration::from_millis(50);
@@ -24,7 +24,7 @@ const BITS_PER_BYTE: u32 = 10;
 pub(crate) struct SerialPort {
     path: String,
     device: Box<dyn serialport::SerialPort>,
-    /// Slices without progress after which a device does not take any more.
+    /// Slices without progress after which a write ends.
     patience: u32,
 }
 
@@ -44,7 +44,7 @@ impl SerialPort {
 
     /// The file of a device.
     pub(crate) fn file(path: &str) -> PathBuf {
-        // Windows knows ports by names in a folder of devices.
+        // Windows names ports in a folder of devices.
         if cfg!(windows) { Path::new(r"\\.").join(path) } else { path.into() }
     }
 
@@ -66,8 +66,8 @@ impl SerialPort {
         bytes
     }
 
-    /// Hands bytes to the device and tells how many it took: fewer when it is gone, when it takes none for longer than its rate
-    /// explains, or when `stop` says so.
+    /// Writes bytes and returns how many the device accepted: fewer when it is gone, when it accepts none for longer than its rate
+    /// explains, or when `stop` returns true.
     pub(crate) fn write(&mut self, bytes: &[u8], stop: impl Fn() -> bool) -> usize {
         let (mut written, mut idle) = (0, 0);
         while written < bytes.len() && idle < self.patience && !stop() {

@@ -9,7 +9,7 @@ const MAX_MESSAGE: usize = 256 << 20;
 const MAX_COMMAND: usize = 4096;
 /// Parts of an envelope; a REQ socket has one or two.
 const MAX_ENVELOPE: usize = 16;
-/// The longest context of a PING, as the protocol says.
+/// Maximum length of the context of a PING, from the protocol.
 const MAX_CONTEXT: usize = 16;
 
 const GREETING_SIZE: usize = 64;
@@ -36,7 +36,7 @@ pub(super) enum Violation {
     SocketType,
 }
 
-/// What a peer says.
+/// A message or command from a peer.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Said {
     Request(Request),
@@ -148,7 +148,7 @@ impl Decoder {
         Ok(())
     }
 
-    /// The next thing the peer said; None when more bytes are needed.
+    /// The next message or command of the peer; None when more bytes are needed.
     ///
     /// # Errors
     /// When this cannot become a message any more.
@@ -196,7 +196,7 @@ impl Decoder {
         Ok(true)
     }
 
-    /// The next request or command; Some(None) for one that says nothing to us.
+    /// The next request or command; Some(None) for one that is ignored.
     fn traffic(&mut self) -> Result<Option<Option<Said>>, Violation> {
         let Some(first) = self.frame(self.used)? else { return Ok(None) };
         if first.flags & flag::COMMAND != 0 {

@@ -1,6 +1,6 @@
 //! The script host: lifecycle, order of calls, threads, values between scripts, the step loop; and scripts in Lua.
 //!
-//! What scripts can call stands in `crate::api`; this module knows how functions are bound, not which there are.
+//! What scripts can call is in `crate::api`; this module binds functions and does not know which there are.
 
 mod binding;
 mod calls;

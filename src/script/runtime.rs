@@ -1,6 +1,6 @@
 //! What the host knows of the languages scripts are written in.
 //!
-//! A [`Language`] makes an [`Interpreter`] for each script; the rest of the host only speaks to that trait. Values that pass it are plain
+//! A [`Language`] makes an [`Interpreter`] for each script; the rest of the host only uses that trait. Values that pass it are plain
 //! [`Data`], functions of scripts are numbers. `script::lua_runtime` is the implementation for Lua.
 
 use std::rc::Rc;
@@ -131,10 +131,10 @@ pub(crate) struct SourceText<'a> {
     pub counted_as: Option<String>,
 }
 
-/// What a script is asked to call.
+/// What a script is to call.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Callee<'a> {
-    /// The global function of that name; dots walk through tables. The script's `sysCall_ext`, if there is one, stands in for all of them.
+    /// The global function of that name; dots walk through tables. The script's `sysCall_ext`, if there is one, replaces all of them.
     Named(&'a str),
     /// A function the script has passed to the host.
     Function(FunctionRef),

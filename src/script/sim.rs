@@ -46,7 +46,7 @@ pub struct Options {
     pub permissions: Permissions,
     /// Set it to end calls that wait for the world outside: they raise an error.
     pub stop: Arc<AtomicBool>,
-    /// What scripts may use up; None: whatever they like.
+    /// Limits of resources that scripts may use; None: no limit.
     pub limits: Option<Limits>,
     /// Whether to count the lines of scripts that run. Scripts are slower meanwhile.
     pub count_lines: bool,

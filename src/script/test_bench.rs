@@ -1,4 +1,4 @@
-//! What a test sees of the simulator it runs in, and what it leaves for the one who runs it.
+//! What a test can access of its simulator, and its results for the test runner.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -69,7 +69,7 @@ impl Default for Tolerances {
     }
 }
 
-/// A trace a test wants to be compared with the one recorded under that name.
+/// A trace to compare with the one recorded under that name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Golden {
     pub name: String,
@@ -77,7 +77,7 @@ pub struct Golden {
     pub tolerances: Tolerances,
 }
 
-/// A scene a test wants to be run by itself.
+/// A scene to run in a separate simulator.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunRequest {
     /// A Lua file, one of CoppeliaSim, or an unpacked one.
@@ -126,7 +126,7 @@ pub struct TestBench {
     pub file: String,
     /// Simulated seconds a test may take.
     pub time_limit: f64,
-    /// Runs scenes the test asks for.
+    /// Runs scenes that the test requests.
     pub run_apart: Option<RunApart>,
     pub goldens: RefCell<Vec<Golden>>,
     lines: RefCell<Vec<ConsoleLine>>,
@@ -213,7 +213,7 @@ impl TestBench {
     }
 }
 
-/// Keeps what the simulator says; the simulator's talk about itself is left out.
+/// Captures output, except the simulator's messages about its own state.
 struct Recorder(Rc<TestBench>);
 
 impl Console for Recorder {

@@ -23,7 +23,7 @@ const LARGEST_RATIO: f64 = 3.0;
 pub(crate) struct GeometricStiffness {
     /// The stiffness against rotation, times the square of the step.
     stiffness: Matrix3<f64>,
-    /// What the body's mass adds to its inertia, where it hangs on a point that does not move.
+    /// The contribution of the body's mass to its inertia, if it is attached to a fixed point.
     pendulum_inertia: Matrix3<f64>,
     /// World axes.
     added_inertia: Option<Matrix3<f64>>,

@@ -2,8 +2,8 @@
 //!
 //! Iterative solvers of physics engines visit one joint after the other, and a chain under load needs hundreds of visits. The joints of
 //! a mechanism form a sparse system, mostly a tree, that is solved here exactly in a time proportional to its length. This crate knows no
-//! engine, no scene and no contacts: an engine hands in the state of its bodies before a step, applies the resulting forces with its own
-//! integration and contact solver, and hands in the state after the step for the correction of positions.
+//! engine, no scene and no contacts: an engine passes the state of its bodies before a step, applies the resulting forces with its own
+//! integration and contact solver, and passes the state after the step for the correction of positions.
 //!
 //! | in | out |
 //! |---|---|
@@ -37,7 +37,7 @@
 //! # Limits
 //!
 //! Joints are revolute (with a pitch: screws), prismatic, spherical or fixed. Contacts enter as expected impulses only: where a mechanism touches
-//! something, the engine should have its own joints active as well. [`Mechanism::solve`] says false where numbers leave the range of
+//! something, the engine should have its own joints active as well. [`Mechanism::solve`] returns false where numbers leave the range of
 //! floating point; nothing panics on any state. Fill-in makes loops cost more: a grid of `n` loops is superlinear.
 //!
 //! # Determinism

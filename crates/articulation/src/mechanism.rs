@@ -15,7 +15,7 @@ const ITERATIONS: usize = 8;
 /// Compliance of the rows as a fraction of their own response: makes systems with redundant rows, such as flat loops, solvable.
 const COMPLIANCE: f64 = 1e-9;
 
-/// Bodies linked by joints, with what the solver keeps from step to step.
+/// Bodies linked by joints, and the solver's state between steps.
 ///
 /// A step is [`begin`](Self::begin), [`add_impulse`](Self::add_impulse) for every contact, [`solve`](Self::solve);
 /// [`body_loads`](Self::body_loads) are then applied to the bodies by an engine, and after its step

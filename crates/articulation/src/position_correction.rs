@@ -20,7 +20,7 @@ const RESOLVED_TURN: f64 = 0.1;
 
 impl Mechanism {
     /// Corrects the positions that the integration left off the joints by the curvature of their paths, and the velocities with them, which
-    /// makes the whole a SHAKE step and keeps the energy.
+    /// makes this a SHAKE step, which conserves energy.
     ///
     /// `motions`: of all bodies after the step. `turned`: how far each joint turned in it (rad), known to half a turn. Returns where bodies
     /// belong and how they move; None for those that are right.

@@ -1,6 +1,6 @@
 //! Rigid-body geometry: poses, triangle meshes, convex hulls and decomposition, mass properties, primitive solids.
 //!
-//! This crate knows no scene, no physics engine and no files. It computes values from values.
+//! This crate does not depend on a scene, a physics engine or files. It computes values from values.
 //!
 //! | to find | look at |
 //! |---|---|

@@ -1,6 +1,6 @@
 //! Mass, centre of mass and inertia of rigid shapes.
 //!
-//! As in CoppeliaSim the inertia is kept per unit mass: changing the mass alone rescales the absolute
+//! As in CoppeliaSim the inertia is stored per unit mass: changing the mass alone rescales the absolute
 //! inertia. Masses in kg, lengths in m, absolute inertias in kg m2.
 
 use std::f64::consts::PI;
@@ -30,7 +30,7 @@ pub struct MassProperties {
 }
 
 impl Default for MassProperties {
-    /// What a new mesh gets whatever its geometry: 1 kg at the frame, 0.01 m2 about all axes.
+    /// The mass and inertia of a new mesh, independent of its geometry: 1 kg at the frame, 0.01 m2 about all axes.
     fn default() -> Self {
         Self::diagonal(1.0, [0.01; 3])
     }
@@ -44,7 +44,7 @@ impl MassProperties {
         properties
     }
 
-    /// What `sim.createPrimitiveShape` gives, see [`creation_mass`]; `density` in kg/m3.
+    /// The mass and inertia from `sim.createPrimitiveShape`, see [`creation_mass`]; `density` in kg/m3.
     pub fn of_primitive_at_creation(kind: PrimitiveKind, size: [f64; 3], density: f64) -> Self {
         match creation_mass(kind, size, density) {
             (_, [0.0, ..]) => Self::default(),
@@ -115,7 +115,7 @@ impl MassProperties {
     }
 
     /// Axes of the principal frame (its rotation in the shape frame) and the moments per unit mass (m2) along
-    /// them, ascending and at least [`MIN_MOMENT`]. A diagonal inertia keeps its axes and order.
+    /// them, ascending and at least [`MIN_MOMENT`]. The axes and order of a diagonal inertia are preserved.
     pub fn principal_axes(&self) -> (UnitQuaternion<f64>, [f64; 3]) {
         let floor = |m: Vector3<f64>| <[f64; 3]>::from(m.map(|x| x.max(MIN_MOMENT)));
         let diagonal = Matrix3::from_diagonal(&self.inertia.diagonal());
@@ -184,7 +184,7 @@ impl Tetrahedron {
     }
 }
 
-/// The solids whose formulas MuJoCo knows; `None` for the others.
+/// The solids for which MuJoCo has formulas; `None` for the others.
 fn exact_solid(kind: PrimitiveKind, size: [f64; 3], density: f64) -> Option<MassProperties> {
     if !(size.iter().all(|s| s.is_finite() && *s > 0.0) && has_pure_size(kind, size)) {
         return None;

@@ -13,7 +13,7 @@ const SIDES: u32 = 32;
 const RINGS: u32 = 16;
 /// Range of sizes (m).
 const SIZES: (f64, f64) = (1e-5, 1e5);
-/// Thickness by which planes and discs weigh (m).
+/// Thickness of planes and discs in the computation of mass (m).
 const SHEET: f64 = 0.001;
 
 /// What kind of primitive, with the number scripts use.
@@ -133,7 +133,7 @@ pub fn heightfield(columns: usize, rows: usize, width: f64, heights: &[f64]) -> 
 
 /// Mass (kg) and diagonal of the inertia per kg (m2) that a new primitive gets for a density (kg/m3).
 ///
-/// These are the formulas of CoppeliaSim with their flaws: a cone weighs nine times too much, a capsule some
+/// These are the formulas of CoppeliaSim with their flaws: a cone is nine times too heavy, a capsule some
 /// 4 % too much. Zero for height fields.
 pub fn creation_mass(kind: PrimitiveKind, size: [f64; 3], density: f64) -> (f64, [f64; 3]) {
     let [x, y, z] = size;

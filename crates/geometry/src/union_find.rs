@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-/// The number of the group each tie belongs to, counted by the first tie of each: ties with a common end belong together.
+/// The group of each tie: ties with a common end are in the same group. Groups are numbered by their first tie.
 pub fn partition<K: Ord>(ties: impl IntoIterator<Item = impl IntoIterator<Item = K>>) -> Vec<usize> {
     let (mut leaders, mut known) = (Vec::new(), BTreeMap::new());
     for (tie, ends) in ties.into_iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Trajectories within limits: jerk-limited motion of several axes, the fastest motion along a path, cubic splines.
 //!
-//! This crate knows no robot and no scene: an axis is a number that changes with time.
+//! This crate does not depend on a robot or a scene: an axis is a number that changes with time.
 //!
 //! | to plan | look at |
 //! |---|---|
@@ -25,7 +25,7 @@
 //!
 //! # Limits and determinism
 //!
-//! No input panics; what cannot be planned is an error that says why. No clock is read, and nothing is iterated until a time runs out: the
+//! No input panics; what cannot be planned is an error with the reason. No clock is read, and nothing is iterated until a time runs out: the
 //! same input has the same bits on every run.
 //!
 //! ```

@@ -1,6 +1,6 @@
 //! Jerk-limited trajectories: what `sim.ruckigPos`, `ruckigVel` and `ruckigStep` do, as a value.
 //!
-//! The planning is rsruckig's. This module reads the flat argument lists, keeps the clock in base
+//! The planning is rsruckig's. This module reads the flat argument lists, maintains the clock in base
 //! cycles as CoppeliaSim does and reports its codes. Positions are in m or rad, times in seconds.
 
 use rsruckig::prelude::{ControlInterface, DataArrayOrVec, InputParameter, Synchronization};
@@ -39,7 +39,7 @@ pub enum RuckigError {
     Failed(i32),
 }
 
-/// What one step of a trajectory gives.
+/// The result of one step of a trajectory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepResult {
     /// [`RUNNING`], [`REACHED`], [`BAD_CYCLE_TIME`], [`INVALID_INPUT`] or the planner's -101, -110, -111.

@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use super::spline::{Boundary, CubicSpline};
 
-/// Intervals of the grid, if no piece of the path asks for more.
+/// Minimum number of intervals of the grid.
 const INTERVALS: usize = 2000;
 /// Intervals of the grid per piece of the path, at least.
 const INTERVALS_PER_PIECE: usize = 4;
@@ -111,7 +111,7 @@ fn spline(path: &[f64], lengths: &[f64], boundary: Boundary) -> Result<CubicSpli
     Ok(CubicSpline::new(knots, points, boundary))
 }
 
-/// The grid: all knots, and as many equal parts between them as their distance asks for.
+/// The grid: all knots, and as many equal parts between them as their distance requires.
 fn places(knots: &[f64]) -> Vec<f64> {
     let mut places = vec![0.0];
     for pair in knots.windows(2) {

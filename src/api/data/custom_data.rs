@@ -115,7 +115,7 @@ fn read_custom_data_tags(cx: &Cx, object_handle: Number) -> Result<Vec<String>> 
     }
 }
 
-/// Keeps data with the application, whatever scene is open.
+/// Stores data in the application, independent of the open scene.
 ///
 /// @param dataTag its name
 /// @param dataValue empty: removes the tag

@@ -68,7 +68,7 @@ impl FromScript for Options {
 }
 
 impl Options {
-    /// Nothing instead of an error, where that was asked for.
+    /// Nothing instead of an error, if the options request that.
     fn apply<T>(&self, outcome: Result<T>) -> Result<Option<T>> {
         match outcome {
             Ok(value) => Ok(Some(value)),

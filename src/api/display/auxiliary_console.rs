@@ -1,6 +1,6 @@
 //! `sim.*`: auxiliary consoles, messages of the user interface, semaphores.
 //!
-//! There are no windows here: the text of a console goes to the log for those who ask for it, and the user says nothing.
+//! There are no windows: the text of a console goes to the log at a high verbosity, and there is no input.
 
 use api_macro::api;
 
@@ -95,7 +95,7 @@ fn get_simulator_message(_cx: &Cx) -> Result<(i64, Vec<i64>, Data)> {
 /// Acquires or releases a semaphore shared by all programs on the machine. Acquiring waits until it is free.
 ///
 /// @param key its name
-/// @param acquire true to take it, false to give it back
+/// @param acquire true to acquire it, false to release it
 #[api("sim.systemSemaphore")]
 fn system_semaphore(cx: &mut Cx, key: Bytes, acquire: bool) -> Result<()> {
     if acquire {

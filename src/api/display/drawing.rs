@@ -1,6 +1,6 @@
 //! `sim.*`: drawing objects, floating views, particles: shown on a display only, or not simulated.
 //!
-//! There is no display. Handles are given out and checked, so that scripts find their mistakes; what would be drawn is dropped.
+//! There is no display. Handles are checked, so that scripts find their mistakes; drawing has no effect.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -32,7 +32,7 @@ const HANDLE_BITS: i64 = 0x000f_ffff;
 /// @param size of points and lines
 /// @param duplicateTolerance items closer than this are one
 /// @param parentObjectHandle -1 for the world
-/// @param maxItemCount more are refused or replace old ones, as the type says
+/// @param maxItemCount further ones are refused or replace old ones, depending on the type
 /// @return drawingObjectHandle its handle
 #[api("sim.addDrawingObject")]
 fn add_drawing_object(
@@ -122,7 +122,7 @@ fn adjust_view(
     Ok(1)
 }
 
-/// A source of particles. They are not simulated; a warning says so.
+/// A source of particles. They are not simulated, with a warning.
 ///
 /// @param objectType sim.particle_*
 /// @param size of a particle

@@ -263,7 +263,7 @@ fn set_graph_user_data(cx: &mut Cx, graph_handle: Handle, data_stream_name: Stri
     })
 }
 
-/// Records a slot: the values the streams have been given, and gaps.
+/// Records a slot: the values set on the streams, and gaps for the others.
 ///
 /// @param objectHandle the graph, sim.handle_all or sim.handle_all_except_explicit
 /// @param simulationTime of the values

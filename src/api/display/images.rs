@@ -12,7 +12,7 @@ use crate::script::{Bytes, IntPair};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_image, save_image, get_scaled_image, transform_image];
 
-/// Quality of JPEG files when none is asked for.
+/// Default quality of JPEG files.
 const QUALITY: u8 = 90;
 
 /// Bits of the options.
@@ -97,7 +97,7 @@ fn write_file(cx: &Cx, name: &str, content: &[u8]) -> Result<()> {
 ///
 /// @param imageIn rows of pixels
 /// @param resolutionIn width and height
-/// @param desiredResolutionOut width and height wished for
+/// @param desiredResolutionOut desired width and height
 /// @param options 1: the image has an alpha channel; 2: the result has one; 4: keep the proportions
 /// @return imageOut, effectiveResolutionOut
 #[api("sim.getScaledImage")]

@@ -15,7 +15,7 @@ use crate::script::{SceneSource, readable_bytes};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![load_scene, save_scene, close_scene, load_model, save_model];
 
-/// What asks for a scene beside the present one, after the name of its file.
+/// The suffix of a file name that loads a scene in addition to the current one.
 const KEEP_CURRENT: &str = "@keepCurrent";
 
 /// A text as long as this is a file, not its name.

@@ -51,7 +51,7 @@ fn path_of(key: &[u8]) -> PathBuf {
 /// Waits until no other program holds the semaphore; at once if this simulator does already.
 ///
 /// # Errors
-/// When the key is too long, its file cannot be made, or the user wants the program to end.
+/// When the key is too long, its file cannot be made, or the program is being stopped.
 pub(in crate::api) fn acquire(cx: &mut Cx, key: &[u8]) -> Result<()> {
     cx.permissions().check_write(&path_of(key))?;
     let held = cx.module_state::<Held>();

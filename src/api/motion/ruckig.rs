@@ -1,6 +1,6 @@
 //! `sim.*`: trajectories with limited velocity, acceleration and jerk.
 //!
-//! A trajectory belongs to the script that made it and goes with it.
+//! A trajectory belongs to the script that made it and is dropped with its state.
 
 use std::cell::RefCell;
 use std::rc::Rc;

@@ -38,7 +38,7 @@ fn get_object(cx: &Cx, path: Bytes, #[default(None)] options: Option<Table>) -> 
 fn get_object_handle(cx: &Cx, path: Data, #[default(None)] options: Option<Table>) -> Result<i64> {
     let options = Lookup::read(options.as_ref());
     let path = match path {
-        // Scenes before 4.2 asked for the object of their script in another way.
+        // Scripts of scenes before 4.2 get the object of their script in another way.
         Data::Int(special::SELF) => return Ok(own_object(cx)),
         Data::Text(path) => text(&Bytes(path)),
         Data::Int(number) => number.to_string(),

@@ -12,7 +12,7 @@ fn handles(raw: &Handles) -> Result<Vec<Handle>> {
     raw.0.iter().map(|&raw| Handle::from_raw(raw).ok_or(SceneError::NoSuchObject.into())).collect()
 }
 
-/// Copies objects. Copies whose ancestors are not copied become roots; all keep their place in the world.
+/// Copies objects. Copies whose ancestors are not copied become roots; all keep their world poses.
 ///
 /// @param objectHandles the objects
 /// @param options 1: whole models; without 2: scripts; 4: custom data; 8: referenced handles; 32: being models

@@ -176,7 +176,7 @@ fn is_handle_valid(cx: &Cx, handle: Number) -> Result<i64> {
     Ok(i64::from(exists(cx, handle.0)))
 }
 
-/// Identifier of an object that is never given out twice.
+/// Unique identifier of an object, which is never reused.
 ///
 /// @param objectHandle the object
 /// @return uid the identifier

@@ -16,7 +16,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     set_engine_bool_param,
 ];
 
-/// The object a script means: none for negative numbers, which stand for the engine itself.
+/// The object of a parameter; none for negative numbers, which mean the engine itself.
 fn target(handle: Number) -> Result<Option<Handle>> {
     match handle.0 {
         ..0 => Ok(None),

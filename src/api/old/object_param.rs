@@ -1,4 +1,4 @@
-//! `sim.*`: numbered parameters of objects (deprecated names). Which there are is said in `scene`, by type.
+//! `sim.*`: numbered parameters of objects (deprecated names). `scene` defines them, by object type.
 //!
 //! A parameter an object does not have is no error: getters return nothing, setters do nothing.
 

@@ -33,7 +33,7 @@ const DOUBLE: &str = KINDS[3];
 
 fn set<T: PropertyValue>(cx: &mut Cx, kind: &str, name: &str, value: T) -> i64 {
     let name = format!("signal.{kind}{name}");
-    // A name with illegal characters stores nothing, and nobody is told: so it is in CoppeliaSim.
+    // As in CoppeliaSim, a name with illegal characters stores nothing and is no error.
     let _ = cx.write_property(&Target::Scene, &name, (T::TYPE, value.into_data()));
     1
 }
@@ -63,7 +63,7 @@ fn names_of(cx: &Cx, kind: &str) -> Vec<String> {
     names
 }
 
-/// The functions of one kind: the type they take, the type they give, and how one becomes the other and what is stored.
+/// The functions of one type of signal: parameter type, result type, and the conversions to and from the stored value.
 macro_rules! signals {
     ($($kind:ident: $set:ident $set_name:tt, $get:ident $get_name:tt, $clear:ident $clear_name:tt,
         $taken:ty, $given:ty, |$v:ident| $store:expr, |$s:pat_param| $load:expr;)*) => { $(

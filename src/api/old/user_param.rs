@@ -18,7 +18,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 ///
 /// @param scriptHandle the script, or sim.handle_self
 /// @param parameterName its name
-/// @param forceStringReturn give the text; otherwise `true`, `12` and the like come as what they look like
+/// @param forceStringReturn return a string; otherwise texts such as `true` and `12` are converted
 /// @return value nil when there is no such parameter
 #[api("sim.getScriptSimulationParameter")]
 fn get_script_simulation_parameter(

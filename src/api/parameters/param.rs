@@ -1,6 +1,6 @@
 //! `sim.*`: numbered parameters of the simulator and named parameters of the application.
 //!
-//! Parameters of the user interface are kept and read back, and have no other effect. Numbers nobody knows are refused.
+//! Parameters of the user interface are stored and read back, and have no other effect. Unknown numbers are refused.
 
 use std::ffi::OsStr;
 use std::path::Path;
@@ -38,7 +38,7 @@ mod int {
     pub const LAST: i64 = 53;
 }
 
-/// The release whose behaviour scripts meet: 4.10.0 rev. 0.
+/// The release that scripts see: 4.10.0 rev. 0.
 const PROGRAM_VERSION: i64 = 41_000;
 
 /// `sim.boolparam_*` that are no property and have a meaning here, or read true.

@@ -4,7 +4,7 @@ use crate::api::{Cx, Result};
 use crate::scene::special::{APP, SCENE};
 use crate::script::{PropertyValue, Target};
 
-/// A number, whose property it is, and the property's name.
+/// The number of a parameter, the target of its property, and the property's name.
 type PropertyParam = (i64, i64, &'static str);
 
 /// `sim.intparam_*`.

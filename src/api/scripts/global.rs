@@ -196,7 +196,7 @@ fn used_module(cx: &Cx, name: String, #[default(false)] implicit: bool) -> Resul
     Ok(())
 }
 
-/// Native plugins of CoppeliaSim cannot be loaded; the error says so.
+/// Native plugins of CoppeliaSim cannot be loaded: this is an error.
 ///
 /// @param name the plugin
 #[api("loadPlugin")]

@@ -10,9 +10,9 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![set_auto_yield_delay, get_auto
 const MAX_DELAY_MS: f64 = 10_000.0;
 
 /// Sets how long a thread runs before it is pre-empted. A slice is measured in Lua instructions, so that results do not depend on
-/// the machine; a second stands for a fixed number of them.
+/// the machine; a second is a fixed number of them.
 ///
-/// @param delay seconds, kept as whole milliseconds
+/// @param delay seconds, rounded to milliseconds
 #[api("sim.setAutoYieldDelay")]
 fn set_auto_yield_delay(cx: &mut Cx, delay: f64) -> Result<()> {
     cx.env().yields.delay_ms.set((delay * 1000.0).clamp(0.0, MAX_DELAY_MS) as u32);

@@ -1,6 +1,6 @@
 //! `sim.*`: proximity and vision sensors, cameras, lights, graphs, voxels.
 //!
-//! They exist as data; what they measure is not built yet. Handling all of them, as the main script does, says so once.
+//! They exist as data; they do not measure yet. Handling all of them, as the main script does, logs that once.
 
 use api_macro::api;
 

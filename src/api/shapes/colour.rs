@@ -16,7 +16,7 @@ fn component(code: Number) -> Result<Component> {
 /// A colour of a shape.
 ///
 /// @param shapeHandle the shape
-/// @param colorName nil: the first mesh, a text: the first mesh whose colour is called so, '@compound': of each mesh
+/// @param colorName nil: the first mesh; a name: the first mesh whose colour has that name; '@compound': of each mesh
 /// @param colorComponent sim.colorcomponent_*
 /// @return result 1, or 0 when no mesh is called so
 /// @return rgbData red, green, blue; one number for transparency, 1 for opaque
@@ -35,7 +35,7 @@ fn get_shape_color(
 /// Colours a shape.
 ///
 /// @param shapeHandle the shape; scripts from before 3.1.4 put '@backCompatibility1:' before it
-/// @param colorName nil: every mesh, a text: meshes whose colour is called so, '@compound': each mesh its own
+/// @param colorName nil: every mesh; a name: meshes whose colour has that name; '@compound': a colour for each mesh
 /// @param colorComponent sim.colorcomponent_*
 /// @param rgbData red, green, blue; one number for transparency, 1 for opaque
 /// @return result 1

@@ -76,7 +76,7 @@ fn create_pure_shape(
     add(cx, kind.alias(), shape)
 }
 
-/// A new shape from a mesh given in world coordinates; its frame is the world's.
+/// A new shape from a mesh in world coordinates; its frame is the world's.
 ///
 /// @param options 1: back faces culled, 2: edges visible, 128: keep duplicate vertices; for the texture 4: pixels are not interpolated,
 /// 8: applied as a decal, 16: with opacities, 32: mirrored, 64: the bottom row is the first

@@ -31,11 +31,11 @@ const NAME: &str = "texture";
 ///
 /// @param fileName PNG, JPEG, BMP or TGA; an empty text for a new image
 /// @param options 1: pixels are not interpolated, 2: applied as a decal, 4: repeated along u, 8: repeated along v
-/// @param planeSizes of the plane, metres; nothing: one metre wide, as high as the image says
+/// @param planeSizes of the plane, metres; default: one metre wide, with the aspect ratio of the image
 /// @param scalingUV size of the image, metres; nothing for that of the plane
 /// @param xy_g placement of the image on the plane: x, y and optionally an angle, metres and radians
 /// @param fixedResolution 1: the image of a file is brought to the resolution too
-/// @param resolution of a new image, pixels; 256 times 256 if nothing is said
+/// @param resolution of a new image, pixels; 256 times 256 by default
 /// @return shapeHandle the plane
 /// @return textureId of the image
 /// @return resolution pixels

@@ -6,7 +6,7 @@ use std::net::SocketAddr;
 use rustix::net::SocketAddrAny;
 use socket2::{Domain, SockAddr};
 
-/// Which addresses an object speaks to.
+/// The address family of an object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Family {
     /// Whatever the first address is.

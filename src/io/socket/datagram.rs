@@ -13,7 +13,7 @@ const LONGEST_DATAGRAM: usize = 65_536;
 
 /// A datagram socket, or the place for one.
 pub(crate) struct Datagram {
-    /// Whether it speaks to one peer only.
+    /// Whether it is connected to one peer.
     pub connected: bool,
     pub timeout: Timeout,
     pub family: Family,

@@ -21,7 +21,7 @@ impl Failure {
         Self::Words(text.to_owned())
     }
 
-    /// What the system says about an operation on a socket that is not open.
+    /// The system's error for an operation on a socket that is not open.
     pub(super) fn not_open() -> Self {
         io::Error::from(Errno::BADF).into()
     }
@@ -58,7 +58,7 @@ impl From<Errno> for Failure {
     }
 }
 
-/// What the system says of an error, without the number Rust adds.
+/// The system's text of an error, without the number that Rust adds.
 pub(super) fn system_words(error: &io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or_default().to_owned()

@@ -1,6 +1,6 @@
 //! Host names and services.
 //!
-//! The system's resolver cannot be interrupted: it works on a thread of its own, which is left behind when nobody waits any more.
+//! The system's resolver cannot be interrupted: it runs on its own thread, which is abandoned when the wait ends.
 
 use std::io;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
@@ -68,7 +68,7 @@ impl Lookup<'_> {
     }
 }
 
-/// An address as it stands: no name is looked up.
+/// A numeric address: no name is looked up.
 pub(crate) fn numeric(host: &str, service: &str, family: Family) -> Result<SocketAddr, Failure> {
     let ip = host.parse().map_err(|_| unknown_name())?;
     let address = SocketAddr::new(ip, port(service)?.ok_or_else(unknown_name)?);

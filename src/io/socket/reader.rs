@@ -34,7 +34,7 @@ impl Reader {
         self.start == self.buffer.len()
     }
 
-    /// Appends what `pattern` asks for to `out`. `fill` reads at least one byte into what it gets, or fails; what came before a
+    /// Appends what `pattern` requests to `out`. `fill` reads at least one byte into its buffer, or fails; what came before a
     /// failure is in `out`.
     pub(super) fn read(
         &mut self,

@@ -182,7 +182,7 @@ impl Stream {
         }
     }
 
-    /// Appends to `out` what `pattern` asks for, or what came before a failure.
+    /// Appends to `out` what `pattern` requests, or what came before a failure.
     pub(crate) fn receive(&mut self, pattern: Pattern, out: &mut Vec<u8>, wait: &Wait<'_>) -> Result<(), Failure> {
         let Self { reader, socket, tls, .. } = self;
         let socket = socket.as_ref().ok_or(Failure::Closed)?;
@@ -213,7 +213,7 @@ impl Stream {
 
     pub(crate) fn shutdown(&self, how: std::net::Shutdown) {
         if let Some(socket) = &self.socket {
-            // As in LuaSocket, nobody hears that the connection was down already.
+            // As in LuaSocket, it is no error if the connection was already closed.
             let _ = socket.shutdown(how);
         }
     }

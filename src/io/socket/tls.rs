@@ -108,7 +108,7 @@ impl Tls {
                 Ok(())
             }
             Err(error) => {
-                // The other side is told what was wrong, if it listens.
+                // Sends the reason to the peer, if it still reads.
                 let _ = self.connection.write_tls(&mut &**socket);
                 Err(tls_failure(error))
             }
@@ -145,7 +145,7 @@ impl Tls {
 }
 
 impl Stream {
-    /// Speaks TLS from now on; the handshake comes next.
+    /// Switches the connection to TLS; the handshake comes next.
     pub(crate) fn wrap(&mut self, settings: &TlsSettings) -> Result<(), Failure> {
         self.tls = Some(Box::new(Tls { connection: connection(settings)?, waiting: 0 }));
         Ok(())
@@ -238,7 +238,7 @@ fn tls_failure(error: rustls::Error) -> Failure {
     Failure::Words(error.to_string())
 }
 
-/// Takes every certificate, for scripts that ask for it with `verify = 'none'`. Signatures of the handshake are checked all the same.
+/// Accepts every certificate, for scripts with `verify = 'none'`. Signatures of the handshake are still checked.
 #[derive(Debug)]
 struct Anybody(Arc<CryptoProvider>);
 

@@ -10,7 +10,7 @@ use rustix::io::Errno;
 
 use super::{Failure, Socket};
 
-/// How long the simulator is not asked whether it is being stopped.
+/// Interval between checks whether the program is being stopped.
 pub(super) const SLICE: Duration = Duration::from_millis(100);
 
 /// Limits in seconds; negative ones are none.

@@ -6,7 +6,7 @@ use tokio_tungstenite::tungstenite::http::StatusCode;
 use super::LARGEST_MESSAGE;
 use super::http::LARGEST_HEAD;
 
-/// What stands behind the bytes of a chunk.
+/// What follows the bytes of a chunk.
 const LINE_END: &[u8] = b"\r\n";
 
 /// A body that is put together from its chunks.
@@ -65,7 +65,7 @@ impl Chunks {
     }
 }
 
-/// Length of the line at the front, of those behind the last chunk: headers nobody reads, and an empty one at the end.
+/// Length of the line at the front, of those behind the last chunk: headers that are ignored, and an empty one at the end.
 fn trailer(bytes: &[u8]) -> Result<Option<usize>, StatusCode> {
     let end = bytes.windows(LINE_END.len()).position(|pair| pair == LINE_END);
     match end {

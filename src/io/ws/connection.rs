@@ -17,9 +17,9 @@ use tokio_tungstenite::tungstenite::{Error, Message, Utf8Bytes};
 
 use super::{Connection, HANDSHAKE, LARGEST_MESSAGE, Reports, WsEvent};
 
-/// What a connection keeps for a slow peer, bytes.
+/// Maximum size of the queue for a slow peer, bytes.
 const MOST_QUEUED: usize = 2 * LARGEST_MESSAGE;
-/// What a queued message takes besides its bytes.
+/// Overhead of a queued message, bytes.
 const OVERHEAD: usize = 64;
 
 /// Why a message cannot be sent; the words are CoppeliaSim's.
@@ -85,7 +85,7 @@ fn queue() -> (Outgoing, Queue) {
 
 type Socket = WebSocketStream<TcpStream>;
 
-/// Reports what the peer says, and says what is to be sent, until the connection ends.
+/// Reports messages of the peer and sends queued ones, until the connection ends.
 pub(super) async fn converse(socket: Socket, connection: Connection, reports: &Reports) {
     let (outgoing, queue) = queue();
     reports.tell_open(connection, outgoing).await;
@@ -138,7 +138,7 @@ async fn refuse(mut socket: Socket, refusal: CloseFrame) -> Result<(), Error> {
     Ok(())
 }
 
-/// Ends a connection so that the peer gets to read what was said last: closing while it is still sending would reset the connection.
+/// Closes a connection so that the peer can read the last message: closing while it is still sending would reset the connection.
 pub(super) async fn linger(stream: &mut TcpStream) {
     let mut rest = [0; 4096];
     let ended = async {

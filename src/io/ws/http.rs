@@ -24,12 +24,12 @@ impl Reply {
     }
 }
 
-/// Who asked, and waits for the answer.
+/// The client that waits for the response.
 pub(crate) struct Asker(pub(super) oneshot::Sender<Reply>);
 
 impl Asker {
     pub(crate) fn answer(self, reply: Reply) {
-        // Somebody who is gone needs none.
+        // A client that is gone needs no response.
         let _ = self.0.send(reply);
     }
 }
@@ -104,7 +104,7 @@ impl Head {
     /// Whether the body is chunked.
     ///
     /// # Errors
-    /// The status to answer with: other encodings are not known, and a length besides says something else.
+    /// The status of the error: other encodings are not supported, and an additional length contradicts the encoding.
     pub(super) fn is_chunked(&self) -> Result<bool, StatusCode> {
         let mut encodings = self.headers.get_all(TRANSFER_ENCODING).iter();
         match (encodings.next(), encodings.next()) {

@@ -1,6 +1,6 @@
 //! WebSocket endpoints: servers, which answer plain HTTP at the same port, and clients.
 //!
-//! Everything happens while the event loop moves; what scripts are told waits in the endpoint's inbox. Both directions are bounded: a full
+//! Everything happens while the event loop runs; events for scripts wait in the endpoint's inbox. Both directions are bounded: a full
 //! inbox stops the reading, so that senders have to wait, and a connection with too much to send refuses more.
 
 mod chunks;
@@ -30,10 +30,10 @@ pub(crate) use pages::Pages as WsPages;
 
 /// The largest message and the largest body of an HTTP request, bytes.
 const LARGEST_MESSAGE: usize = 32_000_000;
-/// What an endpoint keeps for its script: so many events, with so many bytes in them.
+/// Maximum size of an endpoint's inbox: events, and bytes in them.
 const MOST_EVENTS: usize = 4096;
 const MOST_BYTES: usize = 2 * LARGEST_MESSAGE;
-/// How long a handshake may take, at the beginning and at the end.
+/// Time limit of the opening and closing handshakes.
 const HANDSHAKE: Duration = Duration::from_secs(5);
 /// What is read from a socket at once.
 const READ_BUFFER: usize = 1 << 14;

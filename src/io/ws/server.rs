@@ -21,7 +21,7 @@ use super::{Connection, HANDSHAKE, READ_BUFFER, Reports, WsEvent, config, connec
 
 /// Connections of one server; more wait until one ends.
 const MOST_CONNECTIONS: usize = 1000;
-/// Rest when the system gives no more sockets.
+/// Pause when the system has no more sockets.
 const REST: Duration = Duration::from_millis(100);
 /// How long a client may take to read an HTTP answer.
 const READING: Duration = Duration::from_secs(60);
@@ -105,7 +105,7 @@ async fn read_some(stream: &mut TcpStream, received: &mut Vec<u8>) -> Option<()>
 /// The status to answer with when it is none.
 async fn upgrade(stream: &mut TcpStream, head: &Head) -> Result<(), StatusCode> {
     let mut answer = create_response(&head.handshake()?).map_err(|_| StatusCode::BAD_REQUEST)?;
-    // Any sub-protocol is fine; a browser gives up unless one of its own is named.
+    // Any sub-protocol is accepted; a browser fails unless the reply names one of its own.
     let offered = head.header(SEC_WEBSOCKET_PROTOCOL).and_then(|list| list.split(',').next());
     if let Some(first) = offered.and_then(|name| HeaderValue::from_str(name.trim()).ok()) {
         answer.headers_mut().insert(SEC_WEBSOCKET_PROTOCOL, first);

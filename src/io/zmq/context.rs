@@ -14,7 +14,7 @@ const MAX_IO_THREADS: c_int = 32;
 /// The limit that libzmq itself reports. It allocates room for so many at once.
 const MAX_SOCKETS: c_int = 65_535;
 
-/// How long a termination waits for unsent messages, unless the caller says otherwise.
+/// Default time that a termination waits for unsent messages.
 const TIMEOUT: Duration = Duration::from_secs(2);
 
 /// A context. It is terminated when it is dropped; its sockets are closed by then, since a [`super::Socket`] holds its context.

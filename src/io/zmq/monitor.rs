@@ -1,6 +1,6 @@
 //! Monitors: the events of a socket's connections, for a PAIR socket of the script.
 //!
-//! libzmq blocks its own threads while nobody reads the events of a monitor, and then whoever binds or closes a socket. So its monitor
+//! libzmq blocks its own threads while the events of a monitor are not read, and then every call that binds or closes a socket. So its monitor
 //! writes to a relay that always reads: a thread with a queue, which forwards as much as the script's socket accepts. What exceeds the queue
 //! is lost. The relay ends with the monitor, whose last event it always requests, or with the context.
 
@@ -16,7 +16,7 @@ use super::context::Context;
 use super::libzmq::{PollItem, RawSocket, poll_items};
 use super::{Errno, ZmqResult, c_text};
 
-/// Events queued for a script, besides those libzmq holds on the way to its socket.
+/// Maximum number of events queued for a script, in addition to those in libzmq's queues.
 const MAX_EVENTS: usize = 1000;
 /// The thread calls libzmq and little else.
 const STACK_SIZE: usize = 256 * 1024;
@@ -103,7 +103,7 @@ struct Relay {
     input: RawSocket,
     output: RawSocket,
     endpoint: CString,
-    /// The events that the script wants.
+    /// The events that the script selected.
     events: c_int,
     queue: VecDeque<Event>,
     lost: Arc<AtomicBool>,
@@ -118,7 +118,7 @@ impl Relay {
                 break;
             }
         }
-        // Now, not when the socket is closed in the background: whoever waits for the end may bind the address again.
+        // Now, not when the socket is closed in the background: a caller that waits for the end may bind the address again.
         let _ = self.output.unbind(&self.endpoint);
     }
 

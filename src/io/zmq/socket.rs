@@ -56,7 +56,7 @@ impl Socket {
         Rc::ptr_eq(&self.context, context)
     }
 
-    /// Closes it as soon as nobody else uses it. Unsent messages are still sent, for as long as the option LINGER says.
+    /// Closes it when the last reference is dropped. Unsent messages are still sent during the time of the option LINGER.
     pub(crate) fn close(self: Rc<Self>) {
         self.limit_linger();
         self.is_closed.set(true);

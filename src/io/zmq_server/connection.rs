@@ -29,7 +29,7 @@ pub(super) struct State {
     pub(super) has_more: bool,
     /// Its request has no answer yet.
     is_asking: bool,
-    /// When it asked or was answered last.
+    /// The time of the last request or reply.
     last_active: Instant,
 }
 

@@ -1,4 +1,4 @@
-//! The ZeroMQ end of the remote API: a REP socket that knows which connection sent what, and when one goes.
+//! The ZeroMQ server of the remote API: a REP socket that reports which connection sent a message, and when one closes.
 //!
 //! The sockets live on the simulator's own thread and move with its event loop: a request costs no change of threads, which takes longer
 //! than most requests. An answer goes straight to the system; what the system does not accept at once is sent later.
@@ -36,9 +36,9 @@ pub(crate) type Peer = u64;
 
 #[derive(Clone, Copy)]
 struct Limits {
-    /// At most so many connections; further ones take the place of a silent one, or are rejected.
+    /// Maximum number of connections; further ones replace an idle one, or are rejected.
     connections: usize,
-    /// A connection that has asked nothing for so long is silent.
+    /// A connection without a request for this long is idle.
     silence: Duration,
 }
 
@@ -135,7 +135,7 @@ impl Connections {
     }
 }
 
-/// Serves every connection in a task of its own, as long as this one lives.
+/// Serves every connection in its own task, until this one ends.
 async fn accept_all(
     listener: tokio::net::TcpListener,
     connections: Arc<Connections>,

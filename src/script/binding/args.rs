@@ -271,7 +271,7 @@ impl From<i64> for Number {
     }
 }
 
-/// Bytes given as a string, a buffer or a number.
+/// Bytes of a string, a buffer or a number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Bytes(pub Vec<u8>);
 
@@ -294,7 +294,7 @@ pub struct LuaNumber(pub f64);
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table(pub Data);
 
-/// Object handles as given: flags, special and unknown values included.
+/// Object handles as passed: flags, special and unknown values included.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Handles(pub Vec<i64>);
 
@@ -317,7 +317,7 @@ impl ObjectRef {
     }
 }
 
-/// A function given as such or by the name of a global.
+/// A function, by value or by the name of a global.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ScriptFunction {
     Name(String),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-/// Values by handle. Handles rise from 1 and are never given out twice.
+/// Values by handle. Handles count from 1 and are never reused.
 pub(crate) struct ByHandle<T> {
     last: i64,
     values: BTreeMap<i64, T>,
@@ -30,7 +30,7 @@ impl<T> ByHandle<T> {
         self.values.values()
     }
 
-    /// Drops all values; their handles are not given out again.
+    /// Drops all values; their handles are not reused.
     pub(crate) fn clear(&mut self) {
         self.values.clear();
     }

@@ -9,7 +9,7 @@ use super::hooks::Hooks;
 /// name, below `lua/`, is its Lua part: it gets a table of everything that is native as its second argument and returns the module.
 pub struct Module {
     pub name: &'static str,
-    /// What the module is for, in one line; empty if the head of its Lua part says it.
+    /// The purpose of the module, in one line; empty if it is in the head of the Lua part.
     pub about: &'static str,
     /// Functions for scripts, by category. A name without a dot is a global function.
     pub functions: &'static [(&'static str, &'static [ApiFn])],
@@ -48,7 +48,7 @@ impl Module {
         }
     }
 
-    /// The functions for scripts, whatever their category.
+    /// The functions for scripts, of all categories.
     pub fn public_functions(&self) -> impl Iterator<Item = &'static ApiFn> {
         self.functions.iter().flat_map(|(_, functions)| *functions)
     }

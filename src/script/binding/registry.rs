@@ -54,7 +54,7 @@ pub(crate) struct Bound {
     pub replacement: Option<&'static str>,
 }
 
-/// What the name of a member of a module stands for.
+/// A member of a module.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Member {
     Constant(i64),
@@ -102,7 +102,7 @@ impl Namespace {
         self.listed.iter().copied().chain(missing).filter_map(|name| Some((name, self.get(name)?)))
     }
 
-    /// The member that a global name from before there were modules stands for.
+    /// The member of a global name from before there were modules.
     pub(crate) fn of_old_name(&self, name: &str) -> Option<&'static str> {
         self.old_names.get(name).copied()
     }
@@ -165,7 +165,7 @@ impl Registry {
         self.by_name.get(name).map(|&place| &self.namespaces[place])
     }
 
-    /// What `module.member`, or the name of a global function, stands for.
+    /// The member of the name `module.member`, or of a global function.
     pub(crate) fn find(&self, name: &str) -> Option<Member> {
         match name.rsplit_once('.') {
             Some((module, member)) => self.module(module)?.get(member),
@@ -177,7 +177,7 @@ impl Registry {
         &self.missing[id.0]
     }
 
-    /// The function that Lua code knows by `number`; None for a number nobody was given.
+    /// The function that Lua code has by `number`; None for an unknown number.
     pub(crate) fn function(&self, number: usize) -> Option<&Bound> {
         self.functions.get(number)
     }
@@ -219,7 +219,7 @@ impl Registry {
         namespace
     }
 
-    /// Names of the reference; those that are built take their places.
+    /// Names of the reference; implemented functions replace them.
     fn add_missing(&mut self, namespace: &mut Namespace) {
         let module = namespace.module;
         for name in module.reference_names() {

@@ -107,7 +107,7 @@ impl<'a> Source<'a> for Stack<'a> {
     }
 }
 
-/// Arguments as plain values, in the name of the script whose environment it is.
+/// Arguments as plain values, on behalf of the script of an environment.
 #[doc(hidden)]
 #[derive(Clone, Copy)]
 pub struct Values<'a> {
@@ -229,7 +229,7 @@ fn integer_of(data: &Data) -> Option<i64> {
     if let Data::Int(number) = data { Some(*number) } else { None }
 }
 
-/// The number a string stands for, as Lua reads it; hexadecimal ones are integers here.
+/// The number in a string, as Lua converts it; hexadecimal ones are integers here.
 fn numeral(text: &[u8]) -> Option<Data> {
     let text = std::str::from_utf8(text).ok()?.trim_matches([' ', '\t', '\n', '\r', '\x0b', '\x0c']);
     let (sign, digits) = match text.strip_prefix('-') {

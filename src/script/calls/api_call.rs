@@ -17,7 +17,7 @@ impl Sim {
     /// in Lua, by the interpreter of that script.
     ///
     /// # Errors
-    /// As the function says, or when there is no such function.
+    /// The errors of the function, or when there is no such function.
     pub(crate) fn call_api(&self, caller: &Rc<Script>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
         let runtime = caller.current_runtime().ok_or(ApiError::ScriptNotInitialized)?;
         let registry = &self.modules.registry;

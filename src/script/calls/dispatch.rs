@@ -21,7 +21,7 @@ impl Sim {
         self.deliver_to(Group::Simulation, call, args) + self.deliver_to(Group::Customization, call, args)
     }
 
-    /// Notes that some script has these callbacks; whoever has `sysCall_event` listens to events from now on.
+    /// Notes that a script has these callbacks; a script with `sysCall_event` receives events from now on.
     pub(crate) fn note_callbacks(self: &Rc<Self>, bits: u64) {
         self.scripts.note_callbacks(bits);
         if bits & SysCall::Event.bit() != 0 {

@@ -47,7 +47,7 @@ impl HeldFunction {
 }
 
 impl Handler {
-    /// What the calling script has given.
+    /// From a parameter of the calling script.
     pub(crate) fn new(cx: &Cx, given: ScriptFunction) -> Self {
         match given {
             ScriptFunction::Name(name) => Self::Name(name),
@@ -55,7 +55,7 @@ impl Handler {
         }
     }
 
-    /// The name, without what stands behind its last `@`; none for a function by value.
+    /// The name, without the part after its last `@`; none for a function by value.
     fn name(&self) -> Option<&str> {
         match self {
             Self::Name(name) => Some(name.rsplit_once('@').map_or(name, |(name, _language)| name)),
@@ -65,8 +65,8 @@ impl Handler {
 }
 
 impl Sim {
-    /// Calls a handler; one given by name is a function of `script`. A failure is logged and counted, and the script lives on: it is not
-    /// to end because of what somebody outside has sent.
+    /// Calls a handler; one by name is a function of `script`. A failure is logged and counted, and the script continues: it must not
+    /// end because of what a peer has sent.
     pub(crate) fn call_handler(
         self: &Rc<Self>,
         script: &Rc<Script>,

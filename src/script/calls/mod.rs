@@ -86,7 +86,7 @@ impl Sim {
     /// Resets a script and initialises it at once where 4.10 does.
     pub(crate) fn init_script(self: &Rc<Self>, script: &Rc<Script>) {
         if script.depth() > 0 {
-            // Its interpreter is in use: it starts anew when it is called next.
+            // Its interpreter is in use: it restarts at the next call.
             return;
         }
         self.reset(script);
@@ -103,7 +103,7 @@ impl Sim {
         self.deliver(script, SysCall::Init, &[]);
     }
 
-    /// Whether an add-on starts without being asked to; its menu entry becomes its name.
+    /// Whether an add-on starts by itself; its menu entry becomes its name.
     fn add_on_starts_itself(self: &Rc<Self>, script: &Rc<Script>) -> bool {
         let Some(info) = self.add_on_info(script) else { return true };
         if let Some(Data::Text(menu)) = info.field("menu") {

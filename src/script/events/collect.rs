@@ -284,7 +284,7 @@ impl Collector<'_> {
         self.push(Event::list("orphanHandles"));
     }
 
-    /// What nobody notes when it changes: the application, scripts that are no objects, states of scripts.
+    /// Properties whose changes are not recorded: the application, scripts that are no objects, states of scripts.
     fn collect_unrecorded(&mut self) {
         self.watch.app.push_differences(self.sim, None);
         self.collect_named_params();

@@ -1,7 +1,7 @@
 //! Values of properties as the event stream writes them (spec: events 2): CBOR with a few types of its own.
 //!
-//! Items are put together here and not by a library, because the stream asks for widths a canonical encoder would not choose: floats
-//! of 32 bits whatever their value, integers of 32 bits inside arrays.
+//! Items are encoded here and not by a library, because the stream requires widths that a canonical encoder would not choose: floats
+//! of 32 bits for all values, integers of 32 bits inside arrays.
 
 use super::protocol::{Meaning, Protocol};
 use crate::scene::{Data, ValueType};

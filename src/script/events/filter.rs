@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::queue::{Class, Source};
 use crate::scene::{Data, Key, special};
 
-/// Names of fields; none given means all of them.
+/// Names of fields; an empty list means all of them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Keys(BTreeSet<String>);
 
@@ -30,7 +30,7 @@ impl Filters {
         (!targets.is_empty()).then_some(Self(targets))
     }
 
-    /// The fields of `source` that are wanted: what is said about itself counts, else what is said about its kind.
+    /// The selected fields of `source`: its own entry, or else the entry of its kind.
     pub(super) fn keys_of(&self, source: Source) -> Option<&Keys> {
         if source.class == Class::None {
             return None;

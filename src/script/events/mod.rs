@@ -202,7 +202,7 @@ impl Sim {
         self.deliver_events(&events, first);
     }
 
-    /// Delivers events numbered from `first` to everyone who listens, as much of them as each wants.
+    /// Delivers events numbered from `first` to all listeners, filtered for each.
     fn deliver_events(self: &Rc<Self>, events: &[Event], first: i64) {
         let mut whole: Option<Data> = None;
         for script in self.active_scripts().iter() {
@@ -245,7 +245,7 @@ impl Sim {
         }
     }
 
-    /// More changed than the journal holds: listeners get everything anew.
+    /// More changed than the journal holds: listeners get a new snapshot.
     fn restart_events(self: &Rc<Self>) {
         let Some(watch) = self.events.watch.take() else { return };
         self.watch_for_listeners(watch.listeners);

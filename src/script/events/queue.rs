@@ -58,7 +58,7 @@ pub(crate) struct Event {
     pub name: Name,
     pub source: Source,
     pub data: Content,
-    /// A later one of the same name, source and topic takes its place.
+    /// A later one of the same name, source and topic replaces it.
     pub topic: Option<Name>,
 }
 

@@ -17,7 +17,7 @@ use crate::script::property::{
 };
 use crate::script::sim::Sim;
 
-/// Those who listen, and how they are spoken to.
+/// The listeners, and their protocol versions.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Listeners {
     pub protocol: Protocol,
@@ -43,7 +43,7 @@ pub(super) struct Watched {
     pub meshes: Vec<Watched>,
     protocol: Protocol,
     keys: &'static Keys,
-    /// Nil where nobody wants to know.
+    /// Nil without a listener.
     sent: Vec<Data>,
     wanted: Vec<bool>,
 }
@@ -161,7 +161,7 @@ impl Watched {
         self.differences(sim, index.as_slice()).into_iter().for_each(|event| sim.events.push(event));
     }
 
-    /// Reads a property anew; returns whether it is different from what was sent.
+    /// Reads a property again; returns whether it differs from what was sent.
     pub(super) fn take_difference(&mut self, sim: &Rc<Sim>, index: usize) -> bool {
         if !self.remembers(index) {
             return false;

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-/// The memory of all states of one simulator. What Lua code asks for beyond the limit is refused: Lua collects its garbage, and if that is
+/// The memory of all states of one simulator. Allocations of Lua code beyond the limit are refused: Lua collects its garbage, and if that is
 /// not enough raises `not enough memory`. What the host itself pushes always goes through, since a refusal would raise through Rust;
 /// it is bounded by other means and counted all the same.
 #[derive(Debug)]

@@ -1,4 +1,4 @@
-//! What the host knows about one running script: whose it is, its yield levels, hooks, random numbers.
+//! What the host knows about one running script: its owner, yield levels, hooks, random numbers.
 
 use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::{BTreeMap, HashSet};
@@ -26,7 +26,7 @@ pub(crate) struct Env {
     pub(in crate::script) runtime: OnceCell<Weak<Runtime>>,
     /// What the script can reach.
     pub registry: Arc<Registry>,
-    /// Callbacks whose function was there when the chunk had run.
+    /// Callbacks whose function existed after the chunk had run.
     pub defined: Cell<u64>,
     pub hooks: RefCell<Hooks>,
     /// Calls of this state in progress.
@@ -37,7 +37,7 @@ pub(crate) struct Env {
     pub event_filters: RefCell<Option<Filters>>,
     /// Whether there are event listeners, so that changes must be collected.
     pub events_wanted: Rc<Cell<bool>>,
-    /// What modules keep for the script; it goes with the state.
+    /// The state of modules for the script; it is dropped with the interpreter.
     pub module_states: States,
     /// What the script may do to the world outside.
     pub permissions: Permissions,

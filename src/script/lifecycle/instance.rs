@@ -28,7 +28,7 @@ pub struct Script {
     state: Cell<i64>,
     pub(crate) runtime: RefCell<Option<Rc<Runtime>>>,
     pub(crate) removed: Cell<bool>,
-    /// What an old script says of how often it has run: the time before callbacks had a counter for it.
+    /// The run counter of an old script, from before callbacks had one.
     pub(crate) execution_count: Cell<i64>,
 }
 
@@ -51,7 +51,7 @@ pub(crate) struct Detached {
 }
 
 impl Detached {
-    /// Scripts that are no objects are Lua, unless a scene says otherwise.
+    /// Scripts that are no objects are in Lua, unless a scene specifies another language.
     pub(crate) fn language(&self) -> &str {
         if self.language.is_empty() { "lua" } else { &self.language }
     }

@@ -75,7 +75,7 @@ impl Sim {
         let defined = defined_callbacks(&runtime);
         runtime.env.defined.set(defined);
         self.note_callbacks(defined);
-        // Add-ons have been asked before they were started.
+        // Add-ons were checked before they were started.
         if script.script_type != ScriptType::AddOn {
             self.run_callback(script, SysCall::Info, &[]);
         }
@@ -216,7 +216,7 @@ impl Sim {
         self.close(script);
     }
 
-    /// Ends a script as a crash would: it is not asked to clean up.
+    /// Ends a script as a crash would: without its cleanup callback.
     pub(crate) fn abort(&self, script: &Script) {
         script.set_base_state(state::ENDED);
         self.close(script);

@@ -57,7 +57,7 @@ impl Sim {
         .clone()
     }
 
-    /// Everyone who takes part now, in regular order: while stopped, neither simulation scripts nor the main script do.
+    /// All scripts that are active now, in regular order: while stopped, not simulation scripts and the main script.
     pub(crate) fn active_scripts(&self) -> ScriptList {
         self.refresh_order();
         let cache = self.scripts.order.borrow();
@@ -111,7 +111,7 @@ impl Sim {
         list.into()
     }
 
-    /// Scripts asked about a joint: those attached to it, to its parent, and so on to the root; simulation scripts of the whole chain
+    /// Scripts whose `sysCall_joint` is called for a joint: those attached to it, to its parent, and so on to the root; simulation scripts of the whole chain
     /// first, then customization scripts, the main script, add-ons and the sandbox.
     pub(crate) fn joint_chain(&self, joint: Handle) -> Vec<Rc<Script>> {
         let chain: Vec<Handle> = std::iter::once(joint).chain(self.scene.borrow().ancestors(joint)).collect();
@@ -127,7 +127,7 @@ fn joined(lists: &[&ScriptList]) -> ScriptList {
     lists.iter().flat_map(|list| list.iter().cloned()).collect()
 }
 
-/// The wanted objects: trees walked in pre-order with children stably sorted by priority, then the deepest level of the whole scene
+/// The objects that match: trees in pre-order with children stably sorted by priority, then the deepest level of the whole scene
 /// first.
 fn by_depth(scene: &Scene, wanted: impl Fn(&Object) -> bool) -> Vec<Handle> {
     let mut found: Vec<(usize, Handle)> = Vec::new();

@@ -89,7 +89,7 @@ impl Sim {
     /// Removes objects: their scripts are cleaned up first, and scripts are notified before and after.
     ///
     /// # Errors
-    /// When a handle is unknown or given twice; nothing happens then.
+    /// When a handle is unknown or repeated; nothing happens then.
     pub(crate) fn remove_objects(self: &Rc<Self>, handles: &[Handle]) -> ApiResult<()> {
         self.check_removable(handles)?;
         let removed: Vec<Handle> = handles.iter().copied().filter(|&handle| self.end_scripts_of(handle)).collect();
@@ -148,7 +148,7 @@ impl Sim {
         Data::map([("objects", raw(handles).into()), ("allObjects", all.into()), ("objectHandles", marked(handles))])
     }
 
-    /// Removes the objects whose removal was put off.
+    /// Removes the objects whose removal was deferred.
     pub(in crate::script) fn remove_delayed(self: &Rc<Self>) {
         let mut handles = self.removals.take_delayed();
         if handles.is_empty() {
@@ -160,11 +160,11 @@ impl Sim {
         }
     }
 
-    /// Removes the objects that came during the simulation, where the scene wants that.
+    /// Removes the objects that were created during the simulation, if the scene is set to do so.
     pub(in crate::script) fn remove_new_objects(self: &Rc<Self>) {
         let new = self.removals.take_new(&self.scene.borrow());
         if !new.is_empty() && self.scene.borrow().settings().remove_new_objects_at_end {
-            // The handles were just read, so none is unknown or given twice.
+            // The handles were just read, so none is unknown or repeated.
             let _ = self.remove_objects(&new);
         }
     }

@@ -10,7 +10,7 @@ const HTML_MARK: &str = "@html";
 /// One line of the log.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LogLine<'a> {
-    /// Who speaks: a script's path, `sandboxScript`, `CoppeliaSim`'s place taken by `Swanilda`, ...
+    /// The source of a line: a script's path, `sandboxScript`, `CoppeliaSim`'s place taken by `Swanilda`, ...
     pub origin: &'a str,
     /// `sim.verbosity_*` with its flag bits.
     pub level: i64,

@@ -1,4 +1,4 @@
-//! What the simulator says in the log about its own state, in CoppeliaSim's words.
+//! Log messages of the simulator about its own state, in CoppeliaSim's words.
 
 pub const STARTED: &str = "Simulation started.";
 pub const PAUSED: &str = "Simulation paused.";

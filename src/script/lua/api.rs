@@ -41,7 +41,7 @@ struct Known<'a>(Stack<'a>);
 
 // SAFETY: declared as in lua.h, since the types are pointers to a `lua_State` and ints. With a living state the first ones read or convert,
 // and a positive index beyond the top is "no value" to them; the second ones push one value, for which there is room. The others
-// get the table, key and values that they need. Raw access runs no code. Out of memory ends the process where Rust asks for it
+// get the table, key and values that they need. Raw access runs no code. Out of memory ends the process where Rust allocates
 // (`budget.rs`), so nothing here raises.
 unsafe extern "C-unwind" {
     pub(super) safe fn lua_gettop(stack: Stack<'_>) -> c_int;

@@ -12,7 +12,7 @@ pub(crate) trait Callback: Fn(Stack<'_>, usize) -> Result<c_int, String> + Copy 
 
 impl<F: Fn(Stack<'_>, usize) -> Result<c_int, String> + Copy + 'static> Callback for F {}
 
-/// Pushes `callback` as a Lua function. Each call gets `number`, and looks up what it stands for.
+/// Pushes `callback` as a Lua function. Each call gets `number` and looks it up.
 pub(crate) fn push_callback<F: Callback>(stack: Stack<'_>, callback: F, number: usize) {
     push_function(stack, Some(number as i64), move |stack| {
         match callback(stack, stack.number_of_function() as usize) {
@@ -33,7 +33,7 @@ pub(super) fn panic_message(panic: &(dyn Any + Send)) -> String {
     format!("internal error in Swanilda, please report it: {}", panic_text(panic))
 }
 
-/// What a panic said.
+/// The message of a panic.
 pub(super) fn panic_text(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
     text.unwrap_or("panic")

@@ -71,7 +71,7 @@ impl Stack<'_> {
         self.frame(level, c"l").map_or(-1, |frame| frame.line)
     }
 
-    /// The text of Lua's own functions for an argument they do not take, told by the running callback.
+    /// The text of Lua's own functions for an invalid argument, raised by the running callback.
     pub(crate) fn argument_error(self, position: i32, reason: &str) -> String {
         let (name, is_method) = self.called_as();
         let place = self.place_of_call();
@@ -88,14 +88,14 @@ impl Stack<'_> {
         frame.and_then(|frame| Some((frame.name?, frame.is_method))).unwrap_or_else(|| ("?".into(), false))
     }
 
-    /// What is asked for about the function `level` calls up.
+    /// Information about the function `level` calls up.
     fn frame(self, level: c_int, what: &'static CStr) -> Option<Frame> {
         let mut record = MaybeUninit::<ffi::lua_Debug>::zeroed();
         let text = |text: *const c_char| {
             // SAFETY: names in a record are texts, which last until the function returns.
             (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned())
         };
-        // SAFETY: a record of zeros is valid; Lua fills in what is asked for, which pushes nothing.
+        // SAFETY: a record of zeros is valid; Lua fills in the requested fields, which pushes nothing.
         let record = unsafe {
             if ffi::lua_getstack(self.raw(), level, record.as_mut_ptr()) == 0 {
                 return None;
@@ -136,7 +136,7 @@ impl Stack<'_> {
         is_main
     }
 
-    /// Pushes the coroutine this stack belongs to.
+    /// Pushes the coroutine of this stack.
     pub(crate) fn push_running_coroutine(self) {
         api::lua_pushthread(self.room());
     }

@@ -15,10 +15,10 @@ pub(crate) const HOOK_INTERVAL: c_int = 1000;
 /// Instructions until an exhausted slice ends.
 const SOON: c_int = 100;
 
-/// Asked after every `HOOK_INTERVAL` instructions of code that has the hook; told whether it may yield.
+/// Decides after every `HOOK_INTERVAL` instructions of code that has the hook. The argument is whether it may yield.
 pub(crate) type OnCount = fn(Stack<'_>, bool) -> Verdict;
 
-/// Where the process-wide decision function is kept: there is one host implementation, so a static suffices.
+/// The decision function of the process: there is one host implementation, so a static suffices.
 static ON_COUNT: std::sync::OnceLock<OnCount> = std::sync::OnceLock::new();
 
 /// Makes `coroutine.create` and `coroutine.wrap` set the count hook of new coroutines. Code outside of coroutines runs without a hook,
@@ -48,7 +48,7 @@ fn hook_wrapped(stack: Stack<'_>) {
     }
 }
 
-/// Switches the count hook of the running coroutine on or off. The main coroutine keeps what it has, and so does a watched state.
+/// Switches the count hook of the running coroutine on or off. That of the main coroutine and of a watched state does not change.
 pub(crate) fn set_count_hook(stack: Stack<'_>, on: bool) {
     set_interval(stack, if on || stack.owner().is_interruptible() { HOOK_INTERVAL } else { 0 });
 }
@@ -96,7 +96,7 @@ pub(crate) enum Verdict {
     Interrupt,
 }
 
-/// The hook: yields, with no values, or raises when the host says so.
+/// The hook: yields without values, or raises an error, as the host decides.
 pub(super) unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
     // SAFETY: Lua calls the hook of a running coroutine. Yields and errors leave it by `longjmp`; nothing is owned here.
     unsafe {

@@ -1,7 +1,7 @@
 //! Lua's `debug` library sees Lua functions, not native ones.
 //!
 //! Native functions trust their upvalues, their frames and the metatables of userdata: a script that changed them could have any address
-//! called or freed. So natives have no upvalues and no locals for `debug`, userdata keep their metatables, a metatable that says `__metatable`
+//! called or freed. So natives have no upvalues and no locals for `debug`, userdata keep their metatables, a metatable with `__metatable`
 //! is hidden from `debug.getmetatable` too, and the registry is a copy of what is public in it.
 
 use std::ffi::{CStr, c_int};
@@ -88,7 +88,7 @@ impl Local {
         let first = if stack.kind(1) == Type::Thread { 2 } else { 1 };
         let level = argument(stack, first)?;
         let number = argument(stack, first + 1)?;
-        // SAFETY: `lua_Debug` is plain data that `lua_getstack` fills, for this coroutine or the one in the first argument, which keeps it alive.
+        // SAFETY: `lua_Debug` is plain data that `lua_getstack` fills, for this coroutine or the one in the first argument, which is alive.
         // There is room for the value of the local, which is popped again; names are static or belong to the function.
         unsafe {
             let of = if first == 2 { ffi::lua_tothread(stack.raw(), 1) } else { stack.raw() };

@@ -1,6 +1,6 @@
 //! Functions that Lua calls: the way from Lua into Rust and back.
 //!
-//! Lua raises errors by `longjmp`, which runs no destructors. So a function of ours only says how it ends ([`Exit`]). It is carried
+//! Lua raises errors by `longjmp`, which runs no destructors. So a function of ours only returns how it ends ([`Exit`]). It is carried
 //! out when the function has returned and everything it owned is dropped.
 
 use std::ffi::{CStr, c_int};

@@ -1,10 +1,10 @@
-//! The edge to Lua: mlua owns the virtual machine, and what is hot speaks to Lua's C interface through `mlua::ffi`.
+//! The interface to Lua: mlua owns the virtual machine, and hot code calls Lua's C interface through `mlua::ffi`.
 //!
 //! Why not mlua's own functions for everything: scripts must catch error *strings* with the caller's line, as CoppeliaSim raises them;
 //! threads are pre-empted from a count hook; and a call must cost tens of nanoseconds.
 //!
 //! The discipline that makes it hold:
-//! - A [`State`] is used from one thread and closed once, by mlua, when nobody holds it any more.
+//! - A [`State`] is used from one thread and closed once, by mlua, when the last reference is dropped.
 //! - A [`Stack`] is a view of one coroutine of a living state. It checks indices and types before it follows them, so that a mistake
 //!   is a wrong answer or a panic, and not a wild pointer. Every push makes room for what it pushes.
 //! - [`api`] declares Lua's functions that cannot fail, with argument types that prove it; so they need no `unsafe` where they are called.

@@ -1,7 +1,7 @@
-//! Userdata that stand for things a library holds: a class and a number each, nothing more.
+//! Userdata that refer to objects of a library by a class and a number.
 //!
-//! What a script does to such a value (its metatable, its finalizer) can at worst make it stand for another thing of the same state or
-//! for none: the library looks the number up.
+//! Changes that a script makes to such a value (its metatable, its finalizer) can at worst make it refer to another object of the same state or
+//! to none: the library looks the number up.
 
 use std::ffi::{CStr, c_int};
 

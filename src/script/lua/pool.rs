@@ -1,6 +1,6 @@
 //! The memory of one Lua state: small blocks from lists of free ones, all others from the allocator the state was made with.
 //!
-//! Lua says the size of what it frees, so that blocks need no headers: a free one waits in the list of its size class. Tables come
+//! Lua passes the size of what it frees, so blocks need no headers: a free one is in the list of its size class. Tables come
 //! and go by the thousand, and a general allocator took most of the time of a message between scripts. The memory of the lists is
 //! freed when the state is closed.
 //!
@@ -22,7 +22,7 @@ const CLASSES: usize = 32;
 /// Larger blocks are not for the pool.
 pub(super) const LARGEST: usize = STEP * CLASSES;
 const LARGE: usize = LARGEST + 1;
-/// Blocks of the pool begin so far behind a multiple of `STEP`. Lua itself asks for an alignment of 8.
+/// Blocks of the pool begin so far behind a multiple of `STEP`. Lua itself requires an alignment of 8.
 const OFFSET: usize = 8;
 const _: () = assert!(ffi::SYS_MIN_ALIGN == STEP, "blocks of mlua's allocator must be told apart by their alignment");
 
@@ -57,7 +57,7 @@ impl Pool {
         Self { budget, base, free: [None; CLASSES], chunks: Vec::new(), rest: NonNull::dangling(), rest_len: 0 }
     }
 
-    /// What Lua asks its allocator for: a new block, another size for an old one, or none. Null for no size.
+    /// The allocator that Lua calls: makes a block, resizes or frees one. Returns null for size 0.
     ///
     /// # Safety
     /// A block is from this function, or from `base` before; it has `old_size` bytes, and is not used any more.
@@ -200,7 +200,7 @@ mod tests {
         unsafe { Pool::new(Rc::default(), Allocator { function: base, data: null_mut() }) }
     }
 
-    /// Changes the size of a block as Lua does; what both sizes have keeps its bytes.
+    /// Changes the size of a block as Lua does; the common part keeps its bytes.
     fn resize(pool: &mut Pool, block: *mut c_void, old_size: usize, size: usize) -> *mut c_void {
         // SAFETY: the tests hand over a block of that size, or null, and forget it.
         let new = unsafe { pool.allocate(block, old_size, size) };

@@ -72,7 +72,7 @@ fn text_of(error: &Error, budget: &Budget) -> String {
     }
 }
 
-/// What a Rust function said, without who called it.
+/// The message of a Rust function, without its caller.
 fn reason(error: &Error) -> String {
     match error {
         Error::CallbackError { cause, .. } => reason(cause),

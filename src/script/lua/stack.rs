@@ -45,7 +45,7 @@ pub enum Type {
     Thread,
 }
 
-// Every method relies on `raw` being a coroutine of a living state, which `from_raw` asks of its caller.
+// Every method relies on `raw` being a coroutine of a living state, which `from_raw` requires of its caller.
 impl<'a> Stack<'a> {
     /// # Safety
     /// `raw` must stay a coroutine of a living state for `'a`, used from this thread only.
@@ -65,11 +65,11 @@ impl<'a> Stack<'a> {
 
     /// The virtual machine, for what is not hot.
     pub(crate) fn lua(self) -> &'a Lua {
-        // SAFETY: mlua made the state and keeps this with it.
+        // SAFETY: mlua made the state and stores this in it.
         unsafe { Lua::get_or_init_from_ptr(self.raw) }
     }
 
-    /// The memory the state belongs to.
+    /// The memory budget of the state.
     pub(super) fn budget(self) -> &'a Budget {
         &self.owner().budget
     }

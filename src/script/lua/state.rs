@@ -16,7 +16,7 @@ pub(crate) struct State {
     main: NonNull<ffi::lua_State>,
 }
 
-/// What a state needs until it is closed. mlua keeps it as application data, which it drops after closing.
+/// Data that a state needs until it is closed. It is application data of mlua, which drops it after closing.
 struct Foundation {
     pool: NonNull<Pool>,
     _env: Rc<Env>,
@@ -30,7 +30,7 @@ impl Drop for Foundation {
 }
 
 impl State {
-    /// A new state whose memory comes out of the budget of `env`, which can be had back from every coroutine through [`Stack::owner`].
+    /// A new state whose memory counts against the budget of `env`. [`Stack::owner`] returns `env` for every coroutine.
     pub(crate) fn new(env: Rc<Env>) -> Self {
         // SAFETY: what makes this unsafe is what scripts may load: native libraries and bytecode. They may as in the original, or,
         // where `Options::permissions` do not allow native code, start-up takes both away before a script runs.
@@ -85,7 +85,7 @@ fn install_pool(main: NonNull<ffi::lua_State>, budget: Rc<Budget>) -> NonNull<Po
     }
 }
 
-/// Lets every coroutine find `env`. Later ones copy the extra space of the main one; those mlua made already stand in the registry, and
+/// Lets every coroutine find `env`. Later ones copy the extra space of the main one; those that mlua has made are in the registry, and
 /// finalizers may run on them.
 fn set_owner(main: NonNull<ffi::lua_State>, env: &Rc<Env>) {
     let (main, owner) = (main.as_ptr(), Rc::as_ptr(env));
@@ -110,10 +110,10 @@ const MAX_BLOCK: usize = 2 << 30;
 
 /// Lua's allocator. Out of memory ends the process, as it does everywhere in Rust.
 unsafe extern "C" fn allocate(pool: *mut c_void, old: *mut c_void, old_size: usize, size: usize) -> *mut c_void {
-    // SAFETY: `install_pool` gave a pool that outlives the state, which is used from one thread; Lua says the size it asked for.
+    // SAFETY: `install_pool` gave a pool that outlives the state, which is used from one thread; Lua passes the size it requested.
     unsafe {
         let pool = &mut *pool.cast::<Pool>();
-        // Without an old block, Lua says what kind of value it makes in place of a size.
+        // Without an old block, Lua passes the type of the value instead of a size.
         let counted = if old.is_null() { 0 } else { old_size };
         if size > MAX_BLOCK || !pool.budget.resize(counted, size) {
             return null_mut();
@@ -135,7 +135,7 @@ mod tests {
     fn a_block_that_may_not_grow_stays_as_it_was() {
         with_state(|state| {
             let mut pool = null_mut();
-            // SAFETY: a block of that size is asked for, refused another size, and freed.
+            // SAFETY: a block of that size is requested, refused another size, and freed.
             unsafe {
                 let allocate = ffi::lua_getallocf(state.main.as_ptr(), &raw mut pool);
                 for size in [8, 1000] {

@@ -147,7 +147,7 @@ impl Stack<'_> {
         !api::lua_getupvalue(self.room(), slot, number).is_null()
     }
 
-    /// Pops a function and keeps it.
+    /// Pops a function and returns a reference to it.
     pub(crate) fn keep_function(self) -> FunctionRef {
         FunctionRef::new(api::luaL_ref(self.value(), Table::REGISTRY))
     }

@@ -23,7 +23,7 @@ impl ReferenceModule {
         })
     }
 
-    /// The sentence for a script that asks for a module which is missing here.
+    /// The error for a script that requires a module that is missing here.
     pub(crate) fn missing(self) -> String {
         let what = if self.kind == "plugin" { "plugin" } else { "Lua module" };
         format!("{} is a {what} of CoppeliaSim that Swanilda does not have yet (docs/PLUGINS.md)", self.name)

@@ -126,7 +126,7 @@ fn search_embedded(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     find_module(stack, &name)
 }
 
-/// Finds the others. A module of CoppeliaSim that nobody has found is missing here: the error says so, without the places that were searched.
+/// Finds the others. The error for a module of CoppeliaSim that was not found says that it is missing, without the searched places.
 fn search_last(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let name = String::from_utf8_lossy(&stack.text(1).unwrap_or_default()).into_owned();
     if LAST.contains(&&*name) {

@@ -11,7 +11,7 @@ use crate::script::sim::Sim;
 /// Makes a module for the Lua state of one script.
 type Open = dyn Fn(&Lua) -> mlua::Result<Table>;
 
-/// A module by the name `require` knows it by.
+/// A module by its name in `require`.
 #[derive(Clone)]
 pub(crate) struct UserModule {
     pub name: String,

@@ -23,7 +23,7 @@ pub(crate) struct Accessor {
     pub write: Option<fn(&Subject<'_>, Data) -> ApiResult<()>>,
 }
 
-/// What a change of a property says that cannot be made.
+/// The error of a refused change of a property.
 pub(super) fn refused() -> SceneError {
     SceneError::Refused(ApiError::PropertyNotWritable.to_string())
 }

@@ -1,6 +1,6 @@
 //! Typed properties: named, typed values of the application, the scene, objects and scripts (spec: data 3, data 4, data 5, properties 1).
 //!
-//! Static properties stand in one table; custom data, signals and named parameters are created by scripts. Collections are no
+//! Static properties are in one table; custom data, signals and named parameters are created by scripts. Collections are no
 //! targets.
 
 mod access;
@@ -56,7 +56,7 @@ enum Name<'a> {
     Param(&'a str),
 }
 
-/// Bytes from which on a value is said to be large; the original's limit is not known to us.
+/// Size in bytes from which a value counts as large; the original's limit is unknown.
 const LARGE: usize = 1000;
 
 /// Type and flags, as returned by `sim.getPropertyInfo`.
@@ -216,7 +216,7 @@ impl Sim {
     }
 }
 
-/// The error when the scene rejects a value: CoppeliaSim gives no reason.
+/// The error when the scene rejects a value: CoppeliaSim's has no reason.
 fn refusal(error: ApiError, words: ApiError) -> ApiError {
     if matches!(error, ApiError::Scene(_)) { words } else { error }
 }

@@ -27,7 +27,7 @@ impl SignalOwners {
         }
     }
 
-    /// Forgets who owned the signals of a holder that is gone.
+    /// Drops the owners of the signals of a removed holder.
     pub(crate) fn forget(&mut self, holder: Holder) {
         self.0.remove(&holder);
     }

@@ -1,5 +1,5 @@
-//! The table of static properties: `static.tsv` says which there are and what becomes of them, the files in `types` how those that have
-//! a meaning are read and written.
+//! The table of static properties: `static.tsv` lists them and their effect; the files in `types` read and write those that have
+//! one.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -57,7 +57,7 @@ pub(crate) enum Source {
 pub(crate) struct Class {
     /// The class name, which may prefix a property name.
     pub word: &'static str,
-    /// Words that may stand before that one.
+    /// Words that may precede it.
     outer: &'static [&'static str],
     /// In the order of enumeration.
     rows: Vec<Row>,

@@ -42,7 +42,7 @@ pub(crate) struct Clock {
     paused_at_time: Cell<bool>,
     /// True while scripts are notified that the simulation is about to start.
     starting: Cell<bool>,
-    /// A script asked to end the program.
+    /// A script requested the end of the program.
     quit_requested: Cell<bool>,
     /// Wall-clock seconds at which a run in real time had simulation time zero.
     real_time_origin: Cell<f64>,

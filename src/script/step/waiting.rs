@@ -1,4 +1,4 @@
-//! Waiting for another program or a device. Every wait ends when the user wants the program to end.
+//! Waiting for another program or a device. Every wait ends when the program is stopped.
 
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -12,7 +12,7 @@ const FIRST_PAUSE: Duration = Duration::from_micros(50);
 const LONGEST_PAUSE: Duration = Duration::from_millis(5);
 
 impl Sim {
-    /// Whether the user wants the program to end.
+    /// Whether the program is being stopped.
     pub(crate) fn is_interrupted(&self) -> bool {
         self.options.stop.load(Ordering::Relaxed)
     }
@@ -20,7 +20,7 @@ impl Sim {
     /// Asks again and again until there is an answer; None when there is none within `limit`.
     ///
     /// # Errors
-    /// When the user wants the program to end.
+    /// When the program is being stopped.
     pub(crate) fn wait_for<T>(
         &self,
         limit: Option<Duration>,

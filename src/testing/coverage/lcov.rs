@@ -25,7 +25,7 @@ fn write_record(text: &mut String, path: &Path, record: &Record) -> std::fmt::Re
     writeln!(text, "LF:{}\nLH:{}\nend_of_record", record.lines.len(), record.hit())
 }
 
-/// A record is read line by line: whatever would end a line is replaced.
+/// A record is read line by line: characters that would end a line are replaced.
 fn one_line(path: &Path) -> String {
     path.display().to_string().replace(|c: char| c.is_control(), "_")
 }

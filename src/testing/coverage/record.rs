@@ -19,7 +19,7 @@ pub struct Record {
 impl Record {
     pub(super) fn new(mut functions: Vec<Function>) -> Self {
         let lines = functions.iter().flat_map(|function| &function.lines).map(|&line| (line, 0)).collect();
-        // Of a function in one line nobody can tell whether it was called or only made.
+        // For a function in one line it is unknown whether it was called or only created.
         functions.retain(|function| function.line > 0 && function.lines[0] > function.line);
         Self { lines, functions }
     }

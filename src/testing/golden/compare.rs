@@ -221,7 +221,7 @@ mod tests {
         assert_eq!(compare(&expected, &sine(0.02, 0.0, 1.0), &tolerances(1e-3, 0.0)), None);
         let late = sine(0.05, 0.1, 1.0);
         assert!(compare(&expected, &late, &tolerances(1e-2, 0.0)).is_some());
-        // The end of a trace that comes late is not there: its last value stands for it.
+        // The end of a delayed trace is missing: its last value is used instead.
         assert_eq!(compare(&expected, &late, &tolerances(0.05, 0.1)), None);
     }
 

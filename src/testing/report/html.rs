@@ -1,6 +1,6 @@
 //! One page for a browser, with everything in it: it needs no network, and works without JavaScript, which only adds a filter.
 //!
-//! Its policy forbids whatever does not stand in the page. Pictures are images of their own, so no text in them becomes part of the page.
+//! Its content security policy forbids external resources. Plots are separate images, so their text never becomes part of the page.
 
 use std::fmt;
 

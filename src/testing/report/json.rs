@@ -1,4 +1,4 @@
-//! JSON lines: an object for the beginning, each test and the end of a run. docs/TESTING.md says what is in them.
+//! JSON lines: an object for the beginning, each test and the end of a run. docs/TESTING.md describes the fields.
 
 use serde_json::{Value, json};
 

@@ -1,6 +1,6 @@
 //! Reports for other programs and for browsers: texts made from outcomes. Nothing here writes to a file or a terminal.
 //!
-//! `json` and `tap` have a text for each moment of a run, `junit` and `html` one for the whole of it. What tests and scripts said
+//! `json` and `tap` write as tests finish, `junit` and `html` after the whole run. What tests and scripts printed
 //! may be anything, so each report quotes all of it.
 
 pub mod html;

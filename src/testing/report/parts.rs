@@ -50,7 +50,7 @@ pub fn console_line(line: &ConsoleLine) -> String {
     format!("{:.3} {author}{}", line.time, line.text)
 }
 
-/// Characters no XML document may have, and most readers choke on, become the one that stands for such.
+/// Replaces characters that XML documents must not contain by U+FFFD.
 pub(super) fn allowed(c: char) -> char {
     match c {
         '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'.. => c,

@@ -8,7 +8,7 @@ use super::Mesh;
 
 /// Meshes thinner than this part of their length have no inside to divide.
 const FLATTEST: f64 = 1e-4;
-/// How many voxels there are along the longest side, at least and at most: memory goes with the cube.
+/// Minimum and maximum number of voxels along the longest side: memory is proportional to its cube.
 const SIDES: [f64; 2] = [8.0, 256.0];
 
 /// Most voxels to step over.

@@ -97,7 +97,7 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// Mesh from flat lists as scripts give them: 3n coordinates, 3m indices from 0, 9m normal coordinates.
+    /// Mesh from flat lists, as scripts pass them: 3n coordinates, 3m indices from 0, 9m normal coordinates.
     /// Without normals they are flat.
     ///
     /// # Errors
@@ -165,7 +165,7 @@ impl Mesh {
     }
 
     /// Recomputes the normals. Corners of triangles that share a vertex and differ by less than
-    /// `shading_angle` (rad) get the mean of their face normals, weighted by area; 0 gives flat normals.
+    /// `shading_angle` (rad) get the mean of their face normals, weighted by area; 0 means flat normals.
     pub fn compute_normals(&mut self, shading_angle: f64) {
         let areas: Vec<_> = self.triangles.iter().map(|t| self.area_vector(t)).collect();
         let faces: Vec<_> = areas.iter().map(|a| a.try_normalize(0.0).unwrap_or_default()).collect();

@@ -25,7 +25,7 @@ pub enum PoseError {
     /// `build_pose` modes 4 to 9 need the approximate second axis.
     #[error("the function requires more arguments.")]
     MissingAxis2,
-    /// `build_pose` knows the modes 0 to 9.
+    /// `build_pose` has the modes 0 to 9.
     #[error("invalid mode {0}: expected 0 to 9.")]
     UnknownMode(i64),
     /// A transform has 12, 7 or 4 numbers.
@@ -47,7 +47,7 @@ pub fn pose_to_array(pose: &Pose) -> [f64; 7] {
 
 /// Rotation from `[qx, qy, qz, qw]`.
 ///
-/// A quaternion that cannot be normalised (zero, not finite) gives the identity. One that is
+/// A quaternion that cannot be normalised (zero, not finite) becomes the identity. One that is
 /// already of unit length keeps its bits, so that get/set loops do not drift.
 pub fn quaternion_from_array(q: &[f64; 4]) -> UnitQuaternion<f64> {
     let largest = q.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
@@ -77,7 +77,7 @@ pub fn pose_to_matrix(pose: &Pose) -> [f64; 12] {
     to_matrix(&rotation_matrix(&pose.rotation), &pose.translation.vector)
 }
 
-/// The matrix with its rotation block made orthonormal: z is kept, y = z x x, x = y x z, each normalised.
+/// The matrix with its rotation block made orthonormal: z is unchanged, y = z x x, x = y x z, each normalised.
 /// A block without three directions becomes the identity.
 pub fn orthonormalize(m: &[f64; 12]) -> [f64; 12] {
     to_matrix(&orthonormal_block(m), &Vector3::new(m[3], m[7], m[11]))
@@ -118,7 +118,7 @@ pub fn interpolate(a: &Pose, b: &Pose, t: f64) -> Pose {
     Pose::from_parts(position.into(), quaternion_from_array(&quaternion_to_array(&rotation)))
 }
 
-/// Axis and angle (rad, in [0, pi]) that turn `a` into `b`, the axis in the frame `a` and `b` are given in.
+/// Axis and angle (rad, in [0, pi]) that turn `a` into `b`, the axis in the frame of `a` and `b`.
 /// Below about 1e-4 rad there is no direction and the axis is not of unit length.
 pub fn rotation_axis(a: &Pose, b: &Pose) -> ([f64; 3], f64) {
     let q = shortest(b.rotation * a.rotation.inverse());

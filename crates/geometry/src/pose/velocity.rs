@@ -1,4 +1,4 @@
-//! Velocities of whatever moves, measured between two poses.
+//! Velocities measured between two poses.
 
 use super::euler::rotation_to_euler;
 use super::{Pose, shortest};

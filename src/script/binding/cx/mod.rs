@@ -1,7 +1,7 @@
 //! The context of one API call, and all that a function may touch.
 //!
 //! What `&Cx` offers reads; what `&mut Cx` offers changes something or calls scripts, be it through a cell. Nothing here returns the
-//! simulator as a whole: an accessor is named after the part it is for.
+//! simulator as a whole: an accessor is named after its part.
 
 mod events;
 mod files;
@@ -39,7 +39,7 @@ impl<'a> Cx<'a> {
         Self::new(stack.owner(), Some(stack))
     }
 
-    /// The context of a call with plain values, in the name of the script whose environment it is.
+    /// The context of a call with plain values, on behalf of the script of an environment.
     pub(crate) fn without_lua(env: &'a Env) -> ApiResult<Self> {
         Self::new(env, None)
     }
@@ -63,12 +63,12 @@ impl<'a> Cx<'a> {
         &self.sim.options
     }
 
-    /// What scripts may do to the world outside. Whoever calls the operating system for a script asks first.
+    /// What scripts may do outside of the simulator. Functions check it before they call the operating system for a script.
     pub(crate) fn permissions(&self) -> &Permissions {
         &self.sim.options.permissions
     }
 
-    /// Whether the user wants the program to end.
+    /// Whether the program is being stopped.
     pub(crate) fn is_interrupted(&self) -> bool {
         self.sim.is_interrupted()
     }
@@ -76,7 +76,7 @@ impl<'a> Cx<'a> {
     /// Asks again and again until there is an answer; None when there is none within `limit`.
     ///
     /// # Errors
-    /// When the user wants the program to end.
+    /// When the program is being stopped.
     pub(crate) fn wait_for<T>(
         &self,
         limit: Option<Duration>,

@@ -64,7 +64,7 @@ impl Cx<'_> {
         self.sim.set_engine(number, version)
     }
 
-    /// Sets the wished sub-step of the physics, seconds. Without effect while the simulation is not stopped.
+    /// Sets the desired sub-step of the physics, seconds. Without effect while the simulation is not stopped.
     pub(crate) fn set_physics_step(&mut self, step: f64) {
         self.sim.set_physics_step(step);
     }

@@ -150,7 +150,7 @@ impl AppStorage {
         }
     }
 
-    /// Notes what is wrong with the file; a corrupt one has been set aside by then, and an empty one takes its place.
+    /// Logs an error of the file; a corrupt one has been renamed by then, and is replaced by an empty one.
     fn report(&mut self, failure: Failure) {
         let level = if matches!(failure, Failure::Corrupt { .. }) { verbosity::WARNINGS } else { verbosity::ERRORS };
         self.notices.push((level, failure.to_string()));

@@ -31,7 +31,7 @@ fn open(stack: Stack<'_>) -> Next {
     unless_denied(stack, check_mode(permissions(stack), &path, &mode))
 }
 
-/// Lua's function says what is wrong with a mode that is none.
+/// Lua's function reports an invalid mode.
 fn check_mode(permissions: &Permissions, path: &Path, mode: &[u8]) -> Result<(), Denied> {
     let is_both = mode.contains(&b'+');
     if is_both || mode.starts_with(b"r") {
@@ -54,7 +54,7 @@ fn run(stack: Stack<'_>) -> Next {
     or_raise(stack, permissions(stack).check_run(&String::from_utf8_lossy(&command)))
 }
 
-/// Without a command it says whether there is a shell.
+/// Without a command it returns whether there is a shell.
 fn execute(stack: Stack<'_>) -> Next {
     if !matches!(stack.kind(1), Type::None | Type::Nil) || permissions(stack).can_run() {
         return run(stack);

@@ -1,4 +1,4 @@
-//! Loading code: files that may be read, text where native code is not allowed. Bytecode that somebody changed makes Lua write where it
+//! Loading code: only files that may be read, and only text where native code is not allowed. Modified bytecode makes Lua write where it
 //! should not, so it counts as native code.
 
 use std::ffi::c_int;
@@ -48,7 +48,7 @@ fn set_text_mode(stack: Stack<'_>, mode: c_int) -> Next {
             stack.push_bytes(denied.to_string().as_bytes());
             return Next::Return(2);
         }
-        // Lua's function says what is wrong with it.
+        // Lua's function reports the error.
         _ => return Next::Original,
     }
     stack.push_bytes(b"t");

@@ -107,7 +107,7 @@ pub(in crate::script::property) const PATHS: &[Accessor] = subject_properties! {
     "settingsPath": String, |s| text_of(s.sim.options.data_dir.as_deref());
 };
 
-/// Each reading gives another value, from the generator of the application.
+/// Each read returns a new value, from the generator of the application.
 pub(in crate::script::property) const RANDOM: &[Accessor] = subject_properties! {
     "randomQuaternion": Quaternion, |s| Quaternion(quaternion_to_array(&s.sim.app.borrow_mut().random.rotation()));
     "randomFloat": f64, |s| s.sim.app.borrow_mut().random.next();

@@ -1,7 +1,7 @@
 //! `engineProperties`: the parameters of a physics engine as one JSON text.
 //!
-//! Reading gives those of the engine the scene asks for, `{"bullet": {"friction": 0.71, ...}}`. Writing takes those of any engines;
-//! what is left out stays, names nobody knows are passed over, and a text that is no such JSON changes nothing.
+//! Reading returns those of the engine that the scene selects, `{"bullet": {"friction": 0.71, ...}}`. Writing takes those of any engines;
+//! omitted parameters are unchanged, unknown names are ignored, and invalid JSON changes nothing.
 
 use serde_json::{Map, Value};
 

@@ -19,7 +19,7 @@ impl Sim {
         }
     }
 
-    /// Sets the wished sub-step of the physics, seconds; at most the simulation step. Without effect while the simulation is not
+    /// Sets the desired sub-step of the physics, seconds; at most the simulation step. Without effect while the simulation is not
     /// stopped.
     pub(crate) fn set_physics_step(&self, step: f64) {
         if self.clock.is_stopped() && !step.is_nan() {
