@@ -28,11 +28,11 @@ impl Lookup<'_> {
     pub(crate) fn resolve(&self, host: &str, service: &str) -> Result<Vec<SocketAddr>, Failure> {
         let port = port(service)?;
         if let Some(ip) = self.any_address(host).or_else(|| host.parse::<IpAddr>().ok()) {
-            let port = port.map_or_else(|| self.ask("localhost", service).map(|found| found[0].port()), Ok)?;
+            let port = port.map_or_else(|| self.query("localhost", service).map(|found| found[0].port()), Ok)?;
             let address = SocketAddr::new(ip, port);
             return if self.family.admits(address) { Ok(vec![address]) } else { Err(wrong_family()) };
         }
-        let mut addresses = self.ask(host, if port.is_some() { "" } else { service })?;
+        let mut addresses = self.query(host, if port.is_some() { "" } else { service })?;
         if let Some(port) = port {
             addresses.iter_mut().for_each(|address| address.set_port(port));
         }
@@ -46,10 +46,10 @@ impl Lookup<'_> {
         })
     }
 
-    /// Asks the system. The answer is never empty.
-    fn ask(&self, host: &str, service: &str) -> Result<Vec<SocketAddr>, Failure> {
+    /// Queries the system. The answer is never empty.
+    fn query(&self, host: &str, service: &str) -> Result<Vec<SocketAddr>, Failure> {
         let (host, service, hints) = (host.to_owned(), service.to_owned(), self.hints());
-        let found = aside(self.stop, move || -> Result<Vec<_>, Failure> {
+        let found = on_thread(self.stop, move || -> Result<Vec<_>, Failure> {
             let service = (!service.is_empty()).then_some(service.as_str());
             let found = dns_lookup::getaddrinfo(Some(&host), service, Some(hints)).map_err(lookup_failure)?;
             Ok(found.flatten().map(|entry| entry.sockaddr).collect())
@@ -77,7 +77,7 @@ pub(crate) fn numeric(host: &str, service: &str, family: Family) -> Result<Socke
 
 /// The name of an address; its digits when it has none.
 pub(crate) fn name_of(address: SocketAddr, stop: &AtomicBool) -> Result<(String, String), Failure> {
-    aside(stop, move || dns_lookup::getnameinfo(&address, 0).map_err(lookup_failure))?
+    on_thread(stop, move || dns_lookup::getnameinfo(&address, 0).map_err(lookup_failure))?
 }
 
 /// The name of this machine.
@@ -86,10 +86,13 @@ pub(crate) fn host_name() -> Result<String, Failure> {
 }
 
 /// Runs `question` on a thread and waits for its answer.
-fn aside<T: Send + 'static>(stop: &AtomicBool, question: impl FnOnce() -> T + Send + 'static) -> Result<T, Failure> {
-    let (tell, answer) = mpsc::sync_channel(1);
-    // Nobody listens to an answer that comes too late.
-    std::thread::Builder::new().name("lookup".into()).spawn(move || drop(tell.send(question())))?;
+fn on_thread<T: Send + 'static>(
+    stop: &AtomicBool,
+    question: impl FnOnce() -> T + Send + 'static,
+) -> Result<T, Failure> {
+    let (sender, answer) = mpsc::sync_channel(1);
+    // A late answer is dropped.
+    std::thread::Builder::new().name("lookup".into()).spawn(move || drop(sender.send(question())))?;
     loop {
         match answer.recv_timeout(SLICE) {
             Ok(answer) => return Ok(answer),

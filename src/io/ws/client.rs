@@ -55,7 +55,7 @@ pub(super) async fn connect(request: Request, reports: Reports) {
         Ok(Err(event)) => event,
         Err(_) => WsEvent::Fail(connection, "no answer in time".to_owned()),
     };
-    reports.tell(event).await;
+    reports.report(event).await;
 }
 
 async fn open(request: Request) -> Result<WebSocketStream<TcpStream>, WsEvent> {

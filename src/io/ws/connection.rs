@@ -88,7 +88,7 @@ type Socket = WebSocketStream<TcpStream>;
 /// Reports messages of the peer and sends queued ones, until the connection ends.
 pub(super) async fn converse(socket: Socket, connection: Connection, reports: &Reports) {
     let (outgoing, queue) = queue();
-    reports.tell_open(connection, outgoing).await;
+    reports.report_open(connection, outgoing).await;
     let (mut sink, mut source) = socket.split();
     let refusal = tokio::select! {
         refusal = read_all(&mut source, connection, reports) => refusal,
@@ -100,15 +100,15 @@ pub(super) async fn converse(socket: Socket, connection: Connection, reports: &R
             let _ = timeout(HANDSHAKE, refuse(socket, refusal)).await;
         }
     };
-    tokio::join!(reports.tell(WsEvent::Close(connection)), farewell);
+    tokio::join!(reports.report(WsEvent::Close(connection)), farewell);
 }
 
 /// Runs until the peer closes, disconnects or violates the protocol; returns the close frame to send.
 async fn read_all(source: &mut SplitStream<Socket>, connection: Connection, reports: &Reports) -> Option<CloseFrame> {
     while let Some(message) = source.next().await {
         match message {
-            Ok(Message::Text(text)) => reports.tell(WsEvent::Message(connection, text.as_bytes().to_vec())).await,
-            Ok(Message::Binary(bytes)) => reports.tell(WsEvent::Message(connection, bytes.into())).await,
+            Ok(Message::Text(text)) => reports.report(WsEvent::Message(connection, text.as_bytes().to_vec())).await,
+            Ok(Message::Binary(bytes)) => reports.report(WsEvent::Message(connection, bytes.into())).await,
             Ok(Message::Close(_)) => {
                 // The reply goes out while one waits for the end.
                 let _ = timeout(HANDSHAKE, async { while source.next().await.is_some() {} }).await;

@@ -25,9 +25,9 @@ impl Reply {
 }
 
 /// The client that waits for the response.
-pub(crate) struct Asker(pub(super) oneshot::Sender<Reply>);
+pub(crate) struct Requester(pub(super) oneshot::Sender<Reply>);
 
-impl Asker {
+impl Requester {
     pub(crate) fn answer(self, reply: Reply) {
         // A client that is gone needs no response.
         let _ = self.0.send(reply);

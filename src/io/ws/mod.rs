@@ -24,8 +24,8 @@ use tokio_tungstenite::tungstenite::protocol::WebSocketConfig;
 use super::event_loop::{Deliver, EventLoop, Inbox, Task};
 pub(crate) use client::Request as WsRequest;
 pub(crate) use connection::{Outgoing, SendError};
-use http::Asker;
 pub(crate) use http::Reply as HttpReply;
+use http::Requester;
 pub(crate) use pages::Pages as WsPages;
 
 /// The largest message and the largest body of an HTTP request, bytes.
@@ -72,7 +72,7 @@ pub(crate) enum WsEvent {
         connection: Connection,
         resource: String,
         body: Vec<u8>,
-        asker: Asker,
+        requester: Requester,
     },
 }
 
@@ -94,7 +94,7 @@ struct Reports {
 }
 
 impl Reports {
-    async fn tell(&self, event: WsEvent) {
+    async fn report(&self, event: WsEvent) {
         let size = match &event {
             WsEvent::Message(_, bytes) | WsEvent::Http { body: bytes, .. } => bytes.len(),
             _ => 0,
@@ -102,7 +102,7 @@ impl Reports {
         self.put(event, None, size).await;
     }
 
-    async fn tell_open(&self, connection: Connection, outgoing: Outgoing) {
+    async fn report_open(&self, connection: Connection, outgoing: Outgoing) {
         self.put(WsEvent::Open(connection), Some(outgoing), 0).await;
     }
 

@@ -15,7 +15,7 @@ use tokio_tungstenite::tungstenite::http::header::{EXPECT, HeaderValue, ORIGIN, 
 use tokio_tungstenite::tungstenite::protocol::Role;
 
 use super::chunks::Chunks;
-use super::http::{Asker, Head, Reply, response};
+use super::http::{Head, Reply, Requester, response};
 use super::pages::Pages;
 use super::{Connection, HANDSHAKE, READ_BUFFER, Reports, WsEvent, config, connection};
 
@@ -53,7 +53,7 @@ async fn serve(mut stream: TcpStream, pages: &Pages, reports: &Reports) {
     let refused = match timeout(HANDSHAKE, read_head(&mut stream, &mut received)).await {
         Ok(Ok(head)) if head.is_upgrade() && !pages.admit(head.header(ORIGIN)) => {
             let origin = head.header(ORIGIN).unwrap_or_default().to_owned();
-            reports.tell(WsEvent::Refused(connection, origin)).await;
+            reports.report(WsEvent::Refused(connection, origin)).await;
             return respond(&mut stream, &Reply::status(StatusCode::FORBIDDEN.as_u16()), "", true).await;
         }
         Ok(Ok(head)) if head.is_upgrade() => match upgrade(&mut stream, &head).await {
@@ -73,7 +73,7 @@ async fn serve(mut stream: TcpStream, pages: &Pages, reports: &Reports) {
             respond(&mut stream, &Reply::status(status.as_u16()), "", true).await;
         }
     };
-    tokio::join!(reports.tell(WsEvent::Fail(connection, reason)), refuse);
+    tokio::join!(reports.report(WsEvent::Fail(connection, reason)), refuse);
 }
 
 /// Reads the head of a request; what was read beyond it stays in `received`.
@@ -123,7 +123,7 @@ async fn answer(mut stream: TcpStream, connection: Connection, head: &Head, rece
         Ok(body) => {
             let (sender, answered) = oneshot::channel();
             let resource = head.target.clone();
-            reports.tell(WsEvent::Http { connection, resource, body, asker: Asker(sender) }).await;
+            reports.report(WsEvent::Http { connection, resource, body, requester: Requester(sender) }).await;
             answered.await.ok()
         }
         Err(status) => status.map(|status| Reply::status(status.as_u16())),

@@ -180,9 +180,9 @@ fn handle(host: &Host, endpoint: &Endpoint, event: WsEvent) {
         }
         WsEvent::Close(connection) => drop(call(HandlerKind::Close, connection, &[])),
         WsEvent::Message(connection, data) => drop(call(HandlerKind::Message, connection, &[Data::Buffer(data)])),
-        WsEvent::Http { connection, resource, body, asker } => {
+        WsEvent::Http { connection, resource, body, requester } => {
             let results = call(HandlerKind::Http, connection, &[Data::text(&resource), Data::Buffer(body)]);
-            asker.answer(results.map_or_else(|| HttpReply::status(404), http_reply));
+            requester.answer(results.map_or_else(|| HttpReply::status(404), http_reply));
         }
     }
 }

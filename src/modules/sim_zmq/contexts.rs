@@ -50,7 +50,7 @@ fn ctx_singleton(_cx: &Cx) -> Result<String> {
 fn ctx_get(cx: &Cx, context: String, option_name: Number) -> Result<i64> {
     let objects = objects(cx);
     let context = objects.context(cx, &context)?;
-    Ok(objects.told(context.get(super::int(option_name))))
+    Ok(objects.result_code(context.get(super::int(option_name))))
 }
 
 /// Sets an option of a context.

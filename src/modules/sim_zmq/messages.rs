@@ -108,7 +108,7 @@ fn msg_more(cx: &Cx, msg: String) -> Result<i64> {
 #[api("simZMQ.msg_get")]
 fn msg_get(cx: &Cx, msg: String, property: Number) -> Result<i64> {
     let objects = objects(cx);
-    Ok(objects.told(objects.with_message(&msg, |message| message.get(int(property)))?))
+    Ok(objects.result_code(objects.with_message(&msg, |message| message.get(int(property)))?))
 }
 
 /// Sets a property.
@@ -181,7 +181,7 @@ fn put(cx: &Cx, dest: &str, src: &str, content: impl Fn(&mut Message) -> ZmqResu
 fn msg_send(cx: &Cx, msg: String, socket: String, flags: Number) -> Result<i64> {
     let objects = objects(cx);
     let socket = objects.socket(cx, &socket)?;
-    Ok(objects.told(objects.with_message(&msg, |message| message.send(&socket, int(flags)))?))
+    Ok(objects.result_code(objects.with_message(&msg, |message| message.send(&socket, int(flags)))?))
 }
 
 /// Receives into a message without waiting.
@@ -194,5 +194,5 @@ fn msg_send(cx: &Cx, msg: String, socket: String, flags: Number) -> Result<i64> 
 fn msg_recv(cx: &Cx, msg: String, socket: String, flags: Number) -> Result<i64> {
     let objects = objects(cx);
     let socket = objects.socket(cx, &socket)?;
-    Ok(objects.told(objects.with_message(&msg, |message| message.receive(&socket, int(flags)))?))
+    Ok(objects.result_code(objects.with_message(&msg, |message| message.receive(&socket, int(flags)))?))
 }

@@ -107,14 +107,14 @@ pub(super) fn forbid_singleton(context: &str, done: &str) -> Result<()> {
 }
 
 impl Objects {
-    /// The value of what libzmq was asked; -1 when it failed, with the reason kept.
-    pub(super) fn told<T: Into<i64>>(&self, outcome: ZmqResult<T>) -> i64 {
+    /// The result of a call; -1 if it failed, and then errnum returns the reason.
+    pub(super) fn result_code<T: Into<i64>>(&self, outcome: ZmqResult<T>) -> i64 {
         outcome.map_or_else(|errno| self.failed(errno), Into::into)
     }
 
-    /// 0, or -1 with the reason kept.
+    /// 0; -1 if the call failed, and then errnum returns the reason.
     pub(super) fn done(&self, outcome: ZmqResult<()>) -> i64 {
-        self.told(outcome.map(|()| 0))
+        self.result_code(outcome.map(|()| 0))
     }
 
     pub(super) fn failed(&self, errno: Errno) -> i64 {

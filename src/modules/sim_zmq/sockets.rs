@@ -127,7 +127,7 @@ fn socket_monitor(cx: &Cx, socket: String, endpoint: String, events: Number) -> 
 #[api("simZMQ.send")]
 fn send(cx: &Cx, socket: String, data: Bytes, flags: Number) -> Result<i64> {
     let objects = objects(cx);
-    Ok(objects.told(objects.socket(cx, &socket)?.send(&data.0, int(flags))))
+    Ok(objects.result_code(objects.socket(cx, &socket)?.send(&data.0, int(flags))))
 }
 
 /// Receives a part of a message without waiting.

@@ -16,7 +16,7 @@ pub(crate) const HOOK_INTERVAL: c_int = 1000;
 const SOON: c_int = 100;
 
 /// Decides after every `HOOK_INTERVAL` instructions of code that has the hook. The argument is whether it may yield.
-pub(crate) type OnCount = fn(Stack<'_>, bool) -> Verdict;
+pub(crate) type OnCount = fn(Stack<'_>, bool) -> HookAction;
 
 /// The decision function of the process: there is one host implementation, so a static suffices.
 static ON_COUNT: std::sync::OnceLock<OnCount> = std::sync::OnceLock::new();
@@ -85,14 +85,14 @@ fn set_hook(stack: Stack<'_>, interval: c_int) {
     }
 }
 
-/// What the hook does next.
+/// The action of the count hook.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) enum Verdict {
-    GoOn,
+pub(crate) enum HookAction {
+    Continue,
     Yield,
-    /// Raise this text.
+    /// Raises this text as an error.
     Fail(&'static str),
-    /// Raise where the code was interrupted.
+    /// Raises the error of an interruption.
     Interrupt,
 }
 
@@ -100,30 +100,30 @@ pub(crate) enum Verdict {
 pub(super) unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
     // SAFETY: Lua calls the hook of a running coroutine. Yields and errors leave it by `longjmp`; nothing is owned here.
     unsafe {
-        match ask(Stack::from_raw(raw)) {
-            Step::GoOn => {}
+        match next_step(Stack::from_raw(raw)) {
+            Step::Continue => {}
             Step::Yield => drop(ffi::lua_yield(raw, 0)),
             Step::Raise => ffi::lua_error(raw),
         }
     }
 }
 
-/// What is left to do when everything Rust owns is gone.
+/// The last act of the hook, when it owns nothing any more.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Step {
-    GoOn,
+    Continue,
     Yield,
     /// The text is on the stack.
     Raise,
 }
 
-pub(super) fn ask(stack: Stack<'_>) -> Step {
-    let Some(on_count) = ON_COUNT.get() else { return Step::GoOn };
+pub(super) fn next_step(stack: Stack<'_>) -> Step {
+    let Some(on_count) = ON_COUNT.get() else { return Step::Continue };
     let budget = stack.budget();
     let before = budget.enter(true);
     let step = step(stack, || {
         if is_requested(stack) {
-            return Verdict::Interrupt;
+            return HookAction::Interrupt;
         }
         on_count(stack, api::lua_isyieldable(stack) != 0)
     });
@@ -132,15 +132,15 @@ pub(super) fn ask(stack: Stack<'_>) -> Step {
 }
 
 /// A panic must not unwind through Lua: it becomes an error of the script.
-fn step(stack: Stack<'_>, verdict: impl FnOnce() -> Verdict) -> Step {
-    match catch_unwind(AssertUnwindSafe(verdict)) {
-        Ok(Verdict::GoOn) => Step::GoOn,
-        Ok(Verdict::Yield) => Step::Yield,
-        Ok(Verdict::Fail(text)) => {
+fn step(stack: Stack<'_>, action: impl FnOnce() -> HookAction) -> Step {
+    match catch_unwind(AssertUnwindSafe(action)) {
+        Ok(HookAction::Continue) => Step::Continue,
+        Ok(HookAction::Yield) => Step::Yield,
+        Ok(HookAction::Fail(text)) => {
             stack.push_bytes(text.as_bytes());
             Step::Raise
         }
-        Ok(Verdict::Interrupt) => {
+        Ok(HookAction::Interrupt) => {
             let place = place_of_interruption().map(|place| format!(" at {place}"));
             stack.push_bytes(format!("interrupted{}.", place.unwrap_or_default()).as_bytes());
             Step::Raise
@@ -154,14 +154,14 @@ fn step(stack: Stack<'_>, verdict: impl FnOnce() -> Verdict) -> Step {
 
 #[cfg(test)]
 mod tests {
-    use super::{Step, Verdict, step};
+    use super::{HookAction, Step, step};
     use crate::script::lua::tests::with_state;
 
     #[test]
     fn a_panic_of_the_host_is_an_error_of_the_script() {
         with_state(|state| {
-            assert_eq!(step(state.stack(), || Verdict::Yield), Step::Yield);
-            assert_eq!(step(state.stack(), || Verdict::GoOn), Step::GoOn);
+            assert_eq!(step(state.stack(), || HookAction::Yield), Step::Yield);
+            assert_eq!(step(state.stack(), || HookAction::Continue), Step::Continue);
             assert_eq!(step(state.stack(), || panic!("out of order")), Step::Raise);
             let text = String::from_utf8(state.stack().text(-1).unwrap_or_default());
             assert!(text.as_ref().is_ok_and(|text| text.ends_with("out of order")), "{text:?}");

@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use mlua::ffi;
 
-use super::coroutine::{HOOK_INTERVAL, Step, ask, hook};
+use super::coroutine::{HOOK_INTERVAL, Step, hook, next_step};
 use super::guard::{Next, guarded, install};
 use super::{Stack, Type};
 
@@ -92,7 +92,7 @@ unsafe extern "C-unwind" fn beside_hook(raw: *mut ffi::lua_State, record: *mut f
 unsafe extern "C-unwind" fn beside_counting_hook(raw: *mut ffi::lua_State, record: *mut ffi::lua_Debug) {
     // SAFETY: as above. The error leaves it by `longjmp`.
     unsafe {
-        if (*record).event == ffi::LUA_HOOKCOUNT && ask(Stack::from_raw(raw)) == Step::Raise {
+        if (*record).event == ffi::LUA_HOOKCOUNT && next_step(Stack::from_raw(raw)) == Step::Raise {
             ffi::lua_error(raw);
         }
         call_library(raw, record);

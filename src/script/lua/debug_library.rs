@@ -59,11 +59,11 @@ fn set_metatable(stack: Stack<'_>) -> Next {
 }
 
 fn get_local(stack: Stack<'_>) -> Next {
-    nil_if(stack, Local::asked_for(stack).is_some_and(|local| local.is_native))
+    nil_if(stack, Local::from_arguments(stack).is_some_and(|local| local.is_native))
 }
 
 fn set_local(stack: Stack<'_>) -> Next {
-    nil_if(stack, Local::asked_for(stack).is_some_and(|local| local.is_native || local.is_temporary))
+    nil_if(stack, Local::from_arguments(stack).is_some_and(|local| local.is_native || local.is_temporary))
 }
 
 fn nil_if(stack: Stack<'_>, refused: bool) -> Next {
@@ -84,7 +84,7 @@ struct Local {
 
 impl Local {
     /// The one whose level and number are in the arguments; None where Lua's function finds none either.
-    fn asked_for(stack: Stack<'_>) -> Option<Self> {
+    fn from_arguments(stack: Stack<'_>) -> Option<Self> {
         let first = if stack.kind(1) == Type::Thread { 2 } else { 1 };
         let level = argument(stack, first)?;
         let number = argument(stack, first + 1)?;

@@ -36,7 +36,7 @@ mod tables;
 pub(crate) use bytecode::{Bytecode, Prototype};
 pub(crate) use callback::{Callback, push_callback};
 pub(crate) use calls::{LuaError, MULTIPLE};
-pub(crate) use coroutine::{HOOK_INTERVAL, Verdict, hasten_count_hook, install_coroutine_hooks, set_count_hook};
+pub(crate) use coroutine::{HOOK_INTERVAL, HookAction, hasten_count_hook, install_coroutine_hooks, set_count_hook};
 pub(crate) use debug_library::restrict_debug;
 pub(crate) use file::report_closed_pipes;
 pub(crate) use interrupt::{calls_begun, interrupt_running_code, place_of_interruption};

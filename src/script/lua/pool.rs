@@ -87,7 +87,7 @@ impl Pool {
     fn new_block(&mut self, size: usize) -> *mut c_void {
         match size {
             0 => null_mut(),
-            1..=LARGEST => self.take(size).as_ptr().cast(),
+            1..=LARGEST => self.acquire(size).as_ptr().cast(),
             // SAFETY: `base` can be called, and no block is resized.
             _ => unsafe { (self.base.function)(self.base.data, null_mut(), 0, size) },
         }
@@ -99,7 +99,7 @@ impl Pool {
         // SAFETY: the block goes back to the one that made it.
         unsafe {
             if pooled {
-                self.give(block, size);
+                self.release(block, size);
             } else {
                 (self.base.function)(self.base.data, block.as_ptr().cast(), size, 0);
             }
@@ -107,10 +107,10 @@ impl Pool {
     }
 
     /// A block of at least `size` bytes, 1 to [`LARGEST`].
-    fn take(&mut self, size: usize) -> NonNull<u8> {
+    fn acquire(&mut self, size: usize) -> NonNull<u8> {
         let class = class_of(size);
         if let Some(block) = self.free[class] {
-            // SAFETY: blocks in the lists were put there by `give` and are nobody else's.
+            // SAFETY: blocks in the lists were put there by `release` and are nobody else's.
             self.free[class] = unsafe { block.read().0 };
             return block.cast();
         }
@@ -125,11 +125,11 @@ impl Pool {
         block
     }
 
-    /// Gives back a block.
+    /// Returns a block to its list.
     ///
     /// # Safety
-    /// It came from `take` of this pool with a size of the same class, and is not used any more.
-    unsafe fn give(&mut self, block: NonNull<u8>, size: usize) {
+    /// It came from `acquire` of this pool with a size of the same class, and is not used any more.
+    unsafe fn release(&mut self, block: NonNull<u8>, size: usize) {
         let class = class_of(size);
         let block = block.cast::<Free>();
         // SAFETY: every block has room for a link and is aligned for it.

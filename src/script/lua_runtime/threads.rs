@@ -7,18 +7,18 @@
 use std::ffi::CStr;
 
 use crate::script::lifecycle::env::Env;
-use crate::script::lua::{HOOK_INTERVAL, Stack, Type, Verdict, hasten_count_hook, set_count_hook};
+use crate::script::lua::{HOOK_INTERVAL, HookAction, Stack, Type, hasten_count_hook, set_count_hook};
 
 /// Weak table from coroutine to its own pre-emption level.
 const LEVELS: &CStr = c"swanilda.levels";
 
-/// Asked by the count hook every `HOOK_INTERVAL` instructions: may the code go on, and is the slice used up?
-pub(crate) fn on_count(stack: Stack<'_>, can_yield: bool) -> Verdict {
+/// Called by the count hook every `HOOK_INTERVAL` instructions: decides whether the code continues, and whether its time slice is used up.
+pub(crate) fn on_count(stack: Stack<'_>, can_yield: bool) -> HookAction {
     let env = stack.owner();
     if let Some(error) = env.interruption(|| stack.traceback_from(0)) {
-        return Verdict::Fail(error);
+        return HookAction::Fail(error);
     }
-    if can_yield && slice_is_used_up(stack, env) { Verdict::Yield } else { Verdict::GoOn }
+    if can_yield && slice_is_used_up(stack, env) { HookAction::Yield } else { HookAction::Continue }
 }
 
 fn slice_is_used_up(stack: Stack<'_>, env: &Env) -> bool {

@@ -21,17 +21,17 @@ pub struct Comparison {
     pub actual: Trace,
     /// What the file holds.
     pub expected: Option<Trace>,
-    pub verdict: Verdict,
+    pub result: ComparisonResult,
 }
 
-/// What came out.
+/// The result of a comparison.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Verdict {
-    Alike,
+pub enum ComparisonResult {
+    Equal,
     Different(Difference),
     /// There is no file.
     Missing,
-    /// The file or the trace is of no use, for this reason.
+    /// The file or the trace cannot be used, for this reason.
     Unusable(String),
 }
 
@@ -39,30 +39,32 @@ impl Comparison {
     /// Compares a trace with its file.
     pub(super) fn new(test: &TestCase, golden: Golden) -> Self {
         let path = path_of(&test.file, &golden.name);
-        let (expected, verdict) = match read(&path, &golden) {
+        let (expected, result) = match read(&path, &golden) {
             Ok(Some(expected)) => {
-                let verdict = compare::compare(&expected, &golden.trace, &golden.tolerances);
-                (Some(expected), verdict.map_or(Verdict::Alike, Verdict::Different))
+                let result = compare::compare(&expected, &golden.trace, &golden.tolerances);
+                (Some(expected), result.map_or(ComparisonResult::Equal, ComparisonResult::Different))
             }
-            Ok(None) => (None, Verdict::Missing),
-            Err(reason) => (None, Verdict::Unusable(reason)),
+            Ok(None) => (None, ComparisonResult::Missing),
+            Err(reason) => (None, ComparisonResult::Unusable(reason)),
         };
-        Self { name: golden.name, path, actual: golden.trace, expected, verdict }
+        Self { name: golden.name, path, actual: golden.trace, expected, result }
     }
 
-    /// Whether it counts against the test.
+    /// Whether it makes the test fail.
     pub fn is_bad(&self) -> bool {
-        self.verdict != Verdict::Alike
+        self.result != ComparisonResult::Equal
     }
 
-    /// What is wrong; nothing when all is well.
+    /// The message of a failure; None without one.
     pub fn message(&self) -> Option<String> {
         let about = format!("golden '{}' ({})", self.name, self.path.display());
-        match &self.verdict {
-            Verdict::Alike => None,
-            Verdict::Missing => Some(format!("{about}: there is no such file. Record it with --update-golden.")),
-            Verdict::Unusable(reason) => Some(format!("{about}: {reason}")),
-            Verdict::Different(difference) => {
+        match &self.result {
+            ComparisonResult::Equal => None,
+            ComparisonResult::Missing => {
+                Some(format!("{about}: there is no such file. Record it with --update-golden."))
+            }
+            ComparisonResult::Unusable(reason) => Some(format!("{about}: {reason}")),
+            ComparisonResult::Different(difference) => {
                 Some(format!("{about}: {difference}\nIf that is right, record it with --update-golden."))
             }
         }
@@ -80,11 +82,11 @@ impl Comparison {
 
     /// Records the trace, unless the file is right as it is.
     pub(super) fn record(&mut self) -> std::io::Result<()> {
-        if matches!(self.verdict, Verdict::Alike) || !is_name(&self.name) {
+        if matches!(self.result, ComparisonResult::Equal) || !is_name(&self.name) {
             return Ok(());
         }
         file::write(&self.path, &self.actual)?;
-        self.verdict = Verdict::Alike;
+        self.result = ComparisonResult::Equal;
         Ok(())
     }
 }
@@ -115,7 +117,7 @@ fn read(path: &Path, golden: &Golden) -> Result<Option<Trace>, String> {
 pub(super) fn judge(outcome: &mut Outcome, update: bool) {
     let goldens = std::mem::take(&mut outcome.goldens);
     outcome.comparisons = goldens.into_iter().map(|golden| Comparison::new(&outcome.test, golden)).collect();
-    let usable = |comparison: &&Comparison| matches!(comparison.verdict, Verdict::Unusable(_)) || !update;
+    let usable = |comparison: &&Comparison| matches!(comparison.result, ComparisonResult::Unusable(_)) || !update;
     let messages: Vec<_> = outcome.comparisons.iter().filter(usable).filter_map(Comparison::message).collect();
     if !messages.is_empty() && !outcome.is_bad() {
         outcome.fail(&messages.join("\n"));

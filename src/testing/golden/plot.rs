@@ -8,7 +8,7 @@ use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
 
 use super::compare::Difference;
-use super::{Comparison, Verdict};
+use super::{Comparison, ComparisonResult};
 use crate::format::picture::{Layout, Picture};
 use crate::script::test_bench::Trace;
 
@@ -46,8 +46,8 @@ pub(super) fn png(comparison: &Comparison) -> Option<Vec<u8>> {
 /// The quantities that differ, as columns of both traces; all when they differ in length only.
 fn shown(comparison: &Comparison) -> Option<(&Trace, Vec<(usize, usize)>)> {
     let expected = comparison.expected.as_ref()?;
-    let differs = |name: &String| match &comparison.verdict {
-        Verdict::Different(Difference::Values { columns, .. }) => columns.contains(name),
+    let differs = |name: &String| match &comparison.result {
+        ComparisonResult::Different(Difference::Values { columns, .. }) => columns.contains(name),
         _ => true,
     };
     let place = |name: &String| comparison.actual.columns.iter().position(|other| other == name);

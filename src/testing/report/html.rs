@@ -123,7 +123,7 @@ fn facts(outcome: &Outcome) -> String {
     format!("<p class=\"facts\">{}</p>\n", Quoted(&facts.join(", ")))
 }
 
-/// The plot of a golden trace. Its verdict is part of the test's message.
+/// The plot of a golden trace. Its result is part of the test's message.
 fn plot(comparison: &Comparison) -> String {
     let Some(svg) = comparison.svg() else { return String::new() };
     let about = format!("golden '{}'{}", comparison.name, if comparison.is_bad() { " differs" } else { "" });
