@@ -27,7 +27,7 @@ pub(crate) struct EventLoop {
     waiting: Arc<Waiting>,
 }
 
-/// What has arrived and is not fetched yet, over all inboxes.
+/// Data in all inboxes that has not been fetched yet.
 #[derive(Default)]
 struct Waiting {
     count: AtomicUsize,
@@ -67,12 +67,12 @@ impl EventLoop {
         let _ = self.block_on(async { tokio::time::timeout(patience, something).await });
     }
 
-    /// How much has arrived and is not fetched yet.
+    /// The amount of data that has not been fetched yet.
     pub(super) fn arrivals(&self) -> usize {
         self.waiting.count.load(Ordering::Relaxed)
     }
 
-    /// What has arrived in an inbox; waits for it at most that long.
+    /// The next item of an inbox; waits for it up to a time limit.
     pub(super) fn fetch<T>(&self, inbox: &mut Inbox<T>, patience: Duration) -> Option<T> {
         let there = inbox.fetch();
         if there.is_some() {
@@ -155,7 +155,7 @@ pub(super) struct Inbox<T> {
 }
 
 impl<T> Inbox<T> {
-    /// What has arrived, if anything has.
+    /// The next item, if there is one.
     pub(super) fn fetch(&mut self) -> Option<T> {
         let arrival = self.receiver.try_recv().ok()?;
         self.waiting.count.fetch_sub(1, Ordering::Relaxed);

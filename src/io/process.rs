@@ -20,7 +20,7 @@ pub(crate) enum ProcessError {
     TooMuchOutput,
 }
 
-/// What to run, and how.
+/// A program to run, with its options.
 #[derive(Debug, Default)]
 pub(crate) struct Program {
     pub path: String,
@@ -131,7 +131,7 @@ impl Run {
         self.out.is_complete() && self.err.is_complete()
     }
 
-    /// What came out and what came as errors.
+    /// Standard output and error output.
     pub(crate) fn outputs(&self) -> Result<(Vec<u8>, Vec<u8>), ProcessError> {
         if self.out.is_too_much() || self.err.is_too_much() {
             return Err(ProcessError::TooMuchOutput);

@@ -14,7 +14,7 @@ const BAUD_RATES: &[u32] =
 
 /// A device that is ready accepts that many bytes without blocking the writer.
 const CHUNK: usize = 256;
-/// How long one wait for the device lasts.
+/// The duration of one wait for the device.
 const SLICE: Duration = Duration::from_millis(50);
 const SLICES_PER_SECOND: u32 = 20;
 /// Start bit, data bits, stop bit.

@@ -23,7 +23,7 @@ mod flag {
     pub const COMMAND: u8 = 4;
 }
 
-/// What the peer did wrong; the connection ends.
+/// A protocol violation of the peer; the connection ends.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum Violation {
     #[error("not ZMTP 3 with the mechanism NULL")]
@@ -52,7 +52,7 @@ pub(super) struct Request {
     pub content: Vec<u8>,
 }
 
-/// How far a connection is.
+/// The state of a connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Stage {
     Greeting,
@@ -74,7 +74,7 @@ struct Frame {
     body: std::ops::Range<usize>,
 }
 
-/// What this side sends first.
+/// The greeting of this side.
 pub(super) fn hello() -> Vec<u8> {
     let mut out = vec![0; GREETING_SIZE];
     (out[0], out[9]) = (0xff, 0x7f);

@@ -1,4 +1,4 @@
-//! What the host knows of the languages scripts are written in.
+//! The interface between the host and script languages.
 //!
 //! A [`Language`] makes an [`Interpreter`] for each script; the rest of the host only uses that trait. Values that pass it are plain
 //! [`Data`], functions of scripts are numbers. `script::lua_runtime` is the implementation for Lua.
@@ -125,9 +125,9 @@ impl<I: Interpreter + ?Sized> Drop for Runtime<I> {
 /// A script's own text.
 pub(crate) struct SourceText<'a> {
     pub text: &'a [u8],
-    /// What error positions call it; a file after `@`.
+    /// Its name in error positions; a file after `@`.
     pub chunk_name: &'a str,
-    /// What coverage reports call it, if its lines are to be counted.
+    /// Its name in coverage reports, if its lines are counted.
     pub counted_as: Option<String>,
 }
 
@@ -140,7 +140,7 @@ pub(crate) enum Callee<'a> {
     Function(FunctionRef),
 }
 
-/// What a callback did.
+/// The outcome of a callback.
 #[derive(Debug, PartialEq)]
 pub(crate) enum CallbackResult {
     NotDefined,

@@ -27,7 +27,7 @@ use crate::dynamics::Dynamics;
 use crate::permissions::Permissions;
 use crate::scene::{Handle, Scene};
 
-/// How a simulator is set up.
+/// The options of a simulator.
 #[derive(Debug, Clone)]
 pub struct Options {
     /// Seed of every script's random numbers.
@@ -42,7 +42,7 @@ pub struct Options {
     pub package_dirs: Vec<std::path::PathBuf>,
     /// Lua instructions a thread may run per millisecond of its time slice.
     pub instructions_per_ms: u64,
-    /// What scripts may do to the world outside: files, programs, the network.
+    /// What scripts may do outside of the simulator: files, programs, the network.
     pub permissions: Permissions,
     /// Set it to end calls that wait for the world outside: they raise an error.
     pub stop: Arc<AtomicBool>,
@@ -50,7 +50,7 @@ pub struct Options {
     pub limits: Option<Limits>,
     /// Whether to count the lines of scripts that run. Scripts are slower meanwhile.
     pub count_lines: bool,
-    /// Where servers of scripts listen.
+    /// The address on which servers of scripts listen.
     pub listen_address: IpAddr,
     /// Origins of web pages that may use the remote API, besides those of this machine; `*` for all.
     pub web_origins: Vec<String>,
@@ -100,9 +100,9 @@ pub(crate) struct Sim {
     pub signal_owners: RefCell<SignalOwners>,
     pub event_loop: SharedEventLoop,
     pub events: EventStream,
-    /// Where a test's runner waits.
+    /// The connection to the test runner.
     pub test_bench: OnceCell<Rc<TestBench>>,
-    /// What states have counted that are gone.
+    /// Line counts of states that are closed.
     pub line_counts: RefCell<LineCounts>,
 }
 

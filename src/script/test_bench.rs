@@ -51,7 +51,7 @@ pub struct Trace {
     pub rows: Vec<Vec<f64>>,
 }
 
-/// How far a trace may be from the recorded one.
+/// Tolerances of the comparison with a recorded trace.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tolerances {
     pub absolute: f64,
@@ -59,7 +59,7 @@ pub struct Tolerances {
     pub relative: f64,
     /// Absolute tolerances of single columns.
     pub columns: BTreeMap<String, f64>,
-    /// How much earlier or later all of it may happen, seconds.
+    /// Maximum shift of the whole trace in time, seconds.
     pub time: f64,
 }
 
@@ -90,14 +90,14 @@ pub struct RunRequest {
     pub start: bool,
     /// Loop iterations without a start, and of a paused simulation.
     pub loops: u64,
-    /// What ends the simulation: steps, and simulated time in seconds.
+    /// Limits of the simulation: steps, and simulated time in seconds.
     pub steps: Option<u64>,
     pub time: Option<f64>,
     /// Simulated seconds after which it has failed.
     pub time_limit: f64,
 }
 
-/// What came of such a run.
+/// The result of such a run.
 #[derive(Debug, Clone, Default)]
 pub struct RunReport {
     pub lines: Vec<ConsoleLine>,
@@ -149,7 +149,7 @@ impl TestBench {
         Box::new(Recorder(Rc::clone(self)))
     }
 
-    /// What has been written from line number `first` on.
+    /// The output from line number `first` on.
     pub fn lines_from(&self, first: usize) -> Vec<ConsoleLine> {
         self.lines.borrow().get(first..).unwrap_or_default().to_vec()
     }

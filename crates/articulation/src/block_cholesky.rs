@@ -10,7 +10,7 @@ use nalgebra::{SMatrix, SVector};
 pub(crate) type Block = SMatrix<f64, 6, 6>;
 pub(crate) type Segment = SVector<f64, 6>;
 
-/// Where the blocks are: the lower triangle by columns.
+/// The positions of the blocks: the lower triangle by columns.
 #[derive(Default)]
 pub(crate) struct Pattern {
     /// For every column: rows below the diagonal, rising, with the place of their block.

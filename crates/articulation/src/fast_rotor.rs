@@ -22,7 +22,7 @@ pub(crate) struct Spin {
     transverse: Vector3<f64>,
 }
 
-/// What a fast body carries over to the next step.
+/// The state of a fast body between steps.
 pub(crate) struct FastRotor {
     /// By how much the angular velocity changed since the axis carried it along.
     pub velocity_change: Vector3<f64>,

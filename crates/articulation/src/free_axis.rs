@@ -1,4 +1,4 @@
-//! What acts along the free axis of a joint: a motor, a limit, or nothing.
+//! The action along the free axis of a joint: a motor, a limit, or none.
 
 use crate::joint::{JointKind, JointState};
 
@@ -7,7 +7,7 @@ const SAME_VELOCITY: f64 = 1e-9;
 /// The part of its violation by which a joint beyond a limit returns in a step.
 const LIMIT_RECOVERY: f64 = 0.2;
 
-/// What acts along the free axis of a joint.
+/// The action along the free axis of a joint.
 #[derive(Clone, Copy)]
 pub(crate) struct FreeAxis {
     pub row: usize,

@@ -18,7 +18,7 @@ const TARGET_RATIO: f64 = 2.0;
 /// Inertia is added during the solution where the forces turn out to make it more than this.
 const LARGEST_RATIO: f64 = 3.0;
 
-/// What tension does to a body.
+/// The geometric stiffness of a body under tension.
 #[derive(Default)]
 pub(crate) struct GeometricStiffness {
     /// The stiffness against rotation, times the square of the step.

@@ -20,7 +20,7 @@ pub enum JointKind {
     Fixed,
 }
 
-/// What does not change about a joint while it is simulated.
+/// The constant properties of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointProperties {
     pub kind: JointKind,
@@ -34,7 +34,7 @@ pub struct JointProperties {
     pub pitch: f64,
 }
 
-/// What a joint is to do in a step.
+/// The input of a joint for a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointState {
     /// Coordinate along the free axis, whole turns included (rad or m).
@@ -96,9 +96,9 @@ impl JointKind {
 pub(crate) struct Joint {
     pub properties: JointProperties,
     pub state: JointState,
-    /// How the velocities of the two bodies move the rows of the joint.
+    /// The Jacobian of the joint: from the velocities of its two bodies to its rows.
     pub jacobians: [Matrix6<f64>; 2],
-    /// Where the forces of the joint act, world.
+    /// The point at which the forces of the joint act, world.
     pub point: Vector3<f64>,
     locked: [bool; 6],
     pub axis: Option<FreeAxis>,
@@ -163,7 +163,7 @@ impl Joint {
         let [base, tip] = [(0, base), (1, tip)].map(|(side, frame)| bodies[self.body(side)].pose * frame);
         let apart = base.inverse() * tip;
         let angular = match kind {
-            // Where the axis of the tip points.
+            // The direction of the axis of the tip.
             JointKind::Revolute => {
                 let axis = apart.rotation * Vector3::z();
                 Vector3::new(-axis.y, axis.x, 0.0)

@@ -7,7 +7,7 @@ use crate::fast_rotor::FastRotor;
 use crate::geometric_stiffness::GeometricStiffness;
 use crate::spatial;
 
-/// What does not change about a body while it is simulated.
+/// The constant properties of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyProperties {
     /// 1/kg; 0 for bodies that no force moves.
@@ -17,7 +17,7 @@ pub struct BodyProperties {
     com: Vector3<f64>,
 }
 
-/// Where a body is and how it moves.
+/// Position, orientation and velocities of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyMotion {
     pub pose: Pose,
@@ -25,7 +25,7 @@ pub struct BodyMotion {
     pub velocity: Vector6<f64>,
 }
 
-/// What a body brings to a step.
+/// The input of a body for a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyState {
     pub motion: BodyMotion,
@@ -33,7 +33,7 @@ pub struct BodyState {
     pub force: Vector6<f64>,
     /// The angular velocity at the end of the step if only the gyroscopic torque acted, as the engine integrates it.
     pub gyroscopic_velocity: Vector3<f64>,
-    /// Where a body that no force moves will be at the end of the step; None where it rests.
+    /// The pose at the end of the step of a body without forces; None if it rests.
     pub target: Option<Pose>,
 }
 
@@ -70,7 +70,7 @@ pub(crate) struct LinkedBody {
     /// Impulses of external forces, contacts and the gyroscopic torque.
     pub external_impulse: Vector6<f64>,
     pub geometric_stiffness: GeometricStiffness,
-    /// How far the position correction moved it.
+    /// The displacement by the position correction.
     pub correction: Vector6<f64>,
     /// Angular impulse of the gyroscopic torque.
     gyroscopic_impulse: Vector3<f64>,
@@ -78,7 +78,7 @@ pub(crate) struct LinkedBody {
     pub rotor: Option<FastRotor>,
 }
 
-/// Where a body is while positions are corrected.
+/// The pose of a body during position correction.
 pub(crate) struct Placement {
     pose: Pose,
     com: Vector3<f64>,

@@ -116,7 +116,7 @@ impl Mechanism {
         self.bodies.iter().zip(impulses).map(load).collect()
     }
 
-    /// What the joints and their motors exert.
+    /// Forces and torques of the joints and their motors.
     pub fn joint_loads(&self) -> impl Iterator<Item = JointLoad> {
         self.joints.iter().map(|joint| joint.load(self.step))
     }

@@ -68,7 +68,7 @@ impl Mechanism {
             }
             is_current = true;
         }
-        // What cannot be closed at all, as a loop that is too short, stays open.
+        // Errors that cannot be closed, as in a loop that is too short, remain.
         if let Some((_, placements)) = begin.filter(|(before, _)| largest > before * (1.0 - PROGRESS)) {
             self.restore(placements);
         }

@@ -18,7 +18,7 @@ pub const MIN_MOMENT: f64 = 1e-8;
 /// Largest mass (kg), so that no product overflows.
 const MAX_MASS: f64 = 1e30;
 
-/// How a rigid body resists motion.
+/// The inertial properties of a rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MassProperties {
     /// In kg, at least [`MIN_MASS`].
@@ -97,7 +97,7 @@ impl MassProperties {
         (!parts.is_empty()).then(|| Self { mass, com: com.into(), inertia })
     }
 
-    /// The same body seen from another frame, in which the old shape frame has the pose `old_in_new`.
+    /// The same body in another frame, in which the old shape frame has the pose `old_in_new`.
     pub fn reexpressed(&self, old_in_new: &Pose) -> Self {
         let com = old_in_new.rotation * Vector3::from(self.com) + old_in_new.translation.vector;
         Self { mass: self.mass, com: com.into(), inertia: turned(&self.inertia, &old_in_new.rotation) }

@@ -16,7 +16,7 @@ const SIZES: (f64, f64) = (1e-5, 1e5);
 /// Thickness of planes and discs in the computation of mass (m).
 const SHEET: f64 = 0.001;
 
-/// What kind of primitive, with the number scripts use.
+/// The kind of a primitive, with its number in scripts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum PrimitiveKind {
     /// Rectangle with normal +z.

@@ -1,4 +1,4 @@
-//! What rsruckig plans, guarded against numbers it cannot take, and single steps of one joint.
+//! Planning by rsruckig, guarded against numbers that it cannot handle, and single steps of one joint.
 
 use rsruckig::prelude::{ControlInterface, InputParameter, Ruckig, RuckigErrorHandler, RuckigResult};
 

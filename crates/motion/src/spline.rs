@@ -2,7 +2,7 @@
 //!
 //! The ends are those of SciPy's `CubicSpline`, since trajectory code names them that way.
 
-/// What a spline does at its ends.
+/// The boundary conditions of a spline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Boundary {
     /// The first two pieces are one polynomial, and the last two.

@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use super::spline::{Boundary, CubicSpline};
 
-/// Minimum number of intervals of the grid.
+/// Number of intervals of the grid, unless the pieces of the path require more.
 const INTERVALS: usize = 2000;
 /// Intervals of the grid per piece of the path, at least.
 const INTERVALS_PER_PIECE: usize = 4;
@@ -129,7 +129,7 @@ struct Line {
     c: f64,
 }
 
-/// What holds between a place of the grid and the next one.
+/// The constraints between a grid point and the next one.
 struct Stage {
     lines: Vec<Line>,
     /// Bound of x.
@@ -210,7 +210,7 @@ impl Stage {
     fn step(&self, x: f64, next: f64) -> f64 {
         let (low, high) = self.bounds(x, next);
         let at = |line: Line| (line.c - line.b * x) / line.a;
-        // Where rounding leaves no room, the middle is as good as any.
+        // If rounding leaves an empty interval, the middle is used.
         let u = if at(low) <= at(high) { at(high) } else { 0.5 * (at(low) + at(high)) };
         (x + self.reach * u).clamp(0.0, next)
     }

@@ -23,7 +23,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// Option of `sim.persistentDataWrite`: the file too.
 const IN_FILE: i64 = 1;
 
-/// What raw custom data belongs to.
+/// The owner of raw custom data.
 enum Owner {
     /// An object or the scene.
     Scene(Target),

@@ -14,7 +14,7 @@ use crate::api::{ApiError, Cx, Result};
 /// File names are not longer, in bytes of the key.
 const LONGEST_KEY: usize = 100;
 
-/// Those this simulator holds, by key.
+/// The semaphores that this simulator holds, by key.
 #[derive(Default)]
 struct Held(RefCell<BTreeMap<Vec<u8>, File>>);
 

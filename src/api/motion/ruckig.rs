@@ -107,7 +107,7 @@ fn ruckig_remove(cx: &mut Cx, handle: Number) -> Result<()> {
     trajectories(cx).borrow_mut().remove(handle.0).map(drop).ok_or_else(unknown)
 }
 
-/// Those of the calling script.
+/// The trajectories of the calling script.
 fn trajectories(cx: &Cx) -> Rc<RefCell<ByHandle<Trajectory>>> {
     cx.script_state()
 }

@@ -24,7 +24,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_signal_name,
 ];
 
-/// Where each kind is kept, by the number `sim.getSignalName` has for it.
+/// The storage of each type of signal, by its number in `sim.getSignalName`.
 const KINDS: [&str; 4] = ["ILEGACY.", "FLEGACY.", "SLEGACY.", "DLEGACY."];
 const INT32: &str = KINDS[0];
 const FLOAT: &str = KINDS[1];

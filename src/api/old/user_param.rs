@@ -84,7 +84,7 @@ fn set_user_parameter(
     set(cx, object_handle, parameter_name, parameter_value)
 }
 
-/// Who may hold the parameters of a script: its object, and the object it is attached to. At least one.
+/// The objects that may hold the parameters of a script: its own, and the one it is attached to. At least one.
 fn hosts(cx: &Cx, script_handle: Number) -> Result<Vec<Handle>> {
     let script = script_of(cx, script_handle.0)?;
     let attached_to = match script.object {

@@ -46,7 +46,7 @@ impl Family {
     }
 }
 
-/// Where a socket is or what it is connected to.
+/// The address of a socket or of its peer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Place {
     Net(SocketAddr),

@@ -4,7 +4,7 @@ use memchr::{memchr, memchr_iter};
 
 use super::Failure;
 
-/// What arrives is taken from the system in blocks of that size.
+/// Size of the blocks that are read from the system.
 const BUFFER_SIZE: usize = 8192;
 /// The most one call receives: what a Lua string may hold. LuaSocket's limit is the memory.
 const LONGEST: usize = 1 << 29;

@@ -11,7 +11,7 @@ use super::tls::Tls;
 use super::wait::now;
 use super::{Failure, Family, Place, Socket, Timeout, Wait, open};
 
-/// What a stream object has become.
+/// The state of a stream object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Role {
     Master,

@@ -24,7 +24,7 @@ pub(crate) enum Verify {
     Nobody,
 }
 
-/// How a connection is made.
+/// The parameters of a connection.
 #[derive(Debug, Clone)]
 pub(crate) struct TlsSettings {
     pub is_server: bool,
@@ -72,7 +72,7 @@ impl Tls {
 
     /// Sends some bytes, at least one.
     pub(super) fn write(&mut self, socket: &Socket, data: &[u8], wait: &Wait<'_>) -> Result<usize, Failure> {
-        // What was encrypted before goes first; what is encrypted now counts as sent.
+        // Bytes that were encrypted before are sent first; bytes that are encrypted now count as sent.
         self.flush(socket, wait)?;
         let count = self.connection.writer().write(data)?;
         match self.flush(socket, wait) {

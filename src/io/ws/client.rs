@@ -10,7 +10,7 @@ use tokio_tungstenite::{WebSocketStream, client_async_with_config};
 
 use super::{Connection, HANDSHAKE, Reports, WsEvent, config, connection};
 
-/// Where to connect to, and what to say there.
+/// The address to connect to, and the request.
 pub(crate) struct Request {
     handshake: Handshake,
     host: String,
@@ -23,7 +23,7 @@ impl Request {
     /// A request for `ws://host:port/path`.
     ///
     /// # Errors
-    /// What is wrong with the address.
+    /// When the address or the user agent is invalid.
     pub(crate) fn new(uri: &str, user_agent: &str, connection: Connection) -> Result<Self, String> {
         let mut handshake = uri.into_client_request().map_err(|error| error.to_string())?;
         let agent = user_agent.parse().map_err(|_| format!("invalid user agent: {user_agent}"))?;

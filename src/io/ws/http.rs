@@ -162,7 +162,7 @@ const CONTENT_TYPES: &[(&str, &str)] = &[
     (".wasm", "application/wasm"),
 ];
 
-/// What a resource is, by its name.
+/// The content type of a resource, by its name.
 fn content_type(target: &str) -> &'static str {
     let path = target.split('?').next().unwrap_or_default();
     if path.is_empty() || path.ends_with('/') {

@@ -35,7 +35,7 @@ const MOST_EVENTS: usize = 4096;
 const MOST_BYTES: usize = 2 * LARGEST_MESSAGE;
 /// Time limit of the opening and closing handshakes.
 const HANDSHAKE: Duration = Duration::from_secs(5);
-/// What is read from a socket at once.
+/// Size of a read from a socket.
 const READ_BUFFER: usize = 1 << 14;
 
 /// A connection, as long as it lasts. Endpoints and connections of a simulator share one count.
@@ -56,14 +56,14 @@ impl Numbers {
     }
 }
 
-/// What happened at an endpoint.
+/// An event of an endpoint.
 pub(crate) enum WsEvent {
     Open(Connection),
     /// There will be no connection, and why.
     Fail(Connection, String),
     /// The same for a client that has not reached a server.
     Unreachable(Connection, std::io::Error),
-    /// The same for a page of this origin, which is not welcome.
+    /// A page of this origin was refused.
     Refused(Connection, String),
     Close(Connection),
     Message(Connection, Vec<u8>),
@@ -81,11 +81,11 @@ struct Arrival {
     event: WsEvent,
     /// Comes with `WsEvent::Open`.
     outgoing: Option<Outgoing>,
-    /// What the event takes of the inbox.
+    /// The share of the event in the inbox.
     _room: Option<OwnedSemaphorePermit>,
 }
 
-/// What the tasks of an endpoint share.
+/// Data that the tasks of an endpoint share.
 #[derive(Clone)]
 struct Reports {
     deliver: Deliver<Arrival>,
@@ -118,7 +118,7 @@ pub(crate) struct WsEndpoint {
     event_loop: Rc<EventLoop>,
     inbox: RefCell<Inbox<Arrival>>,
     open: RefCell<BTreeMap<Connection, Outgoing>>,
-    /// Where a server listens.
+    /// The port of a server.
     port: Option<u16>,
     task: Option<Task>,
 }

@@ -23,7 +23,7 @@ use super::{Connection, HANDSHAKE, READ_BUFFER, Reports, WsEvent, config, connec
 const MOST_CONNECTIONS: usize = 1000;
 /// Pause when the system has no more sockets.
 const REST: Duration = Duration::from_millis(100);
-/// How long a client may take to read an HTTP answer.
+/// Time limit for a client to read an HTTP response.
 const READING: Duration = Duration::from_secs(60);
 
 /// Serves everyone who connects.

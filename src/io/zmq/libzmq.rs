@@ -86,7 +86,7 @@ impl Errno {
     }
 }
 
-/// What a call returned, which is -1 when it failed.
+/// The result of a call; -1 if it failed.
 fn check(returned: c_int) -> ZmqResult<c_int> {
     if returned == -1 { Err(Errno::last()) } else { Ok(returned) }
 }

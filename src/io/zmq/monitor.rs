@@ -76,7 +76,7 @@ impl Monitor {
 }
 
 /// # Errors
-/// Those of libzmq for what is no address of a monitor.
+/// The errors of libzmq for an invalid address of a monitor.
 pub(super) fn check_endpoint(endpoint: &str) -> ZmqResult<()> {
     match endpoint.split_once("://") {
         None | Some(("", _) | (_, "")) => Err(Errno::INVALID),

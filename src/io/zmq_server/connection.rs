@@ -21,7 +21,7 @@ pub(super) struct Connection {
     state: Mutex<State>,
 }
 
-/// What a connection is waiting for.
+/// The state of a connection.
 pub(super) struct State {
     /// Its request waits for the simulator. The next one has to wait as well, so that all connections have their turn.
     pub(super) is_queued: bool,
@@ -35,9 +35,9 @@ pub(super) struct State {
 
 #[derive(Default)]
 pub(super) struct Outgoing {
-    /// How the answer to the last request begins.
+    /// The envelope of the reply to the last request.
     pub(super) envelope: Vec<u8>,
-    /// What the system has not accepted yet.
+    /// Bytes that the system has not accepted yet.
     unsent: Vec<u8>,
     /// Nothing can be sent any more.
     is_abandoned: bool,

@@ -22,11 +22,11 @@ use super::event_loop::{Deliver, EventLoop, Inbox, Task};
 use connection::Connection;
 use receiver::Receiver;
 
-/// What may wait for the simulator: of each connection a request and its end.
+/// Maximum number of entries that wait for the simulator: for each connection a request and its end.
 const MOST_ARRIVALS: usize = 2 * LIMITS.connections + 1;
-/// Those of a server.
+/// The limits of a server.
 const LIMITS: Limits = Limits { connections: 512, silence: Duration::from_secs(10) };
-/// How long a client may take to introduce itself.
+/// Time limit of the handshake.
 const HANDSHAKE: Duration = Duration::from_secs(10);
 /// Rest after a connection that could not be accepted.
 const REST: Duration = Duration::from_millis(50);
@@ -42,7 +42,7 @@ struct Limits {
     silence: Duration,
 }
 
-/// What came in.
+/// Something that has arrived.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Incoming {
     Request(Peer, Vec<u8>),
@@ -59,7 +59,7 @@ pub(crate) struct ZmqServer {
     _accepting: Task,
 }
 
-/// Those that have introduced themselves.
+/// Connections whose handshake is complete.
 #[derive(Default)]
 struct Connections(Mutex<HashMap<Peer, Arc<Connection>>>);
 
@@ -162,7 +162,7 @@ async fn accept_all(
 
 /// Serves one connection to its end.
 async fn serve(stream: TcpStream, peer: Peer, connections: Arc<Connections>, deliver: Deliver<Incoming>) {
-    // Where this cannot be set, answers are slower.
+    // If this cannot be set, replies are slower.
     let _ = stream.set_nodelay(true);
     let (reading, writing) = stream.into_split();
     let connection = Arc::new(Connection::new(writing));

@@ -13,7 +13,7 @@ use super::connection::Connection;
 
 /// Bytes read of a connection whose request waits for its turn: the end of the connection shows behind them.
 const MOST_AHEAD: usize = 1 << 20;
-/// How much is read at a time.
+/// Size of a read.
 const CHUNK: usize = 64 << 10;
 
 /// The receiving side of a connection.

@@ -7,7 +7,7 @@ use crate::script::error::{ApiError, ApiResult};
 use crate::script::lua::{Stack, Type};
 use crate::script::runtime::FunctionRef;
 
-/// Where a state keeps the metatable all its buffers share.
+/// Registry key of the metatable of all buffers of a state.
 pub(crate) const BUFFER_METATABLE: &CStr = c"swanilda.buffer";
 
 /// The field of a buffer table that holds its bytes.
@@ -20,7 +20,7 @@ pub(crate) const BUFFER_FIELD_NAME: &CStr = c"swanilda.buffer_field";
 /// Room is made for so many entries before they are seen.
 const MAX_HINT: usize = 1 << 10;
 
-/// How deep a table may be nested.
+/// Maximum nesting of tables.
 const MAX_DEPTH: usize = 100;
 
 /// Copies the value at `index`. Nothing is shared, metamethods are not called, a table within itself becomes an empty table.
@@ -54,7 +54,7 @@ fn read(stack: Stack<'_>, index: c_int, above: &mut Vec<*const c_void>) -> ApiRe
     })
 }
 
-/// What cannot leave its state arrives as a text that names it.
+/// A value that cannot leave its state becomes a text that names it.
 fn opaque(word: &str, stack: Stack<'_>, index: c_int) -> Vec<u8> {
     format!("<{word} {:p}>", stack.pointer(index)).into_bytes()
 }

@@ -24,7 +24,7 @@ impl Hooks {
     pub const NONE: Self = Self { start_of_iteration: None, end_of_simulation: None };
 }
 
-/// What a hook may touch of the simulator.
+/// The parts of the simulator that a hook may access.
 pub struct Host<'a> {
     sim: &'a Rc<Sim>,
 }

@@ -50,7 +50,7 @@ macro_rules! functions {
 }
 pub(crate) use functions;
 
-/// What a call with plain values gets from functions that read Lua's stack themselves.
+/// The error of a call with plain values for functions that read Lua's stack themselves.
 pub(crate) fn needs_lua<'a>(_: &mut Args<'a, Values<'a>>) -> ApiResult<Vec<Data>> {
     Err(ApiError::NeedsLua)
 }

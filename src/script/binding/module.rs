@@ -1,4 +1,4 @@
-//! What a module is: one description, from which come what scripts call, the reference, editor stubs, and what tools know.
+//! The description of a module, from which its registration, the reference, editor stubs and the knowledge of tools are derived.
 
 use super::ApiFn;
 use super::hooks::Hooks;

@@ -50,7 +50,7 @@ pub(crate) struct Bound {
     /// `module.name`, or a bare name for globals.
     pub name: Cow<'static, str>,
     pub function: &'static ApiFn,
-    /// What to use instead, where the name is deprecated; empty when there is nothing.
+    /// The replacement of a deprecated name; empty without one.
     pub replacement: Option<&'static str>,
 }
 
@@ -111,7 +111,7 @@ impl Namespace {
 /// The modules of one simulator.
 pub(crate) struct Modules {
     pub registry: Arc<Registry>,
-    /// What they keep for the simulator.
+    /// Their state for the simulator.
     pub states: States,
 }
 
@@ -150,7 +150,7 @@ impl Registry {
         registry
     }
 
-    /// What tests of the host need: a `sim` without members.
+    /// For tests of the host: a `sim` without members.
     #[cfg(test)]
     pub(crate) fn without_functions() -> Arc<Self> {
         static NOTHING: Module = Module::new("sim");

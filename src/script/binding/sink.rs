@@ -1,11 +1,11 @@
-//! Where the results of an API function go: a Lua stack, or a list of plain values.
+//! Destinations of the results of an API function: a Lua stack, or a list of plain values.
 
 use super::data::{push_buffer, push_data};
 use crate::scene::Data;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::lua::{LONGEST_LIST, Object, Stack};
 
-/// Where results go.
+/// A destination of results.
 #[doc(hidden)]
 pub trait Sink {
     fn nil(&mut self);

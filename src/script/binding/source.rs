@@ -1,4 +1,4 @@
-//! Where the arguments of an API function come from: a Lua stack, or plain values.
+//! Sources of the arguments of an API function: a Lua stack, or plain values.
 //!
 //! Everything is dispatched statically, so that a call from Lua pays nothing for plain values. What only Lua has (functions, objects,
 //! coroutines) is an error among plain values. Results go to a [`Sink`](super::sink::Sink).
@@ -13,7 +13,7 @@ use crate::script::lifecycle::env::Env;
 use crate::script::lua::{Object, Stack, Type};
 use crate::script::runtime::FunctionRef;
 
-/// Where arguments come from, by position from 1.
+/// A source of arguments, by position from 1.
 #[doc(hidden)]
 pub trait Source<'a>: Copy {
     fn count(self) -> c_int;

@@ -1,4 +1,4 @@
-//! What modules keep: for a simulator, or for one script.
+//! The state of modules: per simulator, and per script.
 
 use std::any::{Any, TypeId};
 use std::cell::RefCell;

@@ -31,7 +31,7 @@ impl Sim {
         }
     }
 
-    /// What changed in the scene since the last call; None when that is more than is known.
+    /// The changes of the scene since the last call; None if some were lost.
     fn new_changes(&self) -> Option<Vec<Change>> {
         let mut guard = self.events.cursor.borrow_mut();
         let Some(cursor) = guard.as_mut() else { return Some(Vec::new()) };

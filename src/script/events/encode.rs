@@ -49,7 +49,7 @@ fn float(out: &mut Vec<u8>, f: f64) {
 /// Writes a value of type `ty`; nil as null.
 pub(super) fn value(protocol: Protocol, ty: ValueType, data: &Data, out: &mut Vec<u8>) {
     match (data, ty) {
-        // What scripts keep as a table goes as the bytes it is stored as.
+        // Tables of scripts are sent as the bytes in which they are stored.
         (_, ValueType::Table) => bytes(out, &cbor::encode(data)),
         (Data::Array(items), _) if protocol == Protocol::V4 => tagged_array(ty, items, out),
         (Data::Array(items), _) => plain_array(items, out),

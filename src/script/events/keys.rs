@@ -34,7 +34,7 @@ const SILENT: &[&str] = &[
     "randomFloat",
     "randomQuaternion",
     "randomString",
-    // Told whenever objects come, go or are selected, see `Sim::push_list`.
+    // Sent whenever objects are added, removed or selected, see `Sim::push_list`.
     "objectHandles",
     "orphanHandles",
     "selectionHandles",

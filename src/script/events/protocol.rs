@@ -19,7 +19,7 @@ impl Protocol {
     }
 }
 
-/// What protocol 4 makes of a value.
+/// The form of a value in protocol 4.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Meaning {
     Same,

@@ -11,7 +11,7 @@ use crate::wire::cbor_head::push_int;
 /// A name that is nearly always known at compile time.
 pub(super) type Name = Cow<'static, str>;
 
-/// What kind of thing an event is about; filters name kinds.
+/// The kind of the subject of an event; filters name kinds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Class {
     /// Nothing in particular: a log line, the ends of a snapshot.
@@ -25,7 +25,7 @@ pub(crate) enum Class {
     AddOn,
 }
 
-/// What an event is about.
+/// The subject of an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Source {
     pub class: Class,
@@ -66,7 +66,7 @@ pub(crate) struct Event {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Content {
     Entries(Vec<Entry>),
-    /// What a script gave, already encoded as a map.
+    /// Data from a script, already encoded as a map.
     User(Vec<u8>),
 }
 

@@ -11,7 +11,7 @@ use crate::script::lifecycle::instance::Script;
 use crate::script::log::verbosity;
 use crate::script::sim::Sim;
 
-/// What a scene is made of.
+/// The source of a scene.
 pub(crate) enum SceneSource {
     /// The default scene.
     Default,

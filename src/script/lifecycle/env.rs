@@ -24,7 +24,7 @@ pub(crate) struct Env {
     pub script: Rc<Script>,
     /// The interpreter this belongs to; there from its creation on.
     pub(in crate::script) runtime: OnceCell<Weak<Runtime>>,
-    /// What the script can reach.
+    /// The functions and modules that the script can reach.
     pub registry: Arc<Registry>,
     /// Callbacks whose function existed after the chunk had run.
     pub defined: Cell<u64>,
@@ -39,7 +39,7 @@ pub(crate) struct Env {
     pub events_wanted: Rc<Cell<bool>>,
     /// The state of modules for the script; it is dropped with the interpreter.
     pub module_states: States,
-    /// What the script may do to the world outside.
+    /// What the script may do outside of the simulator.
     pub permissions: Permissions,
     /// The memory of the state.
     pub budget: Rc<Budget>,

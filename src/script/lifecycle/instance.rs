@@ -23,7 +23,7 @@ pub struct Script {
     pub script_type: ScriptType,
     /// The scene object that holds text and flags; None for main, sandbox and add-ons.
     pub object: Option<Handle>,
-    /// What a detached script holds itself.
+    /// The data of a detached script, which has no object.
     pub(crate) detached: Box<RefCell<Detached>>,
     state: Cell<i64>,
     pub(crate) runtime: RefCell<Option<Rc<Runtime>>>,
@@ -37,7 +37,7 @@ pub struct Script {
 pub(crate) struct Detached {
     pub name: String,
     pub code: Vec<u8>,
-    /// How Lua names the text in error positions.
+    /// The name of the text in error positions.
     pub chunk_name: String,
     /// The file of the text, used as its name.
     pub source: Option<String>,

@@ -270,7 +270,7 @@ impl Sim {
     }
 }
 
-/// What hooks and function of one callback did.
+/// The outcome of the hooks and the function of one callback.
 #[derive(Default)]
 struct Outcome {
     ran: bool,

@@ -14,7 +14,7 @@ use crate::script::calls::callback::SysCall;
 /// The first handle of scripts that are no scene objects.
 const FIRST_DETACHED: i64 = 1_010_000;
 
-/// How deep calls between scripts may nest: each level takes native stack, and an interpreter only bounds its own recursion.
+/// Maximum nesting of calls between scripts: each level uses native stack, and an interpreter only bounds its own recursion.
 pub(crate) const MAX_DEPTH: usize = 100;
 
 /// All scripts that have been looked up, and those that are no scene objects.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-/// What of a console matters without a window.
+/// The parts of a console that matter without a window.
 pub(crate) struct AuxiliaryConsole {
     pub title: String,
     /// It is open until the end of the simulation only.

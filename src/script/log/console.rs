@@ -53,7 +53,7 @@ fn without_tags(html: &str) -> String {
     text + rest
 }
 
-/// Where a script writes with Lua's `io`.
+/// A stream that scripts write with Lua's `io`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stream {
     Output,

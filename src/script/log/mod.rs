@@ -70,7 +70,7 @@ impl Log {
         self.console.borrow_mut().pipe_closed();
     }
 
-    /// What a script wrote to a stream of the process.
+    /// Output of a script to a stream of the process.
     pub(super) fn write(&self, text: &[u8], stream: Stream, time: f64) {
         self.console.borrow_mut().write(text, stream, time);
     }

@@ -30,7 +30,7 @@ pub(crate) fn restrict_debug(stack: Stack<'_>, lua: &Lua) -> mlua::Result<()> {
     lua.globals().get::<Table>("debug")?.raw_set("getregistry", get_registry)
 }
 
-/// What of the registry anybody may have: modules and their loaders.
+/// The public part of the registry: modules and their loaders.
 fn public_registry(lua: &Lua) -> mlua::Result<Table> {
     let package: Table = lua.globals().get("package")?;
     let registry = lua.create_table()?;

@@ -14,7 +14,7 @@ use super::{Stack, api};
 
 /// How a function ends.
 pub(super) enum Exit {
-    /// So many values on top are its results.
+    /// This number of values on top are its results.
     Results(c_int),
     /// The value on top is raised.
     Raise,

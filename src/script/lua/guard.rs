@@ -40,13 +40,13 @@ pub(super) mod guarded {
     pub const COUNT: usize = 26;
 }
 
-/// What follows a guard.
+/// The action after a guard.
 pub(super) enum Next {
     /// Lua's function continues.
     Original,
     /// The same, then the function sees its results.
     OriginalThen(fn(Stack<'_>)),
-    /// So many values on top are the results.
+    /// This number of values on top are the results.
     Return(c_int),
     /// Argument 1 is bad for this reason.
     Refuse(&'static CStr),

@@ -12,7 +12,7 @@ use super::stack::{Stack, Type};
 /// Metatables by class, and classes by metatable.
 const CLASSES: &CStr = c"swanilda.classes";
 
-/// What a userdata holds.
+/// The content of a userdata.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Object {

@@ -41,11 +41,11 @@ pub(super) struct Allocator {
 
 pub(super) struct Pool {
     pub(super) budget: Rc<Budget>,
-    /// Where large blocks come from, and the small ones of the time before the pool.
+    /// The allocator of large blocks, and of the small ones from before the pool.
     base: Allocator,
     free: [Option<NonNull<Free>>; CLASSES],
     chunks: Vec<(NonNull<u8>, Layout)>,
-    /// What is left of the newest chunk.
+    /// The unused rest of the newest chunk.
     rest: NonNull<u8>,
     rest_len: usize,
 }

@@ -11,7 +11,7 @@ use mlua::{Error, FromLua, Value};
 use super::callback::panic_text;
 use super::{Budget, Stack, Type};
 
-/// Where mlua finds a value.
+/// Name of the registry value by which values are exchanged with mlua.
 const EXCHANGE: &str = "swanilda.exchange";
 
 /// A callback that returns its argument, as a string if it is an error of a Rust function.

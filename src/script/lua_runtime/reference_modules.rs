@@ -10,7 +10,7 @@ pub(crate) struct ReferenceModule {
     /// `plugin`, `library` or `third-party library`.
     pub kind: &'static str,
     pub purpose: &'static str,
-    /// What to use where it is missing; empty when there is nothing.
+    /// Its replacement; empty without one.
     pub instead: &'static str,
 }
 

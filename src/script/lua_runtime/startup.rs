@@ -78,7 +78,7 @@ fn install_package(sim: &Sim, stack: Stack<'_>) {
     stack.pop(1);
 }
 
-/// What native libraries are called.
+/// The file extension of native libraries.
 const LIBRARY_EXTENSION: &str = if cfg!(windows) { "dll" } else { "so" };
 
 /// Files in the scene's folders go before those of Lua's own default. The table `package` is on top.

@@ -10,7 +10,7 @@ use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::instance::Script;
 use crate::script::sim::Sim;
 
-/// Whose property it is.
+/// The target of the property.
 pub(crate) struct Subject<'a> {
     pub sim: &'a Rc<Sim>,
     pub target: &'a Target,

@@ -141,7 +141,7 @@ impl Sim {
         }
     }
 
-    /// What is there already is no change, so that all that was read may be written back.
+    /// Writing the current value is no change, so everything that was read can be written back.
     fn write_through(self: &Rc<Self>, accessor: &Accessor, target: &Target, row: &Row, value: Data) -> ApiResult<()> {
         let write = accessor.write.ok_or(ApiError::PropertyNotWritable)?;
         let written = write(&Subject { sim: self, target }, value.clone());

@@ -42,7 +42,7 @@ pub(crate) struct Row {
     pub class: &'static str,
 }
 
-/// Where the value of a property comes from.
+/// The source of the value of a property.
 #[derive(Clone)]
 pub(crate) enum Source {
     Works(&'static Accessor),
@@ -85,7 +85,7 @@ impl Class {
     }
 }
 
-/// Where the rows are by their name.
+/// The index of the rows by name.
 type ByName = HashMap<&'static str, usize, BuildHasherDefault<NameHasher>>;
 
 /// FNV-1a: the names are short and known, so that nothing dearer is needed.

@@ -215,7 +215,7 @@ fn integers(data: &Data) -> Option<Vec<i64>> {
     items(data)?.iter().map(|item| if let Data::Int(i) = item { Some(*i) } else { None }).collect()
 }
 
-/// What CBOR keeps of a table that has a list and names: the list.
+/// The part of a table with a list and names that CBOR stores: the list.
 fn array_part(table: Data) -> Data {
     let Data::Map(entries) = &table else { return table };
     let at = |n: i64| entries.iter().find(|(key, _)| *key == Key::Int(n)).map(|(_, value)| value.clone());

@@ -62,7 +62,7 @@ impl Sim {
         }
     }
 
-    /// What `sysCall_selChange` gets.
+    /// The argument of `sysCall_selChange`.
     pub(crate) fn selection_data(&self) -> Data {
         let sel: Vec<i64> = self.scene.borrow().selection().iter().map(|h| h.raw()).collect();
         Data::map([("sel", sel.into())])

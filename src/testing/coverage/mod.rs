@@ -18,7 +18,7 @@ use crate::script::coverage::{CountedText, LineCounts};
 use crate::script::executable;
 use place::Places;
 
-/// What the lines of all texts did.
+/// The coverage of all texts.
 #[derive(Debug, Default)]
 pub struct Coverage {
     /// By the name of the file.
@@ -30,7 +30,7 @@ pub struct Coverage {
 }
 
 impl Coverage {
-    /// What to report in the file `report` of `counts`; the tests themselves, `tests`, are left out.
+    /// The coverage of `counts` for the file `report`, without the tests themselves (`tests`).
     pub(super) fn new(report: &Path, tests: &[PathBuf], counts: LineCounts) -> Self {
         Self { cost: cost::of_a_loop(), ..Self::of(report, tests, counts) }
     }

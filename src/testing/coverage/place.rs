@@ -5,9 +5,9 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::script::coverage::{CountedText, read_text};
 
-/// Where copies go of scripts that have no file, beside the report.
+/// The folder beside the report with copies of scripts that have no file.
 const COPIES: &str = "coverage";
-/// What a scene is called that has no file.
+/// The name of a scene without a file.
 const UNTITLED: &str = "untitled";
 
 /// A text as it is shown.

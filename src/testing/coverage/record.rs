@@ -7,7 +7,7 @@ use crate::script::coverage::Function;
 /// A number of a line.
 pub type Line = u32;
 
-/// How often the lines of a text ran.
+/// Counts of the lines of a text.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Record {
     /// All lines that can run.
@@ -36,7 +36,7 @@ impl Record {
         self.lines.values().filter(|&&count| count > 0).count()
     }
 
-    /// How often the first line of a function ran.
+    /// The count of the first line of a function.
     pub(super) fn calls(&self, function: &Function) -> u64 {
         function.lines.first().and_then(|line| self.lines.get(line)).copied().unwrap_or_default()
     }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::script::test_bench::{Tolerances, Trace};
 
-/// How two traces differ.
+/// The difference between two traces.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Difference {
     /// They are not of the same quantities.

@@ -19,7 +19,7 @@ pub struct Comparison {
     pub name: String,
     pub path: PathBuf,
     pub actual: Trace,
-    /// What the file holds.
+    /// The content of the file.
     pub expected: Option<Trace>,
     pub result: ComparisonResult,
 }

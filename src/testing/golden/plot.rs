@@ -76,7 +76,7 @@ where
     Ok(())
 }
 
-/// What can be drawn of a column: time and value.
+/// The points of a column that can be drawn: time and value.
 fn points(trace: &Trace, column: usize) -> Vec<(f64, f64)> {
     let points = trace.rows.iter().map(|row| (row[0], row[column + 1]));
     // Larger values leave no room between two lines of a grid.

@@ -23,7 +23,7 @@ pub(super) fn count(outcomes: &[Outcome], status: Status) -> usize {
     outcomes.iter().filter(|outcome| outcome.status == status).count()
 }
 
-/// What went wrong, with all that is known of it.
+/// The failure message, with all details.
 pub(super) fn details(outcome: &Outcome) -> String {
     let mut parts = vec![outcome.message.clone()];
     parts.extend(outcome.excerpts.iter().map(|excerpt| excerpt.text(">")));

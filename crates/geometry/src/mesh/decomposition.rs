@@ -14,20 +14,20 @@ const SIDES: [f64; 2] = [8.0, 256.0];
 /// Most voxels to step over.
 const COARSEST: u32 = 16;
 
-/// How finely a mesh is divided.
+/// Parameters of a convex decomposition.
 #[derive(Debug, Clone, Copy)]
 pub struct DecompositionParameters {
     /// In a cube around the mesh.
     pub voxels: f64,
-    /// How much of the volume a piece may differ from its hull.
+    /// Maximum difference between a piece and its hull, as a fraction of the volume.
     pub concavity: f64,
     /// Voxels between the planes that are tried as cuts.
     pub plane_downsampling: u32,
     /// Voxels that a hull steps over when it collects its points.
     pub hull_downsampling: u32,
-    /// How much cuts along planes of symmetry are preferred.
+    /// Weight of cuts along planes of symmetry.
     pub alpha: f64,
-    /// How much cuts along axes of revolution are preferred.
+    /// Weight of cuts along axes of revolution.
     pub beta: f64,
 }
 

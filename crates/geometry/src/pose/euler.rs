@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use super::{orthonormal_block, quaternion_from_array, rotation_matrix, to_matrix};
 
-/// The same angle within -pi to pi; both ends stay as they are.
+/// The same angle within -pi to pi; both ends are unchanged.
 pub fn wrap_angle(angle: f64) -> f64 {
     if angle.abs() <= PI { angle } else { angle - TAU * ((angle + PI) / TAU).floor() }
 }

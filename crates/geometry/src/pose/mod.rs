@@ -19,7 +19,7 @@ pub type Pose = Isometry3<f64>;
 /// The identity as a 3x4 row-major matrix.
 pub const IDENTITY_MATRIX: [f64; 12] = [1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0.];
 
-/// What can be wrong with the arguments of the pose functions.
+/// Errors of the pose functions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum PoseError {
     /// `build_pose` modes 4 to 9 need the approximate second axis.

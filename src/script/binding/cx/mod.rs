@@ -1,6 +1,6 @@
 //! The context of one API call, and all that a function may touch.
 //!
-//! What `&Cx` offers reads; what `&mut Cx` offers changes something or calls scripts, be it through a cell. Nothing here returns the
+//! Methods of `&Cx` read; methods of `&mut Cx` change something or call scripts, even if through a cell. Nothing here returns the
 //! simulator as a whole: an accessor is named after its part.
 
 mod events;
@@ -25,7 +25,7 @@ use crate::script::lua::Stack;
 use crate::script::lua_runtime::threads;
 use crate::script::sim::{Options, Sim};
 
-/// What an API function gets: `&Cx` to read, `&mut Cx` to write the scene or call scripts. A function cannot hold a borrow of the
+/// The context of an API function: `&Cx` to read, `&mut Cx` to write the scene or call scripts. A function cannot hold a borrow of the
 /// scene while it calls a script, because both need the context.
 pub struct Cx<'a> {
     sim: Rc<Sim>,
@@ -58,7 +58,7 @@ impl<'a> Cx<'a> {
         self.env
     }
 
-    /// How the simulator was set up.
+    /// The options of the simulator.
     pub(crate) fn options(&self) -> &Options {
         &self.sim.options
     }
@@ -85,12 +85,12 @@ impl<'a> Cx<'a> {
         self.sim.wait_for(limit, answer)
     }
 
-    /// What a module keeps for the simulator: made at the first call, dropped with the simulator.
+    /// The state of a module for the simulator: created by the first call, dropped with the simulator.
     pub(crate) fn module_state<T: Default + 'static>(&self) -> Rc<T> {
         self.sim.modules.states.get()
     }
 
-    /// What a module keeps for the calling script: made at the first call, dropped with the script's state.
+    /// The state of a module for the calling script: created by the first call, dropped with the script's interpreter.
     pub(crate) fn script_state<T: Default + 'static>(&self) -> Rc<T> {
         self.env().module_states.get()
     }

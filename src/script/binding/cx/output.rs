@@ -1,4 +1,4 @@
-//! What is printed and logged, and what tests see of it. Output changes nothing a script can read back, so `&Cx` suffices.
+//! Printed and logged output, and its capture by tests. Output changes nothing a script can read back, so `&Cx` suffices.
 
 use std::rc::Rc;
 
@@ -22,7 +22,7 @@ impl Cx<'_> {
         self.sim.log.errors()
     }
 
-    /// Where the runner of a test waits, if this is one.
+    /// The connection to the test runner, if this is a test.
     pub(crate) fn test_bench(&self) -> Option<&Rc<TestBench>> {
         self.sim.test_bench.get()
     }

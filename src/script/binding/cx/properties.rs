@@ -77,7 +77,7 @@ impl Cx<'_> {
         self.sim.edit_named_values(target, namespace, edit)
     }
 
-    /// What scripts keep with the application.
+    /// Data that scripts store in the application.
     pub(crate) fn app(&self) -> Ref<'_, AppData> {
         self.sim.app.borrow()
     }

@@ -38,7 +38,7 @@ impl Cx<'_> {
         self.sim.loop_iteration();
     }
 
-    /// What the physics knows; None while it steps.
+    /// The physics; None during a sub-step.
     pub(crate) fn dynamics(&self) -> Option<Ref<'_, Dynamics>> {
         Ref::filter_map(self.sim.dynamics.borrow(), Option::as_ref).ok()
     }

@@ -36,7 +36,7 @@ pub(in crate::script::files::app_storage) enum Failure {
     NoFolder,
 }
 
-/// Where the system keeps data of the user's programs.
+/// The system's folder for application data of the user.
 pub(in crate::script::files::app_storage) fn user_folder() -> Option<PathBuf> {
     Some(directories::ProjectDirs::from("", "", "swanilda")?.data_dir().to_owned())
 }
@@ -60,7 +60,7 @@ pub(in crate::script::files::app_storage) fn check_write(
     Ok(permissions.check_write(&folder.join(NAME))?)
 }
 
-/// What the file in `folder` holds; a missing file holds nothing.
+/// The content of the file in `folder`; empty for a missing file.
 ///
 /// # Errors
 /// When it cannot be read. A corrupt file has another name then.

@@ -17,7 +17,7 @@ use file::Failure;
 /// Bytes by tag.
 pub(crate) type Blocks = BTreeMap<String, Vec<u8>>;
 
-/// What the file holds.
+/// The content of the file.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Contents {
     /// Properties `customData.*` of the application.
@@ -35,7 +35,7 @@ pub(crate) enum Section {
     Persistent,
 }
 
-/// What has changed here and is not in the file yet.
+/// Changes that are not in the file yet.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Dirty {
     CustomData(String),
@@ -52,7 +52,7 @@ pub(crate) struct AppStorage {
     permissions: Permissions,
     /// Saving failed, and nothing was changed since: it would fail again.
     failed: bool,
-    /// What the user should know.
+    /// Warnings for the user.
     notices: Vec<(i64, String)>,
 }
 

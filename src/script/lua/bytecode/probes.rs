@@ -111,7 +111,7 @@ fn aimed(instruction: u32, place: usize, target: usize) -> Option<u32> {
 struct Probes {
     /// For each of its instructions, the lines to note before it.
     lines: Vec<Vec<u32>>,
-    /// How each line is noted.
+    /// The probe of each line.
     instructions: BTreeMap<u32, Vec<u32>>,
 }
 
@@ -126,7 +126,7 @@ impl Probes {
 
     fn insert(&self, function: &mut Prototype<'_>) -> Option<()> {
         let size = |line: &u32| self.instructions[line].len();
-        // Where the probes of each instruction begin, and where it comes itself.
+        // The new positions of each instruction's probes, and of the instruction itself.
         let (mut starts, mut places, mut end) = (Vec::new(), Vec::new(), 0);
         for lines in &self.lines {
             starts.push(end);

@@ -85,7 +85,7 @@ fn temporary_name(stack: Stack<'_>) -> Next {
     or_raise(stack, permissions(stack).check_write(&temporary()))
 }
 
-/// Where Lua makes temporary files.
+/// The folder of Lua's temporary files.
 fn temporary() -> PathBuf {
     if cfg!(unix) { "/tmp/lua_XXXXXX".into() } else { std::env::temp_dir().join("lua_XXXXXX") }
 }

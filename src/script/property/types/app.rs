@@ -17,7 +17,7 @@ use crate::script::log::auxiliary_consoles::AuxiliaryConsoles;
 use crate::script::log::verbosity;
 use crate::script::sim::{Options, Sim};
 
-/// What scripts keep with the application.
+/// Data that scripts store in the application.
 #[derive(Default)]
 pub(crate) struct AppData {
     /// What outlives the program, its custom data among it.
