@@ -10,6 +10,7 @@ mod run;
 use std::cell::{Ref, RefMut};
 use std::collections::BTreeSet;
 use std::net::{SocketAddr, TcpListener};
+use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -163,33 +164,56 @@ impl Simulator {
     /// # Errors
     /// When the scene is full, or the sandbox chunk fails.
     pub fn add_script(&mut self, kind: ScriptKind, name: &str, code: &[u8]) -> Result<ScriptRef, Error> {
+        self.add_script_of_file(kind, name, code, None)
+    }
+
+    /// The same for the text of a file: the log names it in errors.
+    ///
+    /// # Errors
+    /// As `add_script`.
+    pub fn add_script_of_file(
+        &mut self,
+        kind: ScriptKind,
+        name: &str,
+        code: &[u8],
+        file: Option<&Path>,
+    ) -> Result<ScriptRef, Error> {
+        let file = file.map(|file| file.display().to_string());
         match kind {
-            ScriptKind::Customization => self.add_object_script(ScriptType::Customization, code),
-            ScriptKind::Simulation => self.add_object_script(ScriptType::Simulation, code),
+            ScriptKind::Customization => self.add_object_script(ScriptType::Customization, code, file),
+            ScriptKind::Simulation => self.add_object_script(ScriptType::Simulation, code, file),
             ScriptKind::AddOn => {
                 let script =
                     self.sim.scripts.add_detached(ScriptType::AddOn, detached(&format!("{name}@addOnScript"), code));
+                script.file.replace(file);
                 self.sim.start_detached(&script);
                 Ok(ScriptRef(script))
             }
             ScriptKind::Sandbox => {
                 let sandbox = self.the(ScriptType::Sandbox);
-                self.sim.run_in(&sandbox.0, code, name).map_err(Error::Script)?;
+                self.sim.run_in(&sandbox.0, code, name, file.as_deref()).map_err(Error::Script)?;
                 Ok(sandbox)
             }
             ScriptKind::Main => {
                 let main = self.the(ScriptType::Main);
                 main.0.detached.borrow_mut().code = code.to_vec();
+                main.0.file.replace(file);
                 Ok(main)
             }
         }
     }
 
-    fn add_object_script(&mut self, script_type: ScriptType, code: &[u8]) -> Result<ScriptRef, Error> {
+    fn add_object_script(
+        &mut self,
+        script_type: ScriptType,
+        code: &[u8],
+        file: Option<String>,
+    ) -> Result<ScriptRef, Error> {
         let object = ScriptObject::new(script_type, code.to_vec(), "lua", false);
         let handle =
             self.sim.scene.borrow_mut().add("Script", Kind::Script(Box::new(object))).map_err(ApiError::from)?;
         let script = self.sim.script(handle.raw()).ok_or(ApiError::NoSuchScript)?;
+        script.file.replace(file);
         if script_type == ScriptType::Customization {
             self.sim.init_script(&script);
         }

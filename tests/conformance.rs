@@ -101,6 +101,7 @@ fn run_case(case: &Path) -> Option<String> {
         "--as",
         header("as").unwrap_or("sandbox"),
         "--empty",
+        "--original-errors",
         "--quiet",
     ]);
     match header("passes").unwrap_or("0") {

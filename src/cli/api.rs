@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use super::{refuse, say};
 use crate::docs::{self, Function};
+use crate::script::log::suggestion::edit_distance;
 
 /// Largest edit distance of a suggested name.
 const NEAR: usize = 3;
@@ -74,34 +75,5 @@ fn unknown(name: &str, functions: &[Function]) -> String {
     match names.as_slice() {
         [] => format!("there is no function {name}; `swanilda api` lists all"),
         names => format!("there is no function {name}; did you mean {}?", names.join(", ")),
-    }
-}
-
-/// Edit distance (Levenshtein).
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, letter) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, other) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(letter != *other);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::edit_distance;
-
-    #[test]
-    fn counts_edits() {
-        assert_eq!(edit_distance("getobject", "getobject"), 0);
-        assert_eq!(edit_distance("getobjet", "getobject"), 1);
-        assert_eq!(edit_distance("", "abc"), 3);
-        assert_eq!(edit_distance("kitten", "sitting"), 3);
     }
 }

@@ -18,6 +18,7 @@ use super::lifecycle::removal::Removals;
 use super::lifecycle::script_set::ScriptSet;
 use super::log::Log;
 use super::log::console::{Console, LogLine};
+use super::log::suggestion::nearest;
 use super::log::verbosity;
 use super::property::{AppData, SignalOwners};
 use super::runtime::Languages;
@@ -25,7 +26,7 @@ use super::step::clock::Clock;
 use super::test_bench::TestBench;
 use crate::dynamics::Dynamics;
 use crate::permissions::Permissions;
-use crate::scene::{Handle, Scene};
+use crate::scene::{Handle, Scene, SceneError};
 
 /// The options of a simulator.
 #[derive(Debug, Clone)]
@@ -146,20 +147,51 @@ impl Sim {
 
     pub(crate) fn log_from(&self, script: &Script, level: i64, text: &str) {
         let origin = script.log_name(&self.scene.borrow());
-        self.log_line(&origin, level, text, false);
+        self.log_line(&LogLine { origin: &origin, level, text, located: None, time: self.clock.time(), status: false });
+    }
+
+    /// Logs an error of a script, for people with its file and what else helps.
+    pub(crate) fn log_error(&self, script: &Script, text: &str) {
+        let origin = script.log_name(&self.scene.borrow());
+        let is_library = |name: &str| self.modules.registry.files.contains_key(name);
+        let located = self.log.files.borrow().locate(text, &self.hint(text), is_library);
+        let (level, time) = (verbosity::SCRIPT_ERRORS, self.clock.time());
+        self.log_line(&LogLine { origin: &origin, level, text, located: Some(&located), time, status: false });
+    }
+
+    /// What may have been meant, where an error is about an object that does not exist; else nothing.
+    fn hint(&self, error: &str) -> String {
+        let Some(path) = self.log.take_missing_path().filter(|_| error.contains(&SceneError::NoSuchPath.to_string()))
+        else {
+            return String::new();
+        };
+        let (scene, is_relative) = (self.scene.borrow(), !path.starts_with('/'));
+        let paths = scene.objects().filter_map(|object| scene.short_path(object.handle()).ok());
+        // Relative paths have the name at their end in common with that of the object.
+        let compared = |path: &str| match path.strip_prefix('/') {
+            Some(rest) if !is_relative => rest.to_owned(),
+            _ => path.rsplit('/').next().unwrap_or_default().to_owned(),
+        };
+        match nearest(&compared(&path), paths.map(|known| (compared(&known), known))) {
+            Some(near) => format!("no object '{path}'; did you mean '{near}'?"),
+            None => format!("no object '{path}'"),
+        }
     }
 
     /// Logs in the name of the simulator itself: the one it has in the logs that existing tools read.
     pub(crate) fn log(&self, level: i64, text: &str) {
-        self.log_line("CoppeliaSim", level, text, false);
+        let time = self.clock.time();
+        self.log_line(&LogLine { origin: "CoppeliaSim", level, text, located: None, time, status: false });
     }
 
     /// Logs what the simulation does, in the sandbox's name as the original does.
     pub(crate) fn log_status(&self, text: &str) {
-        self.log_line("sandboxScript", verbosity::SCRIPT_INFOS, text, true);
+        let (level, time) = (verbosity::SCRIPT_INFOS, self.clock.time());
+        self.log_line(&LogLine { origin: "sandboxScript", level, text, located: None, time, status: true });
     }
 
-    fn log_line(&self, origin: &str, level: i64, text: &str, status: bool) {
+    fn log_line(&self, line: &LogLine<'_>) {
+        let LogLine { origin, level, text, .. } = *line;
         if level & verbosity::ONCE != 0 && !self.log.is_first(origin, level, text) {
             return;
         }
@@ -167,6 +199,6 @@ impl Sim {
         if verbosity::plain(level) <= self.log.verbosity().max(verbosity::SCRIPT_INFOS) {
             self.events.push_log_event(origin, level, text);
         }
-        self.log.show(&LogLine { origin, level, text, time: self.clock.time(), status });
+        self.log.show(line);
     }
 }

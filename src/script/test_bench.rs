@@ -26,12 +26,14 @@ pub struct ConsoleLine {
     /// `info`, `error`, ...; `print` for a print and what was written to standard output, `stderr` for what was written there.
     pub level: &'static str,
     pub text: String,
+    /// An error as people read it, with files and hints.
+    pub located: Option<String>,
 }
 
 impl ConsoleLine {
     fn printed(level: &'static str, text: &[u8], time: f64) -> Self {
         let text = String::from_utf8_lossy(text).into_owned();
-        Self { time, origin: None, level, text }
+        Self { time, origin: None, level, text, located: None }
     }
 
     /// The line as it is shown.
@@ -182,7 +184,7 @@ impl TestBench {
         if lost > 0 {
             let plural = if lost == 1 { "" } else { "s" };
             let text = format!("{lost} more line{plural}: a test may write {CONSOLE_SIZE} bytes.");
-            lines.push(ConsoleLine { time, origin: None, level: "warning", text });
+            lines.push(ConsoleLine { time, origin: None, level: "warning", text, located: None });
         }
         lines
     }
@@ -235,6 +237,7 @@ impl Console for Recorder {
                 origin: Some(line.origin.to_owned()),
                 level: verbosity::name(line.level),
                 text: line.plain_text().into_owned(),
+                located: line.located.map(str::to_owned),
             });
         }
     }

@@ -64,7 +64,8 @@ fn fill(sim: &mut Simulator, input: &SceneInput, request: &RunRequest) -> Result
             }
             sim.scene_mut().modify_settings(|settings| settings.path = path);
             // A script that fails has said so in the log, and is counted.
-            let _ = sim.add_script(kind_of(request.kind), &name_of(&request.scene), code);
+            let kind = kind_of(request.kind);
+            let _ = sim.add_script_of_file(kind, &name_of(&request.scene), code, Some(&request.scene));
             if request.kind == ScriptType::AddOn && request.empty {
                 // What an add-on made before there was a scene does not belong to it.
                 sim.clear_scene();

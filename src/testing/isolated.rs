@@ -89,7 +89,9 @@ fn console_line(value: &Value) -> ConsoleLine {
     const LEVELS: [&str; 9] = ["print", "stderr", "error", "warning", "loadinfo", "info", "debug", "trace", "tracelua"];
     let level = LEVELS.into_iter().find(|level| value["level"] == *level).unwrap_or("unknown");
     let origin = value["origin"].as_str().map(str::to_owned);
-    ConsoleLine { time: value["time"].as_f64().unwrap_or_default(), origin, level, text: string(&value["text"]) }
+    let located = value["located"].as_str().map(str::to_owned);
+    let time = value["time"].as_f64().unwrap_or_default();
+    ConsoleLine { time, origin, level, text: string(&value["text"]), located }
 }
 
 fn list(value: &Value) -> impl Iterator<Item = &Value> {

@@ -87,14 +87,14 @@ fn an_error_names_script_and_line() {
     let output = Scene::new("\n\nerror('broken')").run(&["--steps", "1", "--empty"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).contains("[/Script:error]"), "{}", stderr(&output));
-    assert!(stderr(&output).contains("\"/Script\"]:3: broken"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("scene.lua:3: broken"), "{}", stderr(&output));
 }
 
 #[test]
 fn a_syntax_error_names_script_and_line() {
     let output = Scene::new("x = 1\ny = = 2").run(&["--steps", "1", "--empty"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stderr(&output).contains("\"/Script\"]:2:"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("scene.lua:2:"), "{}", stderr(&output));
 }
 
 #[test]

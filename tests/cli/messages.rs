@@ -110,3 +110,38 @@ fn a_scene_s_own_module_goes_before_a_missing_plugin() {
     fs::write(scene.folder.path().join("simIK.lua"), "return {mine = 7}").expect("our own folder is writable");
     assert_eq!(stdout(&scene.run(&["--steps", "1", "--empty", "--quiet"])), "7\n");
 }
+
+/// Standard error of a run of this code, and the path of its file.
+fn log_of(code: &str) -> (String, String) {
+    let scene = Scene::new(code);
+    let output = scene.run(&["--steps", "2"]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    (stderr(&output), scene.path().display().to_string())
+}
+
+#[test]
+fn errors_name_file_line_and_object() {
+    let (log, path) = log_of(
+        "sim = require 'sim'\nfor i = 1, 6 do sim.setObjectAlias(sim.createDummy(0.1), 'joint' .. i) end\n\
+         print(select(2, pcall(sim.getObject, '/joint9')))\nsim.getObject('/joint7')",
+    );
+    let error = format!("{path}:4: in sim._getObject: object does not exist, or alias/path is ill formatted.\n");
+    assert!(log.contains(&error), "{log}");
+    assert!(log.contains("\nno object '/joint7'; did you mean '/joint6'?\nstack traceback:\n"), "{log}");
+    assert!(!log.contains("sim/script"), "no line of the library: {log}");
+    let (log, path) = log_of("function sysCall_init()\n    self.x = 1\nend");
+    assert!(log.contains(&format!("[/Script:error]   {path}:2: attempt to index a nil value")), "{log}");
+    let (log, path) = log_of("x = 1\ny = = 2");
+    assert!(log.contains(&format!("{path}:2: unexpected symbol")), "{log}");
+    let (log, path) = log_of("sim = require 'sim'\nrequire 'simIK'");
+    assert!(log.contains(&format!("{path}:2: simIK is a plugin")) && !log.contains("\"base\""), "{log}");
+}
+
+#[test]
+fn scripts_catch_the_original_text() {
+    let code = "sim = require 'sim'\nprint(select(2, pcall(sim.getObject, '/a')))\nprint(select(2, pcall(error, 'x')))\n\
+                print(select(2, pcall(function() local y = z.w end)))";
+    let output = Scene::new(code).run(&["--steps", "1", "--empty", "--quiet"]);
+    assert!(stdout(&output).contains("in sim._getObject: object does not exist"), "{}", stdout(&output));
+    assert!(stdout(&output).contains("[string \"/Script\"]:4: attempt to index"), "{}", stdout(&output));
+}

@@ -26,7 +26,9 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 fn get_object(cx: &Cx, path: Bytes, #[default(None)] options: Option<Table>) -> Result<i64> {
     let options = Lookup::read(options.as_ref());
     let emitter = options.emitter(cx)?;
-    options.answer(cx.scene().find(&text(&path), emitter, options.index))
+    let path = text(&path);
+    let found = cx.scene().find(&path, emitter, options.index);
+    options.answer(cx, &path, found)
 }
 
 /// Object at a path or with an old-style name; the native part of `sim.getObjectHandle`.
@@ -46,9 +48,11 @@ fn get_object_handle(cx: &Cx, path: Data, #[default(None)] options: Option<Table
     };
     if path.starts_with(['/', '.', ':']) {
         let emitter = options.emitter(cx)?;
-        return options.answer(cx.scene().find(&path, emitter, options.index));
+        let found = cx.scene().find(&path, emitter, options.index);
+        return options.answer(cx, &path, found);
     }
-    options.answer(cx.scene().find_old_name(&path))
+    let found = cx.scene().find_old_name(&path);
+    options.answer(cx, &path, found)
 }
 
 /// The object a script is attached to, the script itself where it is an object at the top.
@@ -92,10 +96,14 @@ impl Lookup {
         Ok(if object.script()?.parent_is_proxy { object.parent() } else { Some(script) })
     }
 
-    fn answer(&self, found: std::result::Result<Handle, SceneError>) -> Result<i64> {
+    fn answer(&self, cx: &Cx, path: &str, found: std::result::Result<Handle, SceneError>) -> Result<i64> {
         match found {
             Err(SceneError::NoSuchPath) if self.no_error => Ok(-1),
-            found => Ok(found?.raw()),
+            Err(error) => {
+                cx.note_missing_path(path);
+                Err(error.into())
+            }
+            Ok(found) => Ok(found.raw()),
         }
     }
 }

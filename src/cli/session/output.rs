@@ -18,6 +18,8 @@ use crate::{Console, LogLine, RunTotals};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::cli) enum Format {
     Text,
+    /// Text with errors in CoppeliaSim's words.
+    OriginalText,
     /// One object per line, distinguished by its `type`.
     Json,
 }
@@ -55,7 +57,14 @@ impl Output {
 
     /// A message of the command line itself, under the simulator's name in the log.
     pub(in crate::cli) fn note(&self, text: &str, time: f64) {
-        self.write_log(&LogLine { origin: "CoppeliaSim", level: verbosity::SCRIPT_INFOS, text, time, status: true });
+        self.write_log(&LogLine {
+            origin: "CoppeliaSim",
+            level: verbosity::SCRIPT_INFOS,
+            text,
+            located: None,
+            time,
+            status: true,
+        });
     }
 
     /// Reports that a simulation nobody resumes is stopped.
@@ -92,7 +101,7 @@ impl Output {
     /// Reports the address of a server.
     pub(in crate::cli) fn listening(&self, api: &str, address: SocketAddr) {
         match self.format {
-            Format::Text => self.write_line(format!("{api} remote API at {address}").as_bytes()),
+            Format::Text | Format::OriginalText => self.write_line(format!("{api} remote API at {address}").as_bytes()),
             Format::Json => self.write_json(&json!({
                 "type": "listening", "api": api, "address": address.ip(), "port": address.port(),
             })),
@@ -108,7 +117,7 @@ impl Output {
         let wall = wall.as_secs_f64();
         let ratio = time / wall.max(1e-9);
         match self.format {
-            Format::Text => drop(writeln!(
+            Format::Text | Format::OriginalText => drop(writeln!(
                 std::io::stderr(),
                 "{steps} steps, {time:.3} s simulated in {wall:.3} s of wall time ({ratio:.1} times as fast){}",
                 match errors {
@@ -129,17 +138,18 @@ impl Output {
             return;
         }
         match self.format {
-            Format::Text => self.condensed(line).iter().for_each(|line| self.write_error(line)),
+            Format::Text | Format::OriginalText => self.condensed(line).iter().for_each(|line| self.write_error(line)),
             Format::Json => self.write_json(&json!({
                 "type": "log", "level": verbosity::name(line.level), "origin": line.origin, "text": line.plain_text(),
-                "time": line.time,
+                "time": line.time, "located": line.located,
             })),
         }
     }
 
     fn write_error(&self, line: &LogLine<'_>) {
+        let text = if self.format == Format::OriginalText { line.decorated() } else { line.located() };
         self.bar.suspend(|| {
-            let _ = writeln!(std::io::stderr().lock(), "{}", line.decorated());
+            let _ = writeln!(std::io::stderr().lock(), "{text}");
         });
     }
 
@@ -163,7 +173,7 @@ const STOPPED_AFTER_ERROR: &str = "Simulation stopped because of the error.";
 impl Console for Output {
     fn print(&mut self, line: &[u8], _: f64) {
         match self.format {
-            Format::Text => self.bar.suspend(|| self.write_line(line)),
+            Format::Text | Format::OriginalText => self.bar.suspend(|| self.write_line(line)),
             Format::Json => self.write_json(&json!({"type": "print", "text": String::from_utf8_lossy(line)})),
         }
     }

@@ -11,7 +11,7 @@ use crate::format::script_file;
 use crate::format::ttt::FileError;
 use crate::permissions::{Permissions, read_bounded};
 use crate::script::log::verbosity;
-use crate::{Options, ScriptKind, Simulator};
+use crate::{Error, Options, ScriptKind, ScriptRef, Simulator};
 
 /// Simulator options
 #[derive(clap::Args)]
@@ -49,13 +49,26 @@ pub(in crate::cli) struct Setup {
     /// Print JSON lines (output, log and summary) on standard output
     #[arg(long)]
     pub json: bool,
+    /// Log errors in CoppeliaSim's words only, without files and hints
+    #[arg(long)]
+    original_errors: bool,
     /// Suppress status messages and the summary
     #[arg(long, short)]
     pub quiet: bool,
 }
 
-/// A script file: its name without extension, and its text.
-type Source = (String, Vec<u8>);
+/// A script file: its name without extension, its text, and where it is.
+struct Source {
+    name: String,
+    code: Vec<u8>,
+    path: PathBuf,
+}
+
+impl Source {
+    fn add(&self, sim: &mut Simulator, kind: ScriptKind) -> Result<ScriptRef, Error> {
+        sim.add_script_of_file(kind, &self.name, &self.code, Some(&self.path))
+    }
+}
 
 /// Parts of the scene.
 enum Scene {
@@ -84,8 +97,8 @@ impl Setup {
         Ok(Sources { scene, add_ons })
     }
 
-    fn up_to_date(&self, (name, code): Source) -> Source {
-        if self.compat { (name, scene_file::with_compat(code)) } else { (name, code) }
+    fn up_to_date(&self, source: Source) -> Source {
+        if self.compat { Source { code: scene_file::with_compat(source.code), ..source } } else { source }
     }
 
     /// The named parameter of the command line.
@@ -94,7 +107,11 @@ impl Setup {
     }
 
     pub(in crate::cli) fn output(&self, progress: &Progress, interrupt: &Interrupt) -> Output {
-        let format = if self.json { Format::Json } else { Format::Text };
+        let format = match (self.json, self.original_errors) {
+            (true, _) => Format::Json,
+            (false, true) => Format::OriginalText,
+            (false, false) => Format::Text,
+        };
         Output::new(format, self.quiet, progress.bar(), interrupt.clone())
     }
 
@@ -114,16 +131,16 @@ impl Setup {
 
     /// Add-ons come with the application, so they start first; then the scene and its script.
     pub(in crate::cli) fn fill(&self, sim: &mut Simulator, sources: Sources, kind: ScriptKind, scene: Option<&Path>) {
-        for (name, code) in &sources.add_ons {
+        for source in &sources.add_ons {
             // A script that fails has said so in the log, and is counted.
-            let _ = sim.add_script(ScriptKind::AddOn, name, code);
+            let _ = source.add(sim, ScriptKind::AddOn);
         }
         match sources.scene {
             Some(Scene::File(file)) => self.open(sim, *file),
-            Some(Scene::Script((name, code))) => {
+            Some(Scene::Script(source)) => {
                 self.add_default_objects(sim);
                 self.apply_settings(sim, scene);
-                let _ = sim.add_script(kind, &name, &code);
+                let _ = source.add(sim, kind);
             }
             None => self.add_default_objects(sim),
         }
@@ -166,7 +183,7 @@ fn read(path: impl AsRef<Path>) -> Result<Source, String> {
     let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
     let code = read_bounded(path).map_err(|error| unreadable(error.to_string()))?;
     script_file::check(path, &code).map_err(|reason| unreadable(reason.to_string()))?;
-    Ok((name_of(path), code))
+    Ok(Source { name: name_of(path), code, path: path.to_owned() })
 }
 
 /// Name of a script that is read from a file.
@@ -177,7 +194,7 @@ fn name_of(path: &Path) -> String {
 fn read_scene(path: &Path) -> Result<Scene, String> {
     let unreadable = |error: FileError| format!("cannot read {}: {error}", path.display());
     match SceneInput::read(path, &Permissions::all())? {
-        SceneInput::Script(code) => Ok(Scene::Script((name_of(path), code))),
+        SceneInput::Script(code) => Ok(Scene::Script(Source { name: name_of(path), code, path: path.to_owned() })),
         SceneInput::File(file) => Ok(Scene::File(Box::new(file.scene().map_err(unreadable)?))),
     }
 }

@@ -70,7 +70,16 @@ impl Sim {
     ///
     /// # Errors
     /// The text of the error, which has been logged.
-    pub(crate) fn run_in(self: &Rc<Self>, script: &Rc<Script>, code: &[u8], chunk_name: &str) -> Result<(), String> {
+    pub(crate) fn run_in(
+        self: &Rc<Self>,
+        script: &Rc<Script>,
+        code: &[u8],
+        chunk_name: &str,
+        file: Option<&str>,
+    ) -> Result<(), String> {
+        if let Some(file) = file {
+            self.log.files.borrow_mut().insert(chunk_name, file);
+        }
         let Some(runtime) = script.current_runtime() else { return Err(ApiError::ScriptNotInitialized.to_string()) };
         let outcome = {
             let _level = Level::enter(&self.scripts, &runtime.env);

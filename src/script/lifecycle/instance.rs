@@ -28,6 +28,8 @@ pub struct Script {
     state: Cell<i64>,
     pub(crate) runtime: RefCell<Option<Rc<Runtime>>>,
     pub(crate) removed: Cell<bool>,
+    /// The file its text comes from, as the user named it: errors name it in the log.
+    pub(crate) file: RefCell<Option<String>>,
     /// The run counter of an old script, from before callbacks had one.
     pub(crate) execution_count: Cell<i64>,
 }
@@ -75,6 +77,7 @@ impl Script {
             state: Cell::new(state::UNLOADED),
             runtime: RefCell::new(None),
             removed: Cell::new(false),
+            file: RefCell::default(),
             execution_count: Cell::new(0),
         }
     }

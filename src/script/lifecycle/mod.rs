@@ -17,7 +17,6 @@ use std::rc::Rc;
 
 use super::calls::callback::SysCall;
 use super::error::ApiError;
-use super::log::verbosity;
 use super::runtime::{CallbackResult, Runtime, ScriptError, SourceText};
 use super::sim::Sim;
 use crate::scene::Data;
@@ -99,6 +98,9 @@ impl Sim {
         script.runtime.replace(Some(runtime.clone()));
         runtime.interpreter.start()?;
         let (text, chunk_name) = script.code(&self.scene.borrow());
+        if let Some(file) = &*script.file.borrow() {
+            self.log.files.borrow_mut().insert(&chunk_name, file);
+        }
         let level = Level::enter(&self.scripts, &runtime.env);
         if level.too_deep {
             return Err(ScriptError::new(ApiError::TooDeep(MAX_DEPTH).to_string()));
@@ -175,7 +177,7 @@ impl Sim {
 
     fn report_error(self: &Rc<Self>, script: &Rc<Script>, text: &str) {
         self.log.count_error();
-        self.log_from(script, verbosity::SCRIPT_ERRORS, text);
+        self.log_error(script, text);
         if !matches!(script.script_type, ScriptType::AddOn | ScriptType::Sandbox) {
             self.request_pause_after_error();
         }

@@ -15,6 +15,8 @@ pub struct LogLine<'a> {
     /// `sim.verbosity_*` with its flag bits.
     pub level: i64,
     pub text: &'a str,
+    /// An error as people read it, with files and hints, where `text` has the words of CoppeliaSim.
+    pub located: Option<&'a str>,
     /// Simulated time, seconds.
     pub time: f64,
     /// The simulator reports its own status, e.g. that the simulation started.
@@ -34,6 +36,11 @@ impl LogLine<'_> {
             shown.push_str(line);
         }
         shown
+    }
+
+    /// The line as a terminal shows it to people, who look for files.
+    pub fn located(&self) -> String {
+        LogLine { text: self.located.unwrap_or(self.text), ..*self }.decorated()
     }
 
     /// The text; where it is marked as HTML, by `@html` at its end, without mark and tags.
@@ -90,7 +97,7 @@ mod tests {
     use super::*;
 
     fn plain(text: &str) -> String {
-        LogLine { origin: "a", level: verbosity::SCRIPT_INFOS, text, time: 0.0, status: false }
+        LogLine { origin: "a", level: verbosity::SCRIPT_INFOS, text, located: None, time: 0.0, status: false }
             .plain_text()
             .into_owned()
     }
@@ -105,7 +112,14 @@ mod tests {
     #[test]
     fn a_text_cannot_pass_for_a_line_of_another_author() {
         let text = "mine\n[CoppeliaSim:error]   yours\r\n[/a:error]   his\r[/b:info]   hers";
-        let line = LogLine { origin: "/script", level: verbosity::SCRIPT_INFOS, text, time: 0.0, status: false };
+        let line = LogLine {
+            origin: "/script",
+            level: verbosity::SCRIPT_INFOS,
+            text,
+            located: None,
+            time: 0.0,
+            status: false,
+        };
         let shown = line.decorated();
         let forged = shown.split(['\n', '\r']).skip(1).filter(|line| !line.starts_with("    "));
         assert_eq!(forged.count(), 0, "{shown}");

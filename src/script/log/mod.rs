@@ -2,13 +2,16 @@
 
 pub(in crate::script) mod auxiliary_consoles;
 pub(in crate::script) mod console;
+mod located;
 pub mod status;
+pub(crate) mod suggestion;
 pub mod verbosity;
 
 use std::cell::{Cell, RefCell};
 use std::collections::HashSet;
 
 use console::{Console, LogLine, Stream};
+use located::ScriptFiles;
 
 /// The way to the console of one simulator.
 pub(crate) struct Log {
@@ -18,6 +21,9 @@ pub(crate) struct Log {
     logged_once: RefCell<HashSet<(String, i64, String)>>,
     /// Uncaught script errors.
     errors: Cell<u64>,
+    pub(super) files: RefCell<ScriptFiles>,
+    /// The path that the last look-up of an object did not find.
+    missing_path: RefCell<Option<String>>,
 }
 
 impl Log {
@@ -27,6 +33,8 @@ impl Log {
             verbosity: Cell::new(verbosity),
             logged_once: RefCell::default(),
             errors: Cell::new(0),
+            files: RefCell::default(),
+            missing_path: RefCell::default(),
         }
     }
 
@@ -46,6 +54,16 @@ impl Log {
 
     pub(super) fn count_error(&self) {
         self.errors.set(self.errors.get() + 1);
+    }
+
+    /// Remembers a path that leads to no object, for the error that may come of it.
+    pub(super) fn note_missing_path(&self, path: &str) {
+        self.missing_path.replace(Some(path.to_owned()));
+    }
+
+    /// The path that the last look-up did not find; it is forgotten.
+    pub(super) fn take_missing_path(&self) -> Option<String> {
+        self.missing_path.take()
     }
 
     /// Whether this is the first such line; it is remembered.

@@ -90,7 +90,10 @@ fn conclude(outcome: &mut Outcome, report: RunReport) {
         results.filter_map(|(name, value)| Some((name.strip_prefix(RESULT)?.to_owned(), value))).collect();
     if report.errors > 0 {
         let error = outcome.console.iter().find(|line| line.level == "error");
-        outcome.message = error.map_or_else(|| "a script raised an error.".into(), |line| line.text.clone());
+        outcome.message = error.map_or_else(
+            || "a script raised an error.".into(),
+            |line| line.located.clone().unwrap_or_else(|| line.text.clone()),
+        );
         outcome.status = Status::Error;
     }
 }

@@ -59,7 +59,8 @@ fn excerpt(excerpt: &Excerpt) -> Value {
 }
 
 fn console_line(line: &ConsoleLine) -> Value {
-    json!({"time": line.time, "origin": line.origin, "level": line.level, "text": line.text})
+    json!({"time": line.time, "origin": line.origin, "level": line.level, "text": line.text,
+        "located": line.located})
 }
 
 fn line(value: &Value) -> String {

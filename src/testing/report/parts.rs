@@ -47,7 +47,7 @@ pub fn moment(outcome: &Outcome) -> Option<String> {
 pub fn console_line(line: &ConsoleLine) -> String {
     let origin = line.origin.as_deref();
     let author = origin.map(|origin| format!("[{origin}:{}] ", line.level)).unwrap_or_default();
-    format!("{:.3} {author}{}", line.time, line.text)
+    format!("{:.3} {author}{}", line.time, line.located.as_ref().unwrap_or(&line.text))
 }
 
 /// Replaces characters that XML documents must not contain by U+FFFD.
@@ -85,12 +85,13 @@ pub(super) mod sample {
         failed.excerpts = Vec::from_iter(Excerpt::of("a/x_test.lua", format!("one\n{HOSTILE}\n").as_bytes(), 2));
         failed.script = Some("/Robot/script".into());
         failed.console = vec![
-            ConsoleLine { time: 0.05, origin: None, level: "print", text: HOSTILE.into() },
+            ConsoleLine { time: 0.05, origin: None, level: "print", text: HOSTILE.into(), located: None },
             ConsoleLine {
                 time: 0.1,
                 origin: Some("/Robot/script".into()),
                 level: "warning",
                 text: "two\nlines".into(),
+                located: None,
             },
         ];
         let mut todo = outcome("a/x_test.lua", 4, "todo", Status::Pending, "not written yet");
