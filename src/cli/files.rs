@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::format::scene_file::{self, SceneFile};
 use crate::format::scene_folder;
+use crate::format::script_file;
 use crate::format::ttt::File;
 use crate::permissions::Permissions;
 
@@ -14,6 +15,7 @@ pub(super) fn file(path: &Path) -> Result<File, String> {
     if scene_folder::is_scene(path) {
         return scene_folder::pack(path, &Permissions::all()).map_err(unreadable);
     }
+    script_file::check_no_robot(path).map_err(|reason| unreadable(reason.to_string()))?;
     scene_file::read_path(path).map_err(unreadable)
 }
 

@@ -61,7 +61,7 @@ fn read_folder(path: &Path, permissions: &Permissions) -> Result<SceneInput, Str
 
 fn read_file(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
     let bytes = read_bounded(path).map_err(|error| error.to_string())?;
-    if !scene_file::is_scene(&bytes) || script_file::describes_robot(path) {
+    if !scene_file::is_scene(&bytes) || script_file::check_no_robot(path).is_err() {
         script_file::check(path, &bytes).map_err(|reason| reason.to_string())?;
         return Ok(SceneInput::Script(bytes));
     }

@@ -25,10 +25,14 @@ pub enum NotAScript {
     Binary,
 }
 
-/// Whether the name is that of a robot's description: some are XML, as scenes may be.
-pub fn describes_robot(path: &Path) -> bool {
+/// Checks that the name is not that of a robot's description: some are XML, as scenes may be.
+///
+/// # Errors
+/// [`NotAScript::Robot`].
+pub fn check_no_robot(path: &Path) -> Result<(), NotAScript> {
     let name = path.to_string_lossy().to_lowercase();
-    ROBOTS.iter().any(|(ending, _)| name.ends_with(ending))
+    let found = ROBOTS.iter().find(|(ending, _)| name.ends_with(ending));
+    found.map_or(Ok(()), |(_, format)| Err(NotAScript::Robot(format)))
 }
 
 /// Checks a file that is not a scene or model.
@@ -50,9 +54,7 @@ pub fn check(path: &Path, content: &[u8]) -> Result<(), NotAScript> {
     if ends_with(&[".py", ".pyw"]) {
         return Err(NotAScript::Python);
     }
-    if let Some((_, format)) = ROBOTS.iter().find(|(ending, _)| name.ends_with(ending)) {
-        return Err(NotAScript::Robot(format));
-    }
+    check_no_robot(path)?;
     if ends_with(&[".obj", ".stl", ".dae", ".ply", ".gltf", ".glb"]) {
         return Err(NotAScript::Mesh);
     }

@@ -5,9 +5,14 @@ load = function() return nil, 'no chunks here: they may run for ever' end
 
 local loader, native = package.searchers[2]('remote.zmq')
 local pending, answers
+local leaves = false
 local server = {returns = native.returns, members = native.members}
 
 function server.receive()
+    if leaves then
+        leaves = false
+        return 1
+    end
     local request = pending
     pending = nil
     if request then return 1, request end
@@ -32,4 +37,10 @@ function ask(bytes)
     assert(#answers <= 1, 'more than one answer')
     if answers[1] then require('simCBOR').decode(answers[1]) end
     return answers[1]
+end
+
+-- The connection ends, with all its clients.
+function leave()
+    leaves, answers = true, {}
+    serve()
 end
