@@ -63,6 +63,6 @@ class Simulator:
         return len(os.listdir(f"/proc/{self.process.pid}/fd"))
 
     def end(self):
-        """Asks it to end, as ctrl-c does; tells how that went."""
+        """Sends SIGTERM; returns the exit code."""
         self.process.send_signal(signal.SIGTERM)
         return self.process.wait(LIMIT)

@@ -28,7 +28,7 @@ def responder_and_python(context):
             same("an answer", peer.recv(), b"World")
             same("asked", simulator.printed("asked: "), f"Hello {i}")
         peer.close()
-        same("ctrl-c", simulator.end(), 130)
+        same("SIGTERM", simulator.end(), 143)
 
 
 def requester_and_python(context):
@@ -56,7 +56,7 @@ def nobody_answers():
         endpoint = f"tcp://127.0.0.1:{silent.getsockname()[1]}"
         with Simulator("-D", f"endpoint={endpoint}", REQUESTER, command="run") as simulator:
             time.sleep(0.2)
-            same("ctrl-c while it waits in a thread", simulator.end(), 130)
+            same("SIGTERM while it waits in a thread", simulator.end(), 143)
 
 
 def blocking_outside_of_threads(tmp):
@@ -69,7 +69,7 @@ def blocking_outside_of_threads(tmp):
     with Simulator(tmp, command="run") as simulator:
         simulator.printed("waiting")
         simulator.process.send_signal(signal.SIGTERM)
-        same("ctrl-c ends the wait", simulator.process.wait(LIMIT) in (1, 130), True)
+        same("SIGTERM ends the wait", simulator.process.wait(LIMIT) in (1, 143), True)
 
 
 def a_monitor_nobody_reads(tmp):
