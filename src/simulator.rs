@@ -19,7 +19,7 @@ use std::time::Duration;
 use crate::format::scene_file::SceneFile;
 use crate::io::ZmqServer;
 use crate::modules;
-use crate::scene::object::script_object::{ExecutionPriority, ScriptObject, ScriptType};
+use crate::scene::object::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Data, Handle, Kind, Scene};
 use crate::script::coverage::LineCounts;
 use crate::script::{
@@ -98,8 +98,9 @@ impl Simulator {
 
     fn with_main_and_sandbox(sim: Rc<Sim>) -> Self {
         let main_text = sim.modules.registry.main_script();
-        sim.scripts.add_detached(ScriptType::Main, detached("mainScript", main_text.as_bytes()));
-        let sandbox = sim.scripts.add_detached(ScriptType::Sandbox, detached("sandboxScript", b"sim = require 'sim'"));
+        sim.scripts.add_detached(ScriptType::Main, Detached::of_text("mainScript", main_text.as_bytes()));
+        let sandbox =
+            sim.scripts.add_detached(ScriptType::Sandbox, Detached::of_text("sandboxScript", b"sim = require 'sim'"));
         sim.deliver(&sandbox, SysCall::Init, &[]);
         Self { sim }
     }
@@ -124,8 +125,10 @@ impl Simulator {
         modules::remote::set_zmq_server(&self.sim.modules.states, server);
         let port = address.port().to_string().into_bytes();
         self.sim.app.borrow_mut().named_params.insert("zmqRemoteApi.rpcPort".to_owned(), port);
-        let add_on =
-            self.sim.scripts.add_detached(ScriptType::AddOn, detached("ZMQ remote API server@addOnScript", ZMQ_ADD_ON));
+        let add_on = self
+            .sim
+            .scripts
+            .add_detached(ScriptType::AddOn, Detached::of_text("ZMQ remote API server@addOnScript", ZMQ_ADD_ON));
         self.sim.start_detached(&add_on);
         Ok(address)
     }
@@ -142,7 +145,7 @@ impl Simulator {
         let add_on = self
             .sim
             .scripts
-            .add_detached(ScriptType::AddOn, detached("WebSocket remote API server@addOnScript", WS_ADD_ON));
+            .add_detached(ScriptType::AddOn, Detached::of_text("WebSocket remote API server@addOnScript", WS_ADD_ON));
         self.sim.start_detached(&add_on);
         Ok(address)
     }
@@ -183,8 +186,10 @@ impl Simulator {
             ScriptKind::Customization => self.add_object_script(ScriptType::Customization, code, file),
             ScriptKind::Simulation => self.add_object_script(ScriptType::Simulation, code, file),
             ScriptKind::AddOn => {
-                let script =
-                    self.sim.scripts.add_detached(ScriptType::AddOn, detached(&format!("{name}@addOnScript"), code));
+                let script = self
+                    .sim
+                    .scripts
+                    .add_detached(ScriptType::AddOn, Detached::of_text(&format!("{name}@addOnScript"), code));
                 script.file.replace(file);
                 self.sim.start_detached(&script);
                 Ok(ScriptRef(script))
@@ -374,16 +379,6 @@ impl Drop for Simulator {
         self.sim.end_detached();
         self.sim.close_all();
         self.sim.save_app_storage();
-    }
-}
-
-fn detached(name: &str, code: &[u8]) -> Detached {
-    Detached {
-        name: name.to_owned(),
-        chunk_name: name.to_owned(),
-        code: code.to_vec(),
-        priority: ExecutionPriority::Normal,
-        ..Detached::default()
     }
 }
 

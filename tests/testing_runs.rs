@@ -231,3 +231,26 @@ fn cases_below(folder: &Path) -> usize {
     };
     entries.map(count).sum()
 }
+
+/// Suites that pass in busted pass here, and assertions that do not hold say the same as there.
+#[test]
+fn suites_of_busted_run_unchanged() {
+    let suites = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/busted");
+    let (code, output) = run(&[], &[suites.to_str().expect("a path in UTF-8")]);
+    assert_eq!(code, 0, "{output}");
+}
+
+#[test]
+fn a_table_raised_as_an_error_is_shown_with_its_elements() {
+    let (code, output) = run(&[("a_test.lua", "it('raises', function() error({code = 7}) end)")], &[]);
+    assert_eq!(code, 1);
+    assert!(output.contains("[code] = 7"), "{output}");
+}
+
+#[test]
+fn the_scenes_of_the_project_pass_their_tests() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
+    command.args(["test", "scenes", "--timeout", "500"]).current_dir(env!("CARGO_MANIFEST_DIR"));
+    let (code, output) = run_for_code(&mut command, Duration::from_secs(500)).expect("it ends");
+    assert_eq!(code, 0, "{output}");
+}

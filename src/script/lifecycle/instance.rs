@@ -53,6 +53,17 @@ pub(crate) struct Detached {
 }
 
 impl Detached {
+    /// A script of the simulator's own, with the name that Lua shows in error positions as well.
+    pub(crate) fn of_text(name: &str, code: &[u8]) -> Self {
+        Self {
+            name: name.to_owned(),
+            chunk_name: name.to_owned(),
+            code: code.to_vec(),
+            priority: ExecutionPriority::Normal,
+            ..Self::default()
+        }
+    }
+
     /// Scripts that are no objects are in Lua, unless a scene specifies another language.
     pub(crate) fn language(&self) -> &str {
         if self.language.is_empty() { "lua" } else { &self.language }
