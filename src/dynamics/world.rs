@@ -10,7 +10,7 @@ use rapier3d_f64::prelude::{
     RigidBodySet, SoftBodySet, SpringCoefficients,
 };
 
-/// Sweeps of the solver over all constraints of a sub-step.
+/// Iterations of the constraint solver per sub-step.
 const ITERATIONS: usize = 4;
 /// How stiffly contacts push bodies apart: stiffer than rapier's default, so that a tower of eight boxes sinks by well under a
 /// hundredth of its height.

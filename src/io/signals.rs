@@ -21,7 +21,7 @@ mod unix {
     use libc::c_int;
     use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
-    /// Signals that ask for the end.
+    /// Signals that request termination.
     const REQUESTS: [c_int; 3] = [libc::SIGINT, libc::SIGTERM, libc::SIGHUP];
     /// A signal that is ignored where nobody handles it.
     const WAKE: c_int = libc::SIGURG;
