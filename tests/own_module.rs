@@ -4,25 +4,14 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use swanilda::mlua::{self, Function, Lua, Table, UserData, UserDataFields, UserDataMethods, Value, Variadic};
-use swanilda::{Console, Limits, LogLine, Options, ScriptKind, Simulator};
+use swanilda::{Limits, Options, ScriptKind, Simulator};
+
+mod support;
+use support::lines::Lines;
 
 #[allow(dead_code, reason = "its `main` is for people")]
 #[path = "../examples/own_module.rs"]
 mod example;
-
-/// Collects prints and error lines.
-#[derive(Clone, Default)]
-struct Lines(Rc<RefCell<Vec<String>>>);
-
-impl Console for Lines {
-    fn print(&mut self, line: &[u8], _: f64) {
-        self.0.borrow_mut().push(String::from_utf8_lossy(line).into_owned());
-    }
-
-    fn log(&mut self, line: &LogLine<'_>) {
-        self.0.borrow_mut().push(line.text.to_owned());
-    }
-}
 
 /// Says when it goes.
 struct Counter {

@@ -1,30 +1,17 @@
 //! What scripts may do to the world outside: every way there is refused where it is not allowed, and open where it is.
 
 mod routes;
+#[path = "../support/mod.rs"]
+mod support;
 
-use std::cell::RefCell;
 use std::fs;
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
 
 use routes::{ADDRESSES, CERTIFICATES, NATIVE, READS, RUNS, Route, WRITES};
-use swanilda::{Console, LogLine, Options, Permissions, ScriptKind, Simulator};
+use support::lines::Lines;
+use swanilda::{Options, Permissions, ScriptKind, Simulator};
 use tempfile::TempDir;
-
-/// Collects prints and error lines.
-#[derive(Clone, Default)]
-struct Lines(Rc<RefCell<Vec<String>>>);
-
-impl Console for Lines {
-    fn print(&mut self, line: &[u8], _: f64) {
-        self.0.borrow_mut().push(String::from_utf8_lossy(line).into_owned());
-    }
-
-    fn log(&mut self, line: &LogLine<'_>) {
-        self.0.borrow_mut().push(line.text.to_owned());
-    }
-}
 
 /// Files and folders: `in` is what a test allows, `out` is beside it and holds the same.
 struct World {

@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods, reason = "every wait of a test is bounded by the clock")]
 
 pub mod compare;
+pub mod lines;
 pub mod process;
 
 use std::io::Write;

@@ -1,7 +1,7 @@
 //! Requests to end: ctrl-c, SIGTERM, SIGHUP, and a reader of standard output that is gone.
 //!
 //! The first one asks for a clean end, the second one ends at once. A script that does not end by itself is interrupted after a short time, and
-//! one that cannot be interrupted ends with the process; where it was is told.
+//! one that cannot be interrupted ends with the process, which prints where it was.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
@@ -57,7 +57,7 @@ impl Interrupt {
         interrupt
     }
 
-    /// Nobody reads standard output any more: a clean end, without a word.
+    /// Nobody reads standard output any more: a clean end without messages.
     pub(in crate::cli) fn request_quietly(&self) {
         if !self.is_requested() {
             self.request(signals::CLOSED_PIPE);
