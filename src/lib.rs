@@ -7,6 +7,7 @@ mod dynamics;
 mod format;
 mod io;
 mod modules;
+mod perception;
 mod permissions;
 pub mod scene;
 pub mod script;

@@ -25,6 +25,7 @@ use super::runtime::Languages;
 use super::step::clock::Clock;
 use super::test_bench::TestBench;
 use crate::dynamics::Dynamics;
+use crate::perception::Perception;
 use crate::permissions::Permissions;
 use crate::scene::{Handle, Scene, SceneError};
 
@@ -89,12 +90,12 @@ pub(crate) struct Sim {
     pub options: Options,
     /// The modules scripts can use, with their state.
     pub modules: Modules,
-    pub languages: Languages,
     pub scene: RefCell<Scene>,
     pub clock: Clock,
     pub scripts: ScriptSet,
     /// Taken out while it steps.
     pub dynamics: RefCell<Option<Dynamics>>,
+    pub perception: RefCell<Perception>,
     pub log: Log,
     pub removals: Removals,
     pub app: RefCell<AppData>,
@@ -115,15 +116,15 @@ impl Sim {
         languages: Languages,
     ) -> Rc<Self> {
         Rc::new(Self {
-            languages,
             log: Log::new(console, options.verbosity),
             app: RefCell::new(AppData::new(&options)),
-            scripts: ScriptSet::new(options.limits.map_or(usize::MAX, |limits| limits.memory)),
+            scripts: ScriptSet::new(languages, options.limits.map_or(usize::MAX, |limits| limits.memory)),
             options,
             modules: Modules { registry, states: States::default() },
             scene: RefCell::new(Scene::new()),
             clock: Clock::new(),
             dynamics: RefCell::new(Some(Dynamics::default())),
+            perception: RefCell::default(),
             removals: Removals::default(),
             signal_owners: RefCell::default(),
             event_loop: SharedEventLoop::default(),

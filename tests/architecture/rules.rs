@@ -4,7 +4,7 @@
 pub const LAYERS: &[&[&str]] = &[
     &["scene"],
     &["permissions", "wire"],
-    &["dynamics", "format", "io"],
+    &["dynamics", "format", "io", "perception"],
     &["script"],
     &["api"],
     &["modules"],

@@ -91,7 +91,7 @@ impl Sim {
     fn countable_objects(&self) -> Vec<CountedText> {
         let scene = self.scene.borrow();
         let scripts = scene.objects().filter_map(|object| match &object.kind {
-            Kind::Script(script) if self.languages.contains(&script.language) => {
+            Kind::Script(script) if self.scripts.languages.contains(&script.language) => {
                 let path = scene.short_path(object.handle()).ok()?;
                 let text = script.code.as_slice().into();
                 Some(CountedText::Script { scene: scene.settings().path.clone(), path, text })

@@ -89,7 +89,7 @@ impl Sim {
         script: &Rc<Script>,
         language: &str,
     ) -> Result<Rc<Runtime>, ScriptError> {
-        self.languages.create(language, Rc::new(Env::new(self, script)))
+        self.scripts.languages.create(language, Rc::new(Env::new(self, script)))
     }
 
     fn run_text(self: &Rc<Self>, script: &Rc<Script>) -> Result<Rc<Runtime>, ScriptError> {

@@ -10,6 +10,7 @@ use super::order::OrderCache;
 use crate::scene::Handle;
 use crate::scene::object::script_object::ScriptType;
 use crate::script::calls::callback::SysCall;
+use crate::script::runtime::Languages;
 
 /// The first handle of scripts that are no scene objects.
 const FIRST_DETACHED: i64 = 1_010_000;
@@ -19,6 +20,8 @@ pub(crate) const MAX_DEPTH: usize = 100;
 
 /// All scripts that have been looked up, and those that are no scene objects.
 pub(crate) struct ScriptSet {
+    /// The languages they can be written in.
+    pub(in crate::script) languages: Languages,
     /// The memory all of them share.
     pub(super) budget: Rc<Budget>,
     by_id: RefCell<BTreeMap<i64, Rc<Script>>>,
@@ -36,8 +39,9 @@ pub(crate) struct ScriptSet {
 
 impl ScriptSet {
     /// No scripts yet, which may use `memory` bytes.
-    pub(in crate::script) fn new(memory: usize) -> Self {
+    pub(in crate::script) fn new(languages: Languages, memory: usize) -> Self {
         Self {
+            languages,
             budget: Rc::new(Budget::new(memory)),
             by_id: RefCell::default(),
             next_detached: Cell::new(FIRST_DETACHED),
