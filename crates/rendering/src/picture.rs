@@ -1,0 +1,44 @@
+//! What a renderer returns.
+
+/// Which parts of a picture are computed. What is not asked for costs nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Channels {
+    pub colour: bool,
+    pub depth: bool,
+    pub ids: bool,
+}
+
+/// A picture: rows from the bottom up, each from left to right. Channels that were not asked for are empty.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Picture {
+    /// Width and height, pixels.
+    pub resolution: [u32; 2],
+    /// Red, green, blue of each pixel.
+    pub colour: Vec<u8>,
+    /// `(z - near) / (far - near)` of each pixel, z being the depth along the camera's axis; 1 where nothing is.
+    pub depth: Vec<f32>,
+    /// The id of what is seen in each pixel; [`Picture::NOTHING`] where nothing is.
+    pub ids: Vec<u32>,
+}
+
+impl Channels {
+    pub const ALL: Self = Self { colour: true, depth: true, ids: true };
+    pub const COLOUR: Self = Self { colour: true, depth: false, ids: false };
+    pub const DEPTH: Self = Self { colour: false, depth: true, ids: false };
+    pub const IDS: Self = Self { colour: false, depth: false, ids: true };
+}
+
+impl Picture {
+    /// The id where nothing is.
+    pub const NOTHING: u32 = u32::MAX;
+
+    /// A picture of nothing.
+    pub(crate) fn clear(&mut self, resolution: [u32; 2], channels: Channels) {
+        let pixels = resolution[0] as usize * resolution[1] as usize;
+        let size = |wanted: bool| if wanted { pixels } else { 0 };
+        self.resolution = resolution;
+        self.colour.resize(3 * size(channels.colour), 0);
+        self.depth.resize(size(channels.depth), 1.0);
+        self.ids.resize(size(channels.ids), Self::NOTHING);
+    }
+}
