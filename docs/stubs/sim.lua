@@ -1777,6 +1777,62 @@ function sim.getVector3Property(target, propertyName, options) end
 ---@return number[] angularVelocity world axes, rad/s
 function sim.getVelocity(shapeHandle) end
 
+--- The image of a vision sensor, from the lowest row, or a part of it. Add sim.handleflag_greyscale to the handle for a grey level per
+--- pixel.
+---@deprecated sim.getVisionSensorImg
+---@param sensorHandle integer the sensor
+---@param posX? number left side of the part
+---@param posY? number lower side of the part
+---@param sizeX? number width of the part; 0 for the whole image
+---@param sizeY? number height of the part
+---@param rgbaCutOff? number above 0: with an alpha channel, 255 up to that depth (0 near to 1 far) and 0 behind it
+---@return string|table imageBuffer bytes
+---@return integer resolutionX of the sensor
+---@return integer resolutionY of the sensor
+function sim.getVisionSensorCharImage(sensorHandle, posX, posY, sizeX, sizeY, rgbaCutOff) end
+
+--- The depths of a vision sensor, from the lowest row, or a part of them. A depth is measured along the axis of the sensor.
+---@param sensorHandle integer the sensor
+---@param options? integer 1: metres instead of 0 (near clipping plane) to 1 (far clipping plane)
+---@param pos? number[] lower left corner of the part
+---@param size? number[] width and height of the part; nothing for the whole picture
+---@return string|table depth 32-bit floats
+---@return integer[] resolution of the sensor
+function sim.getVisionSensorDepth(sensorHandle, options, pos, size) end
+
+--- The depths of a vision sensor, from the lowest row, or a part of them. Add sim.handleflag_depthbuffermeters to the handle for metres
+--- instead of 0 (near) to 1 (far), sim.handleflag_codedstring for a string of 32-bit floats.
+---@deprecated sim.getVisionSensorDepth
+---@param sensorHandle integer the sensor
+---@param posX? number left side of the part
+---@param posY? number lower side of the part
+---@param sizeX? number width of the part; 0 for the whole picture
+---@param sizeY? number height of the part
+---@return any depthBuffer depth of each pixel
+function sim.getVisionSensorDepthBuffer(sensorHandle, posX, posY, sizeX, sizeY) end
+
+--- The image of a vision sensor, from the lowest row, or a part of it. Add sim.handleflag_greyscale to the handle for a grey level per
+--- pixel.
+---@deprecated sim.getVisionSensorImg
+---@param sensorHandle integer the sensor
+---@param posX? number left side of the part
+---@param posY? number lower side of the part
+---@param sizeX? number width of the part; 0 for the whole image
+---@param sizeY? number height of the part
+---@param returnType? integer 0: a list of numbers, 0 to 1; 1: a string of bytes
+---@return any imageBuffer red, green, blue or grey of each pixel
+function sim.getVisionSensorImage(sensorHandle, posX, posY, sizeX, sizeY, returnType) end
+
+--- The image of a vision sensor, from the lowest row, or a part of it.
+---@param sensorHandle integer the sensor
+---@param options? integer 1: a byte of grey per pixel instead of red, green, blue; 2: with an alpha channel
+---@param rgbaCutOff? number alpha is 255 up to that depth (0 near to 1 far), and 0 behind it
+---@param pos? number[] lower left corner of the part
+---@param size? number[] width and height of the part; nothing for the whole image
+---@return string|table image bytes
+---@return integer[] resolution of the sensor
+function sim.getVisionSensorImg(sensorHandle, options, rgbaCutOff, pos, size) end
+
 --- Resolution of a vision sensor.
 ---@param sensorHandle integer the sensor
 ---@return integer[] resolution pixels along x and y
@@ -2312,6 +2368,12 @@ function sim.readForceSensor(objectHandle) end
 ---@param sizeY? integer rows; 0 for the whole texture
 ---@return string|table textureData red, green, blue of each pixel, the bottom row first
 function sim.readTexture(textureId, options, posX, posY, sizeX, sizeY) end
+
+--- The results of the last handling: whether a script found what it looks for, and packets of numbers. The first packet has the smallest,
+--- the largest and the mean values of intensity, red, green, blue and depth, 0 to 1.
+---@param sensorHandle integer the sensor
+---@return any result packets 1: triggered, 0: not; -1 and no packet: not handled yet
+function sim.readVisionSensor(sensorHandle) end
 
 --- Receives data sent by sim.sendData.
 ---@deprecated
@@ -3362,6 +3424,29 @@ function sim.setVector2Property(target, propertyName, propertyState, options) en
 ---@param propertyState number[] the new value
 ---@param options? table noError: no error when that fails
 function sim.setVector3Property(target, propertyName, propertyState, options) end
+
+--- Replaces the image of a vision sensor and calls the sensor's scripts. Bits of the handle as for `sim.setVisionSensorImage`.
+---@deprecated sim.setVisionSensorImg
+---@param sensorHandle integer the sensor
+---@param image string|table bytes (32-bit floats for depths)
+---@return integer result 1
+function sim.setVisionSensorCharImage(sensorHandle, image) end
+
+--- Replaces the image of a vision sensor and calls the sensor's scripts. Bits of the handle: 0x400000 for a grey level per pixel, 0x800000
+--- for depths instead of an image, 0x1000000 so that no script is called.
+---@deprecated sim.setVisionSensorImg
+---@param sensorHandle integer the sensor
+---@param image any a list of numbers from 0 to 1, or a string of bytes (32-bit floats for depths)
+---@return integer result 1
+function sim.setVisionSensorImage(sensorHandle, image) end
+
+--- Replaces the image of a vision sensor, or a part of it, and calls the sensor's scripts (`sysCall_vision`).
+---@param sensorHandle integer the sensor
+---@param image string|table red, green, blue of each pixel, from the lowest row
+---@param options? integer 1: a byte of grey per pixel; 2: depths instead, as 32-bit floats from 0 (near) to 1 (far); 4: scripts are not called
+---@param pos? number[] lower left corner of the part
+---@param size? number[] width and height of the part; nothing for the whole image
+function sim.setVisionSensorImg(sensorHandle, image, options, pos, size) end
 
 --- Allows or forbids yielding altogether, in this script.
 ---@param allow any false raises the level, true lowers it, a number sets it; yielding is possible at level 0

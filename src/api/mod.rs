@@ -47,6 +47,8 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Dummies", objects::dummy::FUNCTIONS),
     ("Force sensors", sensors::force_sensor::FUNCTIONS),
     ("Sensors", sensors::state::FUNCTIONS),
+    ("Vision sensors", sensors::vision::FUNCTIONS),
+    ("Old functions of vision sensors", old::vision_sensor::FUNCTIONS),
     ("Sensor objects", sensors::create::FUNCTIONS),
     ("Ruckig", motion::ruckig::FUNCTIONS),
     ("Time-optimal trajectories", motion::trajectory::FUNCTIONS),

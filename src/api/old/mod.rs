@@ -8,3 +8,4 @@ pub(in crate::api) mod signal;
 pub(in crate::api) mod tube;
 mod tubes;
 pub(in crate::api) mod user_param;
+pub(in crate::api) mod vision_sensor;

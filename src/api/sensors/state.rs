@@ -1,20 +1,14 @@
-//! `sim.*`: proximity and vision sensors, cameras, lights, graphs, voxels.
+//! `sim.*`: proximity sensors.
 //!
 //! They exist as data; they do not measure yet. Handling all of them, as the main script does, logs that once.
 
 use api_macro::api;
 
 use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::{Handle, Kind};
+use crate::scene::Kind;
 use crate::script::log::verbosity;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![
-    handle_proximity_sensor,
-    handle_vision_sensor,
-    reset_proximity_sensor,
-    reset_vision_sensor,
-    get_vision_sensor_res
-];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![handle_proximity_sensor, reset_proximity_sensor,];
 
 /// Handles proximity sensors. They detect nothing yet.
 ///
@@ -27,18 +21,7 @@ fn handle_proximity_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<i64> {
     Ok(0)
 }
 
-/// Handles vision sensors. They see nothing yet.
-///
-/// @param sensorHandle a sensor, sim.handle_all or sim.handle_all_except_explicit
-/// @return result number of detections
-#[api("sim.handleVisionSensor")]
-fn handle_vision_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<i64> {
-    let _ = sensor_handle;
-    warn_if_any(cx, "vision sensors", |kind| matches!(kind, Kind::VisionSensor(_)));
-    Ok(0)
-}
-
-fn warn_if_any(cx: &Cx, what: &str, is: impl Fn(&Kind) -> bool) {
+pub(in crate::api) fn warn_if_any(cx: &Cx, what: &str, is: impl Fn(&Kind) -> bool) {
     if cx.scene().has_sensors() && cx.scene().objects().any(|object| is(&object.kind)) {
         let text = format!("{what} measure nothing: not implemented in Swanilda.");
         cx.log(verbosity::WARNINGS | verbosity::ONCE, &text);
@@ -52,22 +35,4 @@ fn warn_if_any(cx: &Cx, what: &str, is: impl Fn(&Kind) -> bool) {
 fn reset_proximity_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<()> {
     let _ = (cx, sensor_handle);
     Ok(())
-}
-
-/// Clears the results of vision sensors.
-///
-/// @param sensorHandle a sensor, sim.handle_all or sim.handle_all_except_explicit
-#[api("sim.resetVisionSensor")]
-fn reset_vision_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<()> {
-    let _ = (cx, sensor_handle);
-    Ok(())
-}
-
-/// Resolution of a vision sensor.
-///
-/// @param sensorHandle the sensor
-/// @return resolution pixels along x and y
-#[api("sim.getVisionSensorRes")]
-fn get_vision_sensor_res(cx: &Cx, sensor_handle: Handle) -> Result<Vec<i64>> {
-    Ok(cx.scene().object(sensor_handle)?.vision_sensor()?.view.resolution.map(i64::from).to_vec())
 }

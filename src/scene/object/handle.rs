@@ -59,4 +59,9 @@ pub mod flag {
     pub const WXYZ_QUATERNION: i64 = 0x100_0000;
     pub const RESET_FORCE: i64 = 0x40_0000;
     pub const RESET_TORQUE: i64 = 0x80_0000;
+    pub const GREYSCALE: i64 = 0x40_0000;
+    pub const PACKED: i64 = 0x40_0000;
+    pub const DEPTH_METRES: i64 = 0x80_0000;
+    pub const DEPTH: i64 = 0x80_0000;
+    pub const NO_CALLBACK: i64 = 0x100_0000;
 }

@@ -107,6 +107,7 @@ impl VisionSensor {
             omit_statistics: false,
             image: Vec::new(),
             depth: Vec::new(),
+            reading: None,
         }
     }
 }

@@ -3,6 +3,7 @@
 pub(in crate::scene) mod build;
 pub mod force_sensor;
 pub mod options;
+pub mod vision;
 pub mod volume;
 pub mod volume_faces;
 
@@ -14,6 +15,7 @@ use volume::Volume;
 use volume_faces::FileFaces;
 
 pub use options::{ProximityOptions, VisionOptions};
+pub use vision::{Area, RenderMode, VisionReading, VisionSensor};
 
 /// A proximity sensor.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,52 +108,6 @@ impl View {
     /// Sets the resolution, within 1 and [`View::MAX_RESOLUTION`].
     pub fn set_resolution(&mut self, resolution: [i64; 2]) {
         self.resolution = resolution.map(|pixels| pixels.clamp(1, Self::MAX_RESOLUTION) as u32);
-    }
-}
-
-/// How a vision sensor makes its image (`sim.visionintparam_render_mode`). Scripts and files may choose modes that are not known here;
-/// they are stored as written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct RenderMode(pub i64);
-
-impl RenderMode {
-    pub const OPENGL: Self = Self(0);
-    pub const EXTERNAL: Self = Self(5);
-    pub const OPENGL3: Self = Self(7);
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub struct VisionSensor {
-    pub view: View,
-    pub explicit: bool,
-    pub size: f64,
-    pub entity: Entity,
-    pub render_mode: RenderMode,
-    /// Colour of the image where no object is.
-    pub background: [f32; 3],
-    pub background_from_environment: bool,
-    /// The picture comes from scripts.
-    pub external_image: bool,
-    pub ignore_image: bool,
-    pub ignore_depth: bool,
-    /// The first packet of results is not computed.
-    pub omit_statistics: bool,
-    /// Red, green, blue of each pixel, from the lowest row; empty before there was a picture.
-    pub image: Vec<u8>,
-    /// Depth of each pixel, 0 near to 1 far; empty before there was a picture.
-    pub depth: Vec<f32>,
-}
-
-impl VisionSensor {
-    /// How many bytes a picture has.
-    pub fn image_len(&self) -> usize {
-        self.view.resolution.iter().map(|&pixels| pixels as usize).product::<usize>() * 3
-    }
-
-    /// Changes the resolution and drops the image.
-    pub fn set_resolution(&mut self, resolution: [i64; 2]) {
-        self.view.set_resolution(resolution);
-        (self.image, self.depth) = (Vec::new(), Vec::new());
     }
 }
 

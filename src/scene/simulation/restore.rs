@@ -190,6 +190,7 @@ fn forget_run(kind: &mut Kind) {
             sensor.violations = 0;
         }
         Kind::ProximitySensor(sensor) => sensor.detection = None,
+        Kind::VisionSensor(sensor) => sensor.reading = None,
         _ => {}
     }
 }

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::instance::{Detached, Script};
-use crate::scene::object::script_object::{ExecutionPriority, ScriptObject};
+use crate::scene::object::script_object::{ExecutionPriority, ScriptObject, ScriptType};
 use crate::scene::{Handle, Scene};
 use crate::script::sim::Sim;
 
@@ -29,6 +29,14 @@ impl Sim {
         let children = script_children(&self.scene.borrow(), object);
         let mut scripts = self.scripts.attached_to(object);
         scripts.extend(children.into_iter().filter_map(|handle| self.script(handle.raw())));
+        scripts
+    }
+
+    /// The scripts a sensor calls: old ones before script objects, in each simulation scripts before customization scripts.
+    pub(crate) fn sensor_scripts(&self, sensor: Handle) -> Vec<Rc<Script>> {
+        let mut scripts = self.scripts_of_object(sensor);
+        scripts.retain(|script| matches!(script.script_type, ScriptType::Simulation | ScriptType::Customization));
+        scripts.sort_by_key(|script| (script.object.is_some(), script.script_type != ScriptType::Simulation));
         scripts
     }
 

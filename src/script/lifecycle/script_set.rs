@@ -35,6 +35,8 @@ pub(crate) struct ScriptSet {
     depth: Cell<usize>,
     /// The selection that scripts were last notified of.
     notified_selection: RefCell<Vec<Handle>>,
+    /// Vision sensors whose scripts are looking at the picture now.
+    pub(in crate::script) examined_sensors: RefCell<BTreeSet<Handle>>,
 }
 
 impl ScriptSet {
@@ -50,6 +52,7 @@ impl ScriptSet {
             callbacks_in_use: Cell::new(0),
             depth: Cell::new(0),
             notified_selection: RefCell::default(),
+            examined_sensors: RefCell::default(),
         }
     }
 

@@ -155,6 +155,7 @@ pub(super) fn vision_sensor(chunk: &file::VisionSensor) -> VisionSensor {
         omit_statistics: second & 0x10 != 0,
         image: Vec::new(),
         depth: Vec::new(),
+        reading: None,
     }
 }
 

@@ -11,6 +11,7 @@ mod outside;
 mod properties;
 mod scripts;
 mod simulation;
+mod vision;
 
 use std::cell::{Ref, RefMut};
 use std::rc::Rc;

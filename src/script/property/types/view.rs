@@ -45,14 +45,14 @@ pub(in crate::script::property) const VISION_SENSOR: &[Accessor] = object_proper
         Sensor |o, on| o.vision_sensor_mut()?.ignore_depth = on;
     "omitPacket1": bool, |o| o.vision_sensor()?.omit_statistics,
         Sensor |o, on| o.vision_sensor_mut()?.omit_statistics = on;
-    "imageBuffer": Bytes, |o| Bytes(o.vision_sensor()?.image.clone()), Sensor |o, image| {
+    "imageBuffer": Bytes, |o| Bytes(o.vision_sensor()?.image().into_owned()), Sensor |o, image| {
         let sensor = o.vision_sensor_mut()?;
         if !image.0.is_empty() && image.0.len() != sensor.image_len() {
             return Err(refused());
         }
         sensor.image = image.0;
     };
-    "depthBuffer": Vec<f64>, |o| o.vision_sensor()?.depth.iter().map(|&depth| depth.into()).collect();
+    "depthBuffer": Vec<f64>, |o| o.vision_sensor()?.depth().iter().map(|&depth| depth.into()).collect();
 };
 
 pub(in crate::script::property) const CAMERA: &[Accessor] = object_properties! {

@@ -1,0 +1,187 @@
+//! `sim.*`: vision sensors: handling them, and their pictures.
+
+use api_macro::api;
+
+use super::state::warn_if_any;
+use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::sensor::{Area, VisionReading, VisionSensor};
+use crate::scene::{Data, Handle, Kind, Object, SceneError, special};
+use crate::script::{Bytes, IntPair, Number, Results};
+
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![
+    handle_vision_sensor,
+    read_vision_sensor,
+    reset_vision_sensor,
+    get_vision_sensor_img,
+    get_vision_sensor_depth,
+    set_vision_sensor_img,
+    get_vision_sensor_res,
+];
+
+/// Bits of the options of pictures.
+mod option {
+    pub const GREY: i64 = 1;
+    pub const ALPHA: i64 = 2;
+    pub const METRES: i64 = 1;
+    pub const DEPTH: i64 = 2;
+    pub const NO_CALLBACK: i64 = 4;
+}
+
+/// Handles vision sensors. They see nothing yet.
+///
+/// @param sensorHandle a sensor, sim.handle_all or sim.handle_all_except_explicit
+/// @return result number of detections
+#[api("sim.handleVisionSensor")]
+fn handle_vision_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<i64> {
+    let _ = sensor_handle;
+    warn_if_any(cx, "vision sensors", |kind| matches!(kind, Kind::VisionSensor(_)));
+    Ok(0)
+}
+
+/// The results of the last handling: whether a script found what it looks for, and packets of numbers. The first packet has the smallest,
+/// the largest and the mean values of intensity, red, green, blue and depth, 0 to 1.
+///
+/// @param sensorHandle the sensor
+/// @return result, packets 1: triggered, 0: not; -1 and no packet: not handled yet
+#[api("sim.readVisionSensor")]
+fn read_vision_sensor(cx: &Cx, sensor_handle: Handle) -> Result<Results> {
+    let scene = cx.scene();
+    let reading = scene.object(sensor_handle)?.vision_sensor()?.reading.as_ref();
+    Ok(Results(reading.map_or_else(|| vec![Data::Int(-1)], results)))
+}
+
+/// Result and packets as scripts receive them.
+fn results(reading: &VisionReading) -> Vec<Data> {
+    let packets = reading.packets.iter().map(|packet| packet.iter().map(|&value| f64::from(value)).collect::<Vec<_>>());
+    std::iter::once(Data::Int(reading.triggered.into())).chain(packets.map(Data::from)).collect()
+}
+
+/// Clears the results of vision sensors.
+///
+/// @param sensorHandle a sensor, sim.handle_all or sim.handle_all_except_explicit
+#[api("sim.resetVisionSensor")]
+fn reset_vision_sensor(cx: &mut Cx, sensor_handle: Number) -> Result<()> {
+    for sensor in sensors(cx, sensor_handle)? {
+        cx.reset_vision_sensor(sensor);
+    }
+    Ok(())
+}
+
+/// The sensor, which must be handled explicitly, or all.
+fn sensors(cx: &Cx, handle: Number) -> Result<Vec<Handle>> {
+    let scene = cx.scene();
+    let explicit_too = match handle.0 {
+        special::ALL => true,
+        special::ALL_EXCEPT_EXPLICIT => false,
+        raw => {
+            let handle = Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?;
+            return match scene.object(handle)?.vision_sensor()?.explicit {
+                true => Ok(vec![handle]),
+                false => Err(ApiError::Other("object not tagged for explicit handling.".into())),
+            };
+        }
+    };
+    if !scene.has_sensors() {
+        return Ok(Vec::new());
+    }
+    let is_meant = |o: &&Object| matches!(&o.kind, Kind::VisionSensor(sensor) if explicit_too || !sensor.explicit);
+    Ok(scene.objects().filter(is_meant).map(Object::handle).collect())
+}
+
+/// The part of a sensor's picture that a script means.
+pub(in crate::api) fn area(sensor: &VisionSensor, position: [f64; 2], size: [f64; 2]) -> Result<Area> {
+    let whole = |side: f64| side as i64;
+    Area::part(sensor.view.resolution, position.map(whole), size.map(whole))
+        .ok_or_else(|| ApiError::Other("invalid arguments.".into()))
+}
+
+/// The image of a vision sensor, from the lowest row, or a part of it.
+///
+/// @param sensorHandle the sensor
+/// @param options 1: a byte of grey per pixel instead of red, green, blue; 2: with an alpha channel
+/// @param rgbaCutOff alpha is 255 up to that depth (0 near to 1 far), and 0 behind it
+/// @param pos lower left corner of the part
+/// @param size width and height of the part; nothing for the whole image
+/// @return image bytes
+/// @return resolution of the sensor
+#[api("sim.getVisionSensorImg")]
+fn get_vision_sensor_img(
+    cx: &Cx,
+    sensor_handle: Handle,
+    #[default(0)] options: Number,
+    #[default(0.0)] rgba_cut_off: f64,
+    #[default([0.0; 2])] pos: [f64; 2],
+    #[default([0.0; 2])] size: [f64; 2],
+) -> Result<(Bytes, IntPair)> {
+    let scene = cx.scene();
+    let sensor = scene.object(sensor_handle)?.vision_sensor()?;
+    let alpha = (options.0 & option::ALPHA != 0).then_some(rgba_cut_off as f32);
+    let image = sensor.image_part(area(sensor, pos, size)?, options.0 & option::GREY != 0, alpha);
+    Ok((Bytes(image), IntPair(sensor.view.resolution.map(i64::from))))
+}
+
+/// The depths of a vision sensor, from the lowest row, or a part of them. A depth is measured along the axis of the sensor.
+///
+/// @param sensorHandle the sensor
+/// @param options 1: metres instead of 0 (near clipping plane) to 1 (far clipping plane)
+/// @param pos lower left corner of the part
+/// @param size width and height of the part; nothing for the whole picture
+/// @return depth 32-bit floats
+/// @return resolution of the sensor
+#[api("sim.getVisionSensorDepth")]
+fn get_vision_sensor_depth(
+    cx: &Cx,
+    sensor_handle: Handle,
+    #[default(0)] options: Number,
+    #[default([0.0; 2])] pos: [f64; 2],
+    #[default([0.0; 2])] size: [f64; 2],
+) -> Result<(Bytes, IntPair)> {
+    let scene = cx.scene();
+    let sensor = scene.object(sensor_handle)?.vision_sensor()?;
+    let depth = sensor.depth_part(area(sensor, pos, size)?, options.0 & option::METRES != 0);
+    Ok((Bytes(packed(&depth)), IntPair(sensor.view.resolution.map(i64::from))))
+}
+
+/// 32-bit floats as bytes.
+pub(in crate::api) fn packed(values: &[f32]) -> Vec<u8> {
+    values.iter().flat_map(|value| value.to_le_bytes()).collect()
+}
+
+/// 32-bit floats from bytes.
+pub(in crate::api) fn unpacked(bytes: &[u8]) -> Vec<f32> {
+    bytes.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect()
+}
+
+/// Replaces the image of a vision sensor, or a part of it, and calls the sensor's scripts (`sysCall_vision`).
+///
+/// @param sensorHandle the sensor
+/// @param image red, green, blue of each pixel, from the lowest row
+/// @param options 1: a byte of grey per pixel; 2: depths instead, as 32-bit floats from 0 (near) to 1 (far); 4: scripts are not called
+/// @param pos lower left corner of the part
+/// @param size width and height of the part; nothing for the whole image
+#[api("sim.setVisionSensorImg")]
+fn set_vision_sensor_img(
+    cx: &mut Cx,
+    sensor_handle: Handle,
+    image: Bytes,
+    #[default(0)] options: Number,
+    #[default([0.0; 2])] pos: [f64; 2],
+    #[default([0.0; 2])] size: [f64; 2],
+) -> Result<()> {
+    let part = area(cx.scene().object(sensor_handle)?.vision_sensor()?, pos, size)?;
+    let has = |bit: i64| options.0 & bit != 0;
+    cx.change_picture(sensor_handle, |sensor| match has(option::DEPTH) {
+        true => image.0.len().is_multiple_of(4) && sensor.set_depth_part(part, &unpacked(&image.0)),
+        false => sensor.set_image_part(part, &image.0, has(option::GREY)),
+    })?;
+    if has(option::NO_CALLBACK) { Ok(()) } else { cx.evaluate_set_picture(sensor_handle) }
+}
+
+/// Resolution of a vision sensor.
+///
+/// @param sensorHandle the sensor
+/// @return resolution pixels along x and y
+#[api("sim.getVisionSensorRes")]
+fn get_vision_sensor_res(cx: &Cx, sensor_handle: Handle) -> Result<Vec<i64>> {
+    Ok(cx.scene().object(sensor_handle)?.vision_sensor()?.view.resolution.map(i64::from).to_vec())
+}

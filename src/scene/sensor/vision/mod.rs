@@ -1,0 +1,70 @@
+//! Vision sensors: their settings, the picture they hold, and the results of their last handling.
+
+pub mod picture;
+pub mod statistics;
+
+use super::{Entity, View};
+
+pub use picture::Area;
+
+/// How a vision sensor makes its image (`sim.visionintparam_render_mode`). Scripts and files may choose modes that are not known here;
+/// they are stored as written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RenderMode(pub i64);
+
+impl RenderMode {
+    pub const OPENGL: Self = Self(0);
+    pub const EXTERNAL: Self = Self(5);
+    pub const OPENGL3: Self = Self(7);
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct VisionSensor {
+    pub view: View,
+    pub explicit: bool,
+    pub size: f64,
+    pub entity: Entity,
+    pub render_mode: RenderMode,
+    /// Colour of the image where no object is.
+    pub background: [f32; 3],
+    pub background_from_environment: bool,
+    /// The picture comes from scripts.
+    pub external_image: bool,
+    pub ignore_image: bool,
+    pub ignore_depth: bool,
+    /// The first packet of results is not computed.
+    pub omit_statistics: bool,
+    /// Red, green, blue of each pixel, from the lowest row; empty before there was a picture.
+    pub image: Vec<u8>,
+    /// Depth of each pixel, 0 near to 1 far; empty before there was a picture.
+    pub depth: Vec<f32>,
+    /// The results of the last handling.
+    pub reading: Option<VisionReading>,
+}
+
+/// What a vision sensor reports about a picture (spec: sensors 3).
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct VisionReading {
+    /// A script has found what it looks for.
+    pub triggered: bool,
+    /// Statistics of the picture, then what scripts computed from it.
+    pub packets: Vec<Vec<f32>>,
+}
+
+impl VisionSensor {
+    /// How many pixels a picture has.
+    pub fn pixels(&self) -> usize {
+        self.view.resolution.iter().map(|&side| side as usize).product()
+    }
+
+    /// How many bytes a picture has.
+    pub fn image_len(&self) -> usize {
+        self.pixels() * 3
+    }
+
+    /// Changes the resolution and drops the image.
+    pub fn set_resolution(&mut self, resolution: [i64; 2]) {
+        self.view.set_resolution(resolution);
+        (self.image, self.depth) = (Vec::new(), Vec::new());
+    }
+}

@@ -1,0 +1,74 @@
+//! Vision sensors: their pictures, and the scripts that look at them. Read a picture with `Cx::scene` and the methods of `VisionSensor`.
+
+use super::Cx;
+use crate::scene::sensor::VisionSensor;
+use crate::scene::{Field, Handle, SceneError};
+use crate::script::error::{ApiError, ApiResult};
+
+impl Cx<'_> {
+    /// Whether the scripts of a sensor are looking at its picture now (`sysCall_vision`).
+    #[allow(dead_code, reason = "for modules that process images")]
+    pub(crate) fn vision_callback_runs(&self, sensor: Handle) -> bool {
+        self.sim.vision_callback_runs(sensor)
+    }
+
+    /// Replaces the image of a sensor (red, green, blue of each pixel, from the lowest row), then calls its scripts, unless they are
+    /// looking at its picture already.
+    ///
+    /// # Errors
+    /// When `sensor` is no vision sensor, or there are not as many bytes as its resolution needs.
+    #[allow(dead_code, reason = "for modules that process images")]
+    pub(crate) fn set_vision_image(&mut self, sensor: Handle, image: Vec<u8>) -> ApiResult<()> {
+        self.change_picture(sensor, |sensor| {
+            let fits = image.len() == sensor.image_len();
+            if fits {
+                sensor.image = image;
+            }
+            fits
+        })?;
+        self.evaluate_set_picture(sensor)
+    }
+
+    /// Replaces the depths of a sensor (0 near to 1 far, from the lowest row). Its scripts are not called.
+    ///
+    /// # Errors
+    /// When `sensor` is no vision sensor, or there are not as many depths as its resolution needs.
+    #[allow(dead_code, reason = "for modules that process images")]
+    pub(crate) fn set_vision_depth(&mut self, sensor: Handle, depth: Vec<f32>) -> ApiResult<()> {
+        self.change_picture(sensor, |sensor| {
+            let fits = depth.len() == sensor.pixels();
+            if fits {
+                sensor.depth = depth;
+            }
+            fits
+        })
+    }
+
+    /// Changes the picture of a sensor; `change` returns false when it was passed the wrong number of values.
+    ///
+    /// # Errors
+    /// Then, and when `sensor` is no vision sensor.
+    pub(crate) fn change_picture(
+        &mut self,
+        sensor: Handle,
+        change: impl FnOnce(&mut VisionSensor) -> bool,
+    ) -> ApiResult<()> {
+        let refused = || SceneError::Refused("incorrect buffer size.".into());
+        Ok(self.scene_mut().try_modify(sensor, Field::Measured, |object| {
+            if change(object.vision_sensor_mut()?) { Ok(()) } else { Err(refused()) }
+        })?)
+    }
+
+    /// Calls the scripts of a sensor for a picture that was set, unless they are looking at its picture already.
+    ///
+    /// # Errors
+    /// When `sensor` is no vision sensor.
+    pub(crate) fn evaluate_set_picture(&mut self, sensor: Handle) -> ApiResult<()> {
+        self.sim.evaluate_set_picture(sensor).map_err(ApiError::Scene)
+    }
+
+    /// Forgets the results of a sensor.
+    pub(crate) fn reset_vision_sensor(&mut self, sensor: Handle) {
+        self.sim.store_reading(sensor, None);
+    }
+}

@@ -1,0 +1,117 @@
+//! What scripts make of the pictures of vision sensors: `sysCall_vision` and `sysCall_trigger` (spec: sensors 3).
+
+use std::rc::Rc;
+
+use super::callback::SysCall;
+use crate::scene::sensor::VisionReading;
+use crate::scene::{Data, Field, Handle, SceneResult};
+use crate::script::lifecycle::instance::Script;
+use crate::script::sim::Sim;
+
+impl Sim {
+    /// Whether scripts of a sensor are looking at its picture now. They are not called again before they have finished.
+    pub(crate) fn vision_callback_runs(&self, sensor: Handle) -> bool {
+        self.scripts.examined_sensors.borrow().contains(&sensor)
+    }
+
+    /// Evaluates a picture that was set by a script, unless the scripts of the sensor are doing so already. That a script found something is
+    /// not kept: only pictures of the scene trigger.
+    ///
+    /// # Errors
+    /// When `sensor` is no vision sensor.
+    pub(crate) fn evaluate_set_picture(self: &Rc<Self>, sensor: Handle) -> SceneResult<()> {
+        if self.vision_callback_runs(sensor) {
+            return Ok(());
+        }
+        let packet = self.scene.borrow().object(sensor)?.vision_sensor()?.first_packet();
+        let reading = VisionReading { triggered: false, ..self.evaluate_picture(sensor, packet)? };
+        self.store_reading(sensor, Some(reading));
+        Ok(())
+    }
+
+    /// What the scripts of a sensor find in its picture. `first`: what the simulator reports about it.
+    ///
+    /// # Errors
+    /// When `sensor` is no vision sensor.
+    pub(crate) fn evaluate_picture(self: &Rc<Self>, sensor: Handle, first: Vec<f32>) -> SceneResult<VisionReading> {
+        let mut reading = VisionReading { triggered: false, packets: vec![first] };
+        if !self.scripts.may_respond_to_any(&[SysCall::Vision, SysCall::Trigger]) {
+            return Ok(reading);
+        }
+        let (scripts, picture) = (self.sensor_scripts(sensor), self.picture_data(sensor)?);
+        if self.scripts.examined_sensors.borrow_mut().insert(sensor) {
+            self.collect_findings(&scripts, &picture, &mut reading);
+            self.scripts.examined_sensors.borrow_mut().remove(&sensor);
+        }
+        if reading.triggered {
+            self.trigger_vision(&scripts, sensor, &mut reading);
+        }
+        Ok(reading)
+    }
+
+    /// Stores the results of a sensor, or removes them. A sensor that its scripts have removed has none.
+    pub(crate) fn store_reading(&self, sensor: Handle, reading: Option<VisionReading>) {
+        let mut scene = self.scene.borrow_mut();
+        let _ = scene.try_modify(sensor, Field::Measured, |object| {
+            object.vision_sensor_mut()?.reading = reading;
+            Ok(())
+        });
+    }
+
+    fn collect_findings(self: &Rc<Self>, scripts: &[Rc<Script>], picture: &Data, reading: &mut VisionReading) {
+        for script in scripts {
+            let Some(found) = self.deliver(script, SysCall::Vision, std::slice::from_ref(picture)).value else {
+                continue;
+            };
+            if let Some(&Data::Bool(triggered)) = found.field("trigger") {
+                reading.triggered = triggered;
+            }
+            if let Some(Data::Array(packets)) = found.field("packedPackets") {
+                reading.packets.extend(packets.iter().filter_map(unpack));
+            }
+        }
+    }
+
+    /// Notifies the scripts of what was found; they may decide otherwise.
+    fn trigger_vision(self: &Rc<Self>, scripts: &[Rc<Script>], sensor: Handle, reading: &mut VisionReading) {
+        let packets: Vec<Data> = reading.packets.iter().map(|packet| pack(packet)).collect();
+        let data = Data::map([
+            ("handle", sensor.raw().into()),
+            ("visionSensor", sensor.raw().into()),
+            ("packedPackets", packets.into()),
+        ]);
+        for script in scripts {
+            let answer = self.deliver(script, SysCall::Trigger, std::slice::from_ref(&data)).value;
+            if let Some(&Data::Bool(triggered)) = answer.as_ref().and_then(|answer| answer.field("trigger")) {
+                reading.triggered = triggered;
+            }
+        }
+    }
+
+    /// The argument of `sysCall_vision`.
+    fn picture_data(&self, sensor: Handle) -> SceneResult<Data> {
+        let scene = self.scene.borrow();
+        let view = &scene.object(sensor)?.vision_sensor()?.view;
+        Ok(Data::map([
+            ("handle", sensor.raw().into()),
+            ("visionSensor", sensor.raw().into()),
+            ("resolution", view.resolution.map(i64::from).into()),
+            ("clippingPlanes", view.clipping.into()),
+            ("viewAngle", view.angle.into()),
+            ("orthoSize", view.ortho_size.into()),
+            ("perspectiveOperation", view.perspective.into()),
+        ]))
+    }
+}
+
+/// A packet of numbers as scripts exchange it: 32-bit floats in a buffer.
+fn pack(packet: &[f32]) -> Data {
+    Data::Buffer(packet.iter().flat_map(|value| value.to_le_bytes()).collect())
+}
+
+/// The numbers in a string or buffer of 32-bit floats; None for other values.
+fn unpack(packet: &Data) -> Option<Vec<f32>> {
+    let (Data::Text(bytes) | Data::Buffer(bytes)) = packet else { return None };
+    let numbers = bytes.chunks_exact(4).map(|bytes| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
+    Some(numbers.collect())
+}
