@@ -1,0 +1,147 @@
+//! The distance between two geometries.
+//!
+//! Both trees are descended together, the pair of nodes with the smallest lower bound first (S. Quinlan, *Efficient distance computation
+//! between non-convex objects*, 1994).
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use nalgebra::Point3;
+
+use crate::items::{Compare, Items};
+use crate::node_pair::{NodePairs, Side};
+use crate::placed::{Geometry, Placed, Transform};
+use crate::points::ORIGIN;
+use crate::primitive::Pair;
+
+/// The closest points of two geometries.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Closest {
+    /// On the first and on the second geometry, in the world.
+    pub points: [[f64; 3]; 2],
+    /// Between the points (m); 0 where the geometries intersect, and the points are one then.
+    pub distance: f64,
+}
+
+/// The distance between two geometries where it is smaller than `below` (m, may be infinite).
+///
+/// Meshes are surfaces: what is inside of a closed one has a distance to it. Voxels are solid. `None` where nothing is that close, and
+/// where a pose or `below` is not a number.
+pub fn distance(a: Placed, b: Placed, below: f64) -> Option<Closest> {
+    if rank(&a.geometry) > rank(&b.geometry) {
+        let Closest { points: [of_b, of_a], distance } = distance(b, a, below)?;
+        return Some(Closest { points: [of_a, of_b], distance });
+    }
+    let place = a.relative(&b.pose)?;
+    let (p, q, squared) = closest(a.geometry, b.geometry, &place, below)?;
+    let world = |p| a.pose.transform_point(&Point3::from(p)).coords.into();
+    Some(Closest { points: [world(p), world(q)], distance: squared.sqrt() })
+}
+
+/// Pairs of kinds are compared in one order only.
+fn rank(geometry: &Geometry) -> usize {
+    match geometry {
+        Geometry::Mesh(_) => 0,
+        Geometry::Voxels(_) => 1,
+        Geometry::Points(_) | Geometry::Point => 2,
+    }
+}
+
+fn closest(a: Geometry, b: Geometry, place: &Transform, below: f64) -> Option<Pair> {
+    match (a, b) {
+        (Geometry::Point, b) => closest(Geometry::Points(&ORIGIN), b, place, below),
+        (a, Geometry::Point) => closest(a, Geometry::Points(&ORIGIN), place, below),
+        (Geometry::Mesh(a), Geometry::Mesh(b)) => closest_items(a, b, place, below),
+        (Geometry::Mesh(a), Geometry::Voxels(b)) => closest_items(a, b, place, below),
+        (Geometry::Mesh(a), Geometry::Points(b)) => closest_items(a, b, place, below),
+        (Geometry::Voxels(a), Geometry::Voxels(b)) => closest_items(a, b, place, below),
+        (Geometry::Voxels(a), Geometry::Points(b)) => closest_items(a, b, place, below),
+        (Geometry::Points(a), Geometry::Points(b)) => closest_items(a, b, place, below),
+        _ => None,
+    }
+}
+
+/// Two nodes and the square of a lower bound of their distance.
+struct Candidate {
+    bound: f64,
+    nodes: [u32; 2],
+}
+
+impl Ord for Candidate {
+    /// The smallest bound is the greatest candidate; equal ones are in the order of the nodes.
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.bound.total_cmp(&self.bound).then_with(|| other.nodes.cmp(&self.nodes))
+    }
+}
+
+impl PartialOrd for Candidate {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Candidate {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Candidate {}
+
+fn closest_items<A, B>(a: &A, b: &B, place: &Transform, below: f64) -> Option<Pair>
+where
+    A: Items,
+    B: Items,
+    A::Item: Compare<B::Item>,
+{
+    let pairs = NodePairs::new(a.tree(), b.tree(), place);
+    let mut limit = if below > 0.0 { below * below } else { return None };
+    let mut best = None;
+    let mut open = BinaryHeap::new();
+    let visit = |open: &mut BinaryHeap<Candidate>, nodes, limit| {
+        let bound = pairs.distance_squared(nodes);
+        if bound < limit {
+            open.push(Candidate { bound, nodes });
+        }
+    };
+    visit(&mut open, [0, 0], limit);
+    while let Some(Candidate { bound, nodes }) = open.pop() {
+        if bound >= limit {
+            break;
+        }
+        match pairs.larger(nodes) {
+            Some(Side::A(children)) => {
+                children.into_iter().for_each(|child| visit(&mut open, [child, nodes[1]], limit))
+            }
+            Some(Side::B(children)) => {
+                children.into_iter().for_each(|child| visit(&mut open, [nodes[0], child], limit))
+            }
+            None => {
+                let found = closest_in_leaves(a, b, nodes, place);
+                if found.2 < limit {
+                    (limit, best) = (found.2, Some(found));
+                }
+            }
+        }
+    }
+    best
+}
+
+/// The closest pair of the things in two leaves.
+fn closest_in_leaves<A, B>(a: &A, b: &B, [leaf_a, leaf_b]: [u32; 2], place: &Transform) -> Pair
+where
+    A: Items,
+    B: Items,
+    A::Item: Compare<B::Item>,
+{
+    let [items_a, items_b] = [a.tree().nodes[leaf_a as usize].items(), b.tree().nodes[leaf_b as usize].items()];
+    let mut best = (Default::default(), Default::default(), f64::INFINITY);
+    for j in items_b {
+        let other = b.item(j);
+        for i in items_a.clone() {
+            let found = a.item(i).closest(&other, place);
+            best = crate::primitive::nearer(best, found);
+        }
+    }
+    best
+}

@@ -1,0 +1,210 @@
+//! The nearest point of a geometry inside a volume.
+
+use geometry::Pose;
+
+use crate::bounds::Bounds;
+use crate::placed::{Geometry, Placed, Transform};
+use crate::points::{ORIGIN, PointSet};
+use crate::primitive::{Vector, clip, closest_on_segment};
+use crate::ray::{Filter, Hit};
+use crate::tree::{STACK, Tree};
+
+/// A union of convex pieces in the sensor's frame.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Volume {
+    /// Each piece is where `n.p + d <= 0` for all of its planes `[nx, ny, nz, d]`. A piece without planes is everything.
+    pub pieces: Vec<Vec<[f64; 4]>>,
+}
+
+/// The point of a geometry inside the volume that is nearest to the sensor's origin, where it is nearer than `below` (m, may be infinite).
+///
+/// Triangles and the faces of voxels are cut by the planes of the volume, so that the point need not be the nearest one of a triangle.
+/// A triangle whose nearest point is outside of the angle limit of `filter` is not seen. `None` without such a point, and for poses, planes
+/// and limits that are not numbers.
+pub fn closest_in_volume(on: Placed, sensor: &Pose, volume: &Volume, below: f64, filter: &Filter) -> Option<Hit> {
+    let place = on.relative(sensor)?;
+    let limit = if below > 0.0 { below * below } else { return None };
+    let mut search = Search::new(&place, limit, filter);
+    for piece in &volume.pieces {
+        search.enter(piece, &place)?;
+        match on.geometry {
+            Geometry::Mesh(mesh) => search.descend(&mesh.tree, |search, i| search.face(&mesh.triangles[i])),
+            Geometry::Voxels(grid) => search.descend(&grid.tree, |search, i| search.cell(&grid.cells[i], grid.half)),
+            Geometry::Points(points) => search.points(points),
+            Geometry::Point => search.points(&ORIGIN),
+        }
+        if search.is_done() {
+            break;
+        }
+    }
+    let (point, normal) = search.found?;
+    let back = place.inverse();
+    let (point, distance) = (back.point(&point), search.limit.sqrt());
+    Some(Hit { point: point.into(), normal: (back.rotation * normal).into(), distance })
+}
+
+/// A plane in the frame of the geometry: inside is where the height is not positive.
+#[derive(Debug, Clone, Copy)]
+struct Plane {
+    normal: Vector,
+    offset: f64,
+}
+
+impl Plane {
+    #[inline]
+    fn height(&self, p: &Vector) -> f64 {
+        self.normal.dot(p) + self.offset
+    }
+
+    /// The lowest and the highest point of a box.
+    #[inline]
+    fn heights(&self, bounds: &Bounds) -> [f64; 2] {
+        let middle = self.height(&Vector::from(bounds.centre()));
+        let reach = self.normal.abs().dot(&Vector::from(bounds.half_size()));
+        [middle - reach, middle + reach]
+    }
+}
+
+/// The search in one piece after the other, in the frame of the geometry.
+struct Search<'a> {
+    origin: Vector,
+    filter: &'a Filter,
+    /// Cosine of the angle limit.
+    least: f64,
+    piece: Vec<Plane>,
+    /// Square of the distance that a point must be nearer than.
+    limit: f64,
+    found: Option<(Vector, Vector)>,
+    /// A polygon before and after a cut.
+    polygons: [Vec<Vector>; 2],
+}
+
+impl<'a> Search<'a> {
+    fn new(place: &Transform, limit: f64, filter: &'a Filter) -> Self {
+        let least = filter.max_angle.map_or(0.0, f64::cos);
+        let polygons = [Vec::new(), Vec::new()];
+        Self { origin: place.translation, filter, least, piece: Vec::new(), limit, found: None, polygons }
+    }
+
+    /// Brings the planes of a piece to the frame of the geometry; `None` if one is not finite.
+    fn enter(&mut self, piece: &[[f64; 4]], place: &Transform) -> Option<()> {
+        self.piece.clear();
+        for plane @ [x, y, z, d] in piece {
+            let normal = place.rotation * Vector::new(*x, *y, *z);
+            self.piece.push(Plane { normal, offset: d - normal.dot(&place.translation) });
+            plane.iter().all(|x| x.is_finite()).then_some(())?;
+        }
+        Some(())
+    }
+
+    fn is_done(&self) -> bool {
+        self.filter.any && self.found.is_some()
+    }
+
+    /// The square of the distance of a box's nearest point; infinity where the box is outside of the piece.
+    #[inline]
+    fn bound(&self, bounds: &Bounds) -> f64 {
+        let squared = bounds.distance_squared_to_point(&self.origin.into());
+        let is_outside = squared < self.limit && self.piece.iter().any(|plane| plane.heights(bounds)[0] > 0.0);
+        if is_outside { f64::INFINITY } else { squared }
+    }
+
+    /// Visits the leaves that reach into the piece, near ones first.
+    fn descend(&mut self, tree: &Tree, mut visit: impl FnMut(&mut Self, usize)) {
+        let mut waiting = [(0.0, 0); STACK];
+        let mut depth = 1;
+        waiting[0] = (self.bound(&tree.bounds()), 0);
+        while depth > 0 && !self.is_done() {
+            depth -= 1;
+            let (bound, node) = waiting[depth];
+            if bound >= self.limit {
+                continue;
+            }
+            let node = &tree.nodes[node as usize];
+            if node.is_leaf() {
+                node.items().for_each(|i| visit(self, i));
+                continue;
+            }
+            let [a, b] = tree.children(node).map(|child| (self.bound(&tree.nodes[child as usize].bounds), child));
+            // The nearer one is on top.
+            (waiting[depth], waiting[depth + 1]) = if a.0 <= b.0 { (b, a) } else { (a, b) };
+            depth += 2;
+        }
+    }
+
+    /// Looks at a flat convex polygon.
+    fn face(&mut self, corners: &[Vector]) {
+        let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
+        let side = (self.origin - corners[0]).dot(&normal);
+        if !(side >= 0.0 && self.filter.front || side <= 0.0 && self.filter.back) {
+            return;
+        }
+        let nearest = closest_on_polygon(&self.origin, corners, &normal);
+        if (nearest - self.origin).norm_squared() >= self.limit {
+            return;
+        }
+        if self.piece.iter().all(|plane| plane.height(&nearest) <= 0.0) {
+            return self.offer(nearest, &normal);
+        }
+        let [mut polygon, mut cut] = std::mem::take(&mut self.polygons);
+        polygon.clear();
+        polygon.extend_from_slice(corners);
+        for plane in &self.piece {
+            clip(&polygon, |p| plane.height(p), &mut cut);
+            std::mem::swap(&mut polygon, &mut cut);
+        }
+        if !polygon.is_empty() {
+            self.offer(closest_on_polygon(&self.origin, &polygon, &normal), &normal);
+        }
+        self.polygons = [polygon, cut];
+    }
+
+    /// Looks at the six faces of a cell.
+    fn cell(&mut self, centre: &Vector, half: f64) {
+        for axis in 0..3 {
+            for side in [half, -half] {
+                let (out, u) = (Vector::ith(axis, side), Vector::ith((axis + 1) % 3, half));
+                let v = Vector::ith((axis + 2) % 3, side);
+                let middle = centre + out;
+                self.face(&[middle - u - v, middle + u - v, middle + u + v, middle - u + v]);
+            }
+        }
+    }
+
+    fn points(&mut self, points: &PointSet) {
+        self.descend(&points.tree, |search, i| {
+            let point = points.points[i];
+            if search.piece.iter().all(|plane| plane.height(&point) <= 0.0) {
+                let normal = point - search.origin;
+                search.offer(point, &normal);
+            }
+        });
+    }
+
+    /// Keeps a point if it is the nearest one so far and seen at an angle that is allowed.
+    fn offer(&mut self, point: Vector, normal: &Vector) {
+        let sight = point - self.origin;
+        let (squared, normal) = (sight.norm_squared(), normal.try_normalize(0.0).unwrap_or_default());
+        if squared < self.limit && (self.least == 0.0 || normal.dot(&sight).abs() >= self.least * squared.sqrt()) {
+            (self.limit, self.found) = (squared, Some((point, normal)));
+        }
+    }
+}
+
+/// The point of a flat convex polygon that is closest to `p`.
+fn closest_on_polygon(p: &Vector, corners: &[Vector], normal: &Vector) -> Vector {
+    let edges = || corners.iter().zip(corners[1..].iter().chain(corners));
+    let is_over = edges().all(|(from, to)| (to - from).cross(&(p - from)).dot(normal) >= 0.0);
+    if is_over {
+        return p - normal * ((p - corners[0]).dot(normal) / normal.norm_squared());
+    }
+    let mut best = (f64::INFINITY, corners[0]);
+    for (from, to) in edges() {
+        let point = closest_on_segment(p, from, to);
+        let squared = (point - p).norm_squared();
+        if squared < best.0 {
+            best = (squared, point);
+        }
+    }
+    best.1
+}
