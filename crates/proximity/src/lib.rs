@@ -9,6 +9,7 @@
 //! | the nearest point in the volume of a sensor | [`closest_in_volume`] |
 //! | distance and closest points of two geometries | [`distance()`] |
 //! | whether they intersect, and along which segments | [`intersects`], [`intersection_segments`] |
+//! | an index over many objects that move | [`BoundsTree`] |
 //! | single boxes, triangles, segments | [`primitive`] |
 //!
 //! # Semantics
@@ -34,6 +35,7 @@
 //! ```
 
 mod bounds;
+mod bounds_tree;
 mod collision;
 mod distance;
 mod items;
@@ -51,6 +53,7 @@ mod voxels;
 mod tests;
 
 pub use bounds::Bounds;
+pub use bounds_tree::BoundsTree;
 pub use collision::{intersection_segments, intersects};
 pub use distance::{Closest, distance};
 pub use mesh::TriangleMesh;

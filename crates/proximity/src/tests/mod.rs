@@ -1,6 +1,8 @@
 //! Queries against closed forms and against plain loops.
 
+mod bounds_tree;
 mod closed_forms;
+mod random;
 
 use geometry::primitive::tessellate;
 use geometry::{Pose, PrimitiveKind};
