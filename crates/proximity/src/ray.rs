@@ -46,7 +46,8 @@ pub struct Hit {
 /// an edge that two triangles share meets at least one of them. `None` without a hit, and for poses, directions and ranges that are not numbers.
 pub fn cast_ray(on: Placed, sensor: &Pose, direction: [f64; 3], range: [f64; 2], filter: &Filter) -> Option<Hit> {
     let direction = Vector::from(direction);
-    let unit = direction.iter().all(|x| x.is_finite()).then(|| (direction / direction.amax()).try_normalize(0.0))??;
+    let is_direction = direction.iter().all(|x| x.is_finite()) && direction.amax() > 0.0;
+    let unit = is_direction.then(|| (direction / direction.amax()).normalize())?;
     let place = on.relative(sensor)?;
     let ray = Ray::new(place.translation, place.rotation * unit);
     let (distance, normal) = match on.geometry {

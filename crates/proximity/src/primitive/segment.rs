@@ -3,7 +3,7 @@
 use super::{Pair, Vector, nearer, pair};
 
 /// Below this sine squared between two segments, their ends are compared too, since rounding decides where the lines are closest.
-const NEARLY_PARALLEL: f64 = 1e-10;
+const NEARLY_PARALLEL: f64 = 1e-20;
 
 /// The point of the segment from `a` to `b` that is closest to `p`.
 #[inline]
@@ -29,8 +29,10 @@ pub fn closest_on_segments(a: [&Vector; 2], b: [&Vector; 2]) -> Pair {
     if uu == 0.0 || vv == 0.0 {
         return closest_of_ends(a, b);
     }
-    let sine = uu * vv - uv * uv;
-    let free = if sine > 0.0 { ((uv * vw - uw * vv) / sine).clamp(0.0, 1.0) } else { 0.0 };
+    // Products of vectors lose less than differences of products of numbers.
+    let across = u.cross(&v);
+    let sine = across.norm_squared();
+    let free = if sine > 0.0 { (v.cross(&w).dot(&across) / sine).clamp(0.0, 1.0) } else { 0.0 };
     let t = (uv * free + vw) / vv;
     let (s, t) = if t < 0.0 {
         ((-uw / uu).clamp(0.0, 1.0), 0.0)

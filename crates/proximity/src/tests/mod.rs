@@ -1,6 +1,7 @@
 //! Queries against closed forms and against plain loops.
 
 mod bounds_tree;
+mod brute_force;
 mod closed_forms;
 mod random;
 
