@@ -1,4 +1,4 @@
-//! The numbers of the specification, and what follows from geometry (spec: sensors 9, simGeom 8).
+//! The numbers of the specification, and what follows from geometry (spec: sensors 1.2, sensors 2).
 
 use std::f64::consts::PI;
 
