@@ -18,6 +18,7 @@ pub(crate) mod wire;
 pub use format::scene_file::SceneFile;
 /// What Lua modules in Rust are written with, see [`Simulator::builder`].
 pub use mlua;
+pub use perception::vision::{Channels, Picture};
 pub use permissions::{Denied, HostRule, Permissions};
 pub use script::{Console, Limits, LogLine, Options, Silent, SimulationState};
 pub use simulator::{Builder, Error, Onlooker, RunLimits, RunTotals, ScriptKind, ScriptRef, Simulator};

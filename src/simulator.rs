@@ -5,6 +5,7 @@ mod builder;
 mod journal_tests;
 #[cfg(test)]
 mod language_tests;
+mod picture;
 mod run;
 
 use std::cell::{Ref, RefMut};

@@ -11,6 +11,7 @@ mod files;
 mod init;
 mod inspect;
 mod remote;
+mod render;
 mod run;
 mod serve;
 mod session;
@@ -41,6 +42,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(run::Args),
+    Render(render::Args),
     Serve(serve::Args),
     Test(test::Args),
     Batch(batch::Args),
@@ -87,6 +89,7 @@ impl Command {
     fn execute(self) -> ExitCode {
         match self {
             Self::Run(args) => run::run(&args),
+            Self::Render(args) => render::render(&args),
             Self::Serve(args) => serve::serve(&args),
             Self::Test(args) => test::test(&args),
             Self::Batch(args) => batch::batch(&args),

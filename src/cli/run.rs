@@ -43,8 +43,9 @@ pub(super) struct Args {
     setup: Setup,
 }
 
+/// Script type of a Lua file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum Kind {
+pub(super) enum Kind {
     Customization,
     Simulation,
     Addon,

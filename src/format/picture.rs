@@ -43,6 +43,19 @@ pub(crate) struct Picture {
     bytes: Vec<u8>,
 }
 
+/// A PNG file with 16 bits of grey per pixel, the top row first.
+///
+/// # Errors
+/// When there are not as many values as the resolution says.
+pub(crate) fn grey_16_bit_png(values: Vec<u16>, [width, height]: [u32; 2]) -> Result<Vec<u8>, PictureError> {
+    let (found, expected) = (2 * values.len(), 2 * width as usize * height as usize);
+    let picture = image::ImageBuffer::<image::Luma<u16>, _>::from_raw(width, height, values)
+        .ok_or(PictureError::Length { found, expected })?;
+    let mut file = Cursor::new(Vec::new());
+    picture.write_to(&mut file, ImageFormat::Png)?;
+    Ok(file.into_inner())
+}
+
 impl Picture {
     /// # Errors
     /// When the resolution is impossible, or the bytes do not fit it.

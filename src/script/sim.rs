@@ -3,6 +3,7 @@
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::net::{IpAddr, Ipv4Addr};
+use std::num::NonZero;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -52,6 +53,8 @@ pub struct Options {
     pub limits: Option<Limits>,
     /// Whether to count the lines of scripts that run. Scripts are slower meanwhile.
     pub count_lines: bool,
+    /// Threads that draw pictures; None for as many as there are processor cores. Pictures do not depend on it.
+    pub render_threads: Option<NonZero<usize>>,
     /// The address on which servers of scripts listen.
     pub listen_address: IpAddr,
     /// Origins of web pages that may use the remote API, besides those of this machine; `*` for all.
@@ -71,6 +74,7 @@ impl Default for Options {
             stop: Arc::default(),
             limits: None,
             count_lines: false,
+            render_threads: None,
             listen_address: Ipv4Addr::LOCALHOST.into(),
             web_origins: Vec::new(),
         }
@@ -115,7 +119,9 @@ impl Sim {
         console: Box<dyn Console>,
         languages: Languages,
     ) -> Rc<Self> {
+        let perception = RefCell::new(Perception::new(options.render_threads));
         Rc::new(Self {
+            perception,
             log: Log::new(console, options.verbosity),
             app: RefCell::new(AppData::new(&options)),
             scripts: ScriptSet::new(languages, options.limits.map_or(usize::MAX, |limits| limits.memory)),
@@ -124,7 +130,6 @@ impl Sim {
             scene: RefCell::new(Scene::new()),
             clock: Clock::new(),
             dynamics: RefCell::new(Some(Dynamics::default())),
-            perception: RefCell::default(),
             removals: Removals::default(),
             signal_owners: RefCell::default(),
             event_loop: SharedEventLoop::default(),

@@ -21,7 +21,7 @@ fn handle_proximity_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<i64> {
     Ok(0)
 }
 
-pub(in crate::api) fn warn_if_any(cx: &Cx, what: &str, is: impl Fn(&Kind) -> bool) {
+fn warn_if_any(cx: &Cx, what: &str, is: impl Fn(&Kind) -> bool) {
     if cx.scene().has_sensors() && cx.scene().objects().any(|object| is(&object.kind)) {
         let text = format!("{what} measure nothing: not implemented in Swanilda.");
         cx.log(verbosity::WARNINGS | verbosity::ONCE, &text);

@@ -2,14 +2,15 @@
 
 use api_macro::api;
 
-use super::state::warn_if_any;
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::sensor::{Area, VisionReading, VisionSensor};
+use crate::scene::sensor::{Area, Entity, VisionSensor};
 use crate::scene::{Data, Handle, Kind, Object, SceneError, special};
 use crate::script::{Bytes, IntPair, Number, Results};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     handle_vision_sensor,
+    check_vision_sensor,
+    check_vision_sensor_ex,
     read_vision_sensor,
     reset_vision_sensor,
     get_vision_sensor_img,
@@ -27,15 +28,71 @@ mod option {
     pub const NO_CALLBACK: i64 = 4;
 }
 
-/// Handles vision sensors. They see nothing yet.
+/// Takes pictures with vision sensors and lets their scripts look at them (`sysCall_vision`). A sensor alone must be handled explicitly.
 ///
 /// @param sensorHandle a sensor, sim.handle_all or sim.handle_all_except_explicit
-/// @return result number of detections
+/// @return result, packets number of sensors that were triggered, and the packets of numbers of a single sensor, at least two
 #[api("sim.handleVisionSensor")]
-fn handle_vision_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<i64> {
-    let _ = sensor_handle;
-    warn_if_any(cx, "vision sensors", |kind| matches!(kind, Kind::VisionSensor(_)));
-    Ok(0)
+fn handle_vision_sensor(cx: &mut Cx, sensor_handle: Number) -> Result<Results> {
+    let (mut count, mut packets) = (0, Vec::new());
+    for sensor in sensors(cx, sensor_handle)? {
+        // The scripts of another sensor may have removed it.
+        if let Ok(reading) = cx.handle_vision_sensor(sensor) {
+            count += i64::from(reading.triggered);
+            packets = reading.packets;
+        }
+    }
+    if sensor_handle.0 < 0 {
+        packets.clear();
+    }
+    packets.resize(packets.len().max(2), Vec::new());
+    Ok(Results(results(count, &packets)))
+}
+
+/// Takes a picture of an entity with a vision sensor and lets its scripts look at it. The picture and the results of the sensor stay as
+/// they are.
+///
+/// @param sensorHandle the sensor
+/// @param entityHandle an object, which need not be renderable, a collection, or sim.handle_all
+/// @return result, packets 1: triggered, 0: not; then the packets of numbers, at least two
+#[api("sim.checkVisionSensor")]
+fn check_vision_sensor(cx: &mut Cx, sensor_handle: Handle, entity_handle: Number) -> Result<Results> {
+    let (reading, _) = cx.check_vision_sensor(sensor_handle, entity(cx, entity_handle)?)?;
+    let mut packets = reading.packets;
+    packets.resize(packets.len().max(2), Vec::new());
+    Ok(Results(results(reading.triggered.into(), &packets)))
+}
+
+/// The picture of an entity that a vision sensor takes. The picture and the results of the sensor stay as they are.
+///
+/// @param sensorHandle the sensor
+/// @param entityHandle an object, which need not be renderable, a collection, or sim.handle_all
+/// @param returnImage whether it is the image, otherwise the depths
+/// @return theBuffer numbers from 0 to 1: red, green, blue of each pixel, or its depth, from the lowest row
+#[api("sim.checkVisionSensorEx")]
+fn check_vision_sensor_ex(
+    cx: &mut Cx,
+    sensor_handle: Handle,
+    entity_handle: Number,
+    return_image: bool,
+) -> Result<Vec<f64>> {
+    let (_, sensor) = cx.check_vision_sensor(sensor_handle, entity(cx, entity_handle)?)?;
+    Ok(match return_image {
+        true => sensor.image().iter().map(|&level| f64::from(level) / 255.0).collect(),
+        false => sensor.depth().iter().map(|&depth| f64::from(depth)).collect(),
+    })
+}
+
+/// What a script wants to be seen.
+fn entity(cx: &Cx, handle: Number) -> Result<Entity> {
+    let scene = cx.scene();
+    let entity = Entity::from_raw(if handle.0 == special::ALL { Entity::ALL.raw() } else { handle.0 });
+    let known = match entity.object() {
+        _ if entity == Entity::ALL => true,
+        Some(object) => scene.exists(object),
+        None => scene.collections().get(entity.raw()).is_ok(),
+    };
+    if known { Ok(entity) } else { Err(ApiError::Other("entity does not exist.".into())) }
 }
 
 /// The results of the last handling: whether a script found what it looks for, and packets of numbers. The first packet has the smallest,
@@ -47,13 +104,15 @@ fn handle_vision_sensor(cx: &mut Cx, sensor_handle: i64) -> Result<i64> {
 fn read_vision_sensor(cx: &Cx, sensor_handle: Handle) -> Result<Results> {
     let scene = cx.scene();
     let reading = scene.object(sensor_handle)?.vision_sensor()?.reading.as_ref();
-    Ok(Results(reading.map_or_else(|| vec![Data::Int(-1)], results)))
+    Ok(Results(
+        reading.map_or_else(|| vec![Data::Int(-1)], |reading| results(reading.triggered.into(), &reading.packets)),
+    ))
 }
 
 /// Result and packets as scripts receive them.
-fn results(reading: &VisionReading) -> Vec<Data> {
-    let packets = reading.packets.iter().map(|packet| packet.iter().map(|&value| f64::from(value)).collect::<Vec<_>>());
-    std::iter::once(Data::Int(reading.triggered.into())).chain(packets.map(Data::from)).collect()
+fn results(result: i64, packets: &[Vec<f32>]) -> Vec<Data> {
+    let packets = packets.iter().map(|packet| packet.iter().map(|&value| f64::from(value)).collect::<Vec<_>>());
+    std::iter::once(Data::Int(result)).chain(packets.map(Data::from)).collect()
 }
 
 /// Clears the results of vision sensors.

@@ -1,4 +1,4 @@
-//! Colours of objects, as scripts read and write them (spec: shapes 8). Nothing is drawn.
+//! Colours of objects, as scripts read and write them (spec: shapes 8).
 
 use crate::scene::shape::{Appearance, Shape};
 use crate::scene::{Field, Handle, Kind, Object, Scene, SceneError, SceneResult};

@@ -1,8 +1,10 @@
-//! The environment of a scene: ambient light, fog, background. Stored for files; nothing is drawn.
+//! The environment of a scene: ambient light, fog, background.
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Environment {
     pub fog: Fog,
+    /// The light that comes from everywhere.
+    pub ambient_light: [f32; 3],
     /// Background colours, upper and lower; None if the file has none.
     pub background: Option<[[f32; 3]; 2]>,
     /// Bits of a file for what is shown: textures, emitters, receivers.
@@ -38,6 +40,7 @@ impl Default for Environment {
     fn default() -> Self {
         Self {
             fog: Fog::default(),
+            ambient_light: [0.4; 3],
             background: None,
             display: 0,
             triangle_sizes: [0.3, 0.02],

@@ -1,4 +1,4 @@
-//! Texture images. Stored for files and scripts; nothing is drawn.
+//! Texture images.
 
 use std::rc::Rc;
 

@@ -40,6 +40,7 @@ bitflags! {
     pub struct ModelFlags: i64 {
         const NOT_COLLIDABLE = 0x1;
         const NOT_MEASURABLE = 0x2;
+        const NOT_RENDERABLE = 0x4;
         const NOT_DETECTABLE = 0x8;
         const NOT_DYNAMIC = 0x20;
         const NOT_RESPONDABLE = 0x40;

@@ -101,6 +101,8 @@ impl VisionSensor {
             render_mode: RenderMode::OPENGL,
             background: [red, green, blue].map(|part| part as f32),
             background_from_environment: !options.contains(VisionOptions::OWN_BACKGROUND),
+            local_lights: options.contains(VisionOptions::LOCAL_LIGHTS),
+            ignore_fog: options.contains(VisionOptions::IGNORE_FOG),
             external_image: options.contains(VisionOptions::EXTERNAL_IMAGE),
             ignore_image: false,
             ignore_depth: false,

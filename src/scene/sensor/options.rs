@@ -27,6 +27,9 @@ bitflags! {
         const PERSPECTIVE = 0x2;
         const HIDE_FRUSTUM = 0x4;
         const EXTERNAL_IMAGE = 0x10;
+        /// Only lights that are attached to the sensor shine.
+        const LOCAL_LIGHTS = 0x20;
+        const IGNORE_FOG = 0x40;
         /// The background of its images is its own, not that of the scene.
         const OWN_BACKGROUND = 0x80;
         const _ = !0;

@@ -3,12 +3,70 @@
 use std::rc::Rc;
 
 use super::callback::SysCall;
-use crate::scene::sensor::VisionReading;
+use crate::scene::sensor::{Entity, VisionReading, VisionSensor};
 use crate::scene::{Data, Field, Handle, SceneResult};
 use crate::script::lifecycle::instance::Script;
 use crate::script::sim::Sim;
 
 impl Sim {
+    /// Takes a picture with a sensor and lets its scripts look at it. Where the pictures come from scripts, these are the results of the
+    /// last one.
+    ///
+    /// # Errors
+    /// When `sensor` is no vision sensor.
+    pub(crate) fn handle_vision_sensor(self: &Rc<Self>, sensor: Handle) -> SceneResult<VisionReading> {
+        let external = {
+            let scene = self.scene.borrow();
+            let sensor = scene.object(sensor)?.vision_sensor()?;
+            sensor.external_image.then(|| sensor.reading.clone().unwrap_or_default())
+        };
+        if let Some(reading) = external {
+            return Ok(reading);
+        }
+        let reading = self.take_picture(sensor, None)?;
+        self.store_reading(sensor, Some(reading.clone()));
+        Ok(reading)
+    }
+
+    /// The same with an entity of the caller's choice; the sensor is as before afterwards. Returns the picture too, as the scripts left it.
+    ///
+    /// # Errors
+    /// When `sensor` is no vision sensor.
+    pub(crate) fn check_vision_sensor(
+        self: &Rc<Self>,
+        sensor: Handle,
+        entity: Entity,
+    ) -> SceneResult<(VisionReading, VisionSensor)> {
+        let before = self.scene.borrow().object(sensor)?.vision_sensor()?.clone();
+        let reading = self.take_picture(sensor, Some(entity))?;
+        let mut scene = self.scene.borrow_mut();
+        let Ok(seen) = scene.object(sensor).and_then(|object| object.vision_sensor().cloned()) else {
+            // Its scripts have removed it: nothing was seen.
+            return Ok((reading, VisionSensor { image: Vec::new(), depth: Vec::new(), ..before }));
+        };
+        scene.try_modify(sensor, Field::Measured, |object| {
+            let sensor = object.vision_sensor_mut()?;
+            if sensor.view.resolution == before.view.resolution {
+                (sensor.image, sensor.depth) = (before.image, before.depth);
+            }
+            sensor.reading = before.reading;
+            Ok(())
+        })?;
+        Ok((reading, seen))
+    }
+
+    fn take_picture(self: &Rc<Self>, sensor: Handle, entity: Option<Entity>) -> SceneResult<VisionReading> {
+        let picture = self.perception.borrow_mut().vision.sensor_picture(&self.scene.borrow(), sensor, entity)?;
+        let first = self.scene.borrow_mut().try_modify(sensor, Field::Measured, |object| {
+            let sensor = object.vision_sensor_mut()?;
+            sensor.image = picture.image.unwrap_or_else(|| std::mem::take(&mut sensor.image));
+            sensor.depth = picture.depth.unwrap_or_else(|| std::mem::take(&mut sensor.depth));
+            let handles = |seen: Vec<Handle>| seen.into_iter().map(|handle| handle.0 as f32).collect();
+            Ok(picture.seen.map_or_else(|| sensor.first_packet(), handles))
+        })?;
+        self.evaluate_picture(sensor, first)
+    }
+
     /// Whether scripts of a sensor are looking at its picture now. They are not called again before they have finished.
     pub(crate) fn vision_callback_runs(&self, sensor: Handle) -> bool {
         self.scripts.examined_sensors.borrow().contains(&sensor)

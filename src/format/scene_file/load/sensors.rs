@@ -149,6 +149,8 @@ pub(super) fn vision_sensor(chunk: &file::VisionSensor) -> VisionSensor {
         },
         background: chunk.default_buffer.unwrap_or_default(),
         background_from_environment: third & 0x80 != 0,
+        local_lights: third & 0x40 != 0,
+        ignore_fog: third & 0x4 != 0,
         external_image: second & 1 != 0,
         ignore_image: second & 2 != 0,
         ignore_depth: second & 4 != 0,

@@ -6,7 +6,7 @@ use crate::format::ttt::chunks::{self, Dynamics, Simulation};
 use crate::format::ttt::{File, Text};
 use crate::scene::appearance::environment::{Environment, Fog, FogType};
 use crate::scene::parameters::engine::{Engine, SelectedEngine};
-use crate::scene::{Data, DynamicsSettings, Layers, Scene, SceneResult, Settings};
+use crate::scene::{DynamicsSettings, Layers, Scene, SceneResult, Settings};
 
 /// Simulation steps of the presets of old files, seconds; the next number means a step of one's own.
 const STEP_PRESETS: [f64; 5] = [0.2, 0.1, 0.05, 0.025, 0.01];
@@ -30,13 +30,6 @@ pub(super) fn apply(scene: &mut Scene, file: &File) -> SceneResult<()> {
             environment(settings, chunk);
         }
     });
-    if let Some(light) = contents.environment.as_ref().and_then(ambient_light) {
-        scene.set_inert_value(
-            None,
-            "ambientLight",
-            Data::Array(light.iter().map(|c| Data::Float((*c).into())).collect()),
-        )?;
-    }
     let mut data = std::mem::take(&mut scene.custom_data);
     custom_data::fill(
         &mut data,
@@ -110,6 +103,7 @@ fn environment(settings: &mut Settings, chunk: &chunks::Environment) {
     let [largest, relative] = usual.triangle_sizes;
     settings.environment = Environment {
         fog,
+        ambient_light: ambient_light(chunk).unwrap_or(usual.ambient_light),
         background: chunk.bg_up.map(|up| [up, chunk.bg_down.unwrap_or(up)]),
         display: switches & !(LOCKED | FOG),
         triangle_sizes: [chunk.max_tri_size.unwrap_or(largest), chunk.min_rel_tri.unwrap_or(relative)],

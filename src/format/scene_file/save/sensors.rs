@@ -83,8 +83,14 @@ fn volume(volume: &Volume, faces: VolumeFaces) -> file::Volume {
 
 pub(super) fn vision_sensor(context: &Context<'_>, sensor: &VisionSensor, colour: Colour) -> file::VisionSensor {
     let view = &sensor.view;
-    let third =
-        [(view.perspective, 0), (sensor.explicit, 1), (view.show_frustum, 4), (sensor.background_from_environment, 7)];
+    let third = [
+        (view.perspective, 0),
+        (sensor.explicit, 1),
+        (sensor.ignore_fog, 2),
+        (view.show_frustum, 4),
+        (sensor.local_lights, 6),
+        (sensor.background_from_environment, 7),
+    ];
     let second =
         [(sensor.external_image, 0), (sensor.ignore_image, 1), (sensor.ignore_depth, 2), (sensor.omit_statistics, 4)];
     file::VisionSensor {

@@ -6,7 +6,7 @@ use super::{Context, custom_data, shape};
 use crate::format::ttt::Counted;
 use crate::format::ttt::chunks::{Collection, CollectionElement, Dynamics, Environment, Page, Simulation, View, Views};
 use crate::format::ttt::tree::Contents;
-use crate::scene::{CollectionItem, Data, Kind, Members, Object, Scene, Settings};
+use crate::scene::{CollectionItem, Kind, Members, Object, Scene, Settings};
 
 /// The preset of the physics, and of the step, that means settings of one's own.
 const CUSTOM: i32 = 5;
@@ -73,11 +73,10 @@ fn dynamics(settings: &Settings) -> Dynamics {
 fn environment(scene: &Scene) -> Environment {
     let around = &scene.settings().environment;
     let (fog, [largest, relative]) = (&around.fog, around.triangle_sizes);
-    let ambient = scene.inert.get("ambientLight").and_then(three);
     Environment {
         active_layers: Some(scene.settings().visibility_layers.bits()),
-        old_ambient: ambient.map(|light| light.map(|c| c / 2.0)),
-        ambient,
+        old_ambient: Some(around.ambient_light.map(|c| c / 2.0)),
+        ambient: Some(around.ambient_light),
         acknowledgment: Some(scene.settings().acknowledgment.as_str().into()),
         max_tri_size: Some(largest),
         min_rel_tri: Some(relative),
@@ -90,12 +89,6 @@ fn environment(scene: &Scene) -> Environment {
         extension_string: Some(around.extension_string.as_str().into()),
         ..Environment::default()
     }
-}
-
-fn three(value: &Data) -> Option<[f32; 3]> {
-    let Data::Array(items) = value else { return None };
-    let numbers: Vec<f32> = items.iter().filter_map(|item| Some(item.as_f64()? as f32)).collect();
-    numbers.try_into().ok()
 }
 
 /// A page with the first camera, so that there is something to see.

@@ -14,8 +14,17 @@ pub struct RenderMode(pub i64);
 
 impl RenderMode {
     pub const OPENGL: Self = Self(0);
+    /// Objects have their auxiliary colours, whatever the light.
+    pub const AUXILIARY: Self = Self(1);
+    /// The colour of an object is its handle.
+    pub const HANDLES: Self = Self(2);
     pub const EXTERNAL: Self = Self(5);
     pub const OPENGL3: Self = Self(7);
+
+    /// Whether lights cast shadows: with ray tracers.
+    pub fn has_shadows(self) -> bool {
+        (3..=6).contains(&self.0)
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +37,9 @@ pub struct VisionSensor {
     /// Colour of the image where no object is.
     pub background: [f32; 3],
     pub background_from_environment: bool,
+    /// Only lights that are attached to the sensor shine.
+    pub local_lights: bool,
+    pub ignore_fog: bool,
     /// The picture comes from scripts.
     pub external_image: bool,
     pub ignore_image: bool,

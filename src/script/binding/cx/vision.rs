@@ -1,11 +1,31 @@
 //! Vision sensors: their pictures, and the scripts that look at them. Read a picture with `Cx::scene` and the methods of `VisionSensor`.
 
 use super::Cx;
-use crate::scene::sensor::VisionSensor;
+use crate::scene::sensor::{Entity, VisionReading, VisionSensor};
 use crate::scene::{Field, Handle, SceneError};
 use crate::script::error::{ApiError, ApiResult};
 
 impl Cx<'_> {
+    /// Takes a picture with a sensor, lets its scripts look at it, and returns the results.
+    ///
+    /// # Errors
+    /// When `sensor` is no vision sensor.
+    pub(crate) fn handle_vision_sensor(&mut self, sensor: Handle) -> ApiResult<VisionReading> {
+        self.sim.handle_vision_sensor(sensor).map_err(ApiError::Scene)
+    }
+
+    /// The same with an entity of the caller's choice; the sensor is as before afterwards. Returns the picture too.
+    ///
+    /// # Errors
+    /// When `sensor` is no vision sensor.
+    pub(crate) fn check_vision_sensor(
+        &mut self,
+        sensor: Handle,
+        entity: Entity,
+    ) -> ApiResult<(VisionReading, VisionSensor)> {
+        self.sim.check_vision_sensor(sensor, entity).map_err(ApiError::Scene)
+    }
+
     /// Whether the scripts of a sensor are looking at its picture now (`sysCall_vision`).
     #[allow(dead_code, reason = "for modules that process images")]
     pub(crate) fn vision_callback_runs(&self, sensor: Handle) -> bool {

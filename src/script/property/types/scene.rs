@@ -103,6 +103,8 @@ pub(in crate::script::property) const ENVIRONMENT: &[Accessor] = settings! {
     "visibilityLayers": i64, |s| s.visibility_layers.number(),
         |s, layers| s.visibility_layers = Layers::from_number(layers);
     "scenePath": String, |s| s.path.clone(), |s, path| s.path = path;
+    "ambientLight": Color, |s| Color::from_f32(s.environment.ambient_light),
+        |s, light| s.environment.ambient_light = light.to_f32();
     "acknowledgment": String, |s| s.acknowledgment.clone(), |s, text| s.acknowledgment = text;
 };
 

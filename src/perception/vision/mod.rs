@@ -1,0 +1,161 @@
+//! Pictures of the scene: which objects are seen, what they look like, and what lights them. The drawing itself is in the crate
+//! `rendering`.
+
+mod lighting;
+mod models;
+mod palette;
+mod projection;
+mod sensors;
+mod subjects;
+mod surfaces;
+mod views;
+mod voxels;
+
+use std::num::NonZero;
+use std::thread::available_parallelism;
+
+use rendering::{Camera, Fog, Instance, Lines, Material, Points, Projection, Renderer, World};
+
+use crate::scene::sensor::View;
+use crate::scene::{Handle, Pose, Scene};
+use models::{Model, Models};
+
+pub(crate) use lighting::Backdrop;
+pub use rendering::{Channels, Picture};
+pub(crate) use subjects::Subjects;
+pub(crate) use views::projection;
+
+/// What draws pictures of a scene, with what it has prepared of the objects.
+#[derive(Default)]
+pub(crate) struct Vision {
+    /// None before the first picture.
+    renderer: Option<Renderer>,
+    /// None for as many as there are processor cores.
+    threads: Option<NonZero<usize>>,
+    models: Models,
+}
+
+/// What a picture shows, and from where.
+#[derive(Debug, Clone)]
+pub(crate) struct Shot {
+    /// In the world.
+    pub pose: Pose,
+    pub view: View,
+    pub subjects: Subjects,
+    pub look: Look,
+    pub backdrop: Backdrop,
+    pub has_fog: bool,
+    /// Only lights below this object shine.
+    pub lit_by: Option<Handle>,
+}
+
+/// What the colours of a picture mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Look {
+    /// Surfaces as the lights show them.
+    Lit { shadows: bool },
+    /// The auxiliary colours of the objects, unlit.
+    Auxiliary,
+}
+
+impl Vision {
+    /// Draws with so many threads at most; None for as many as there are processor cores. Pictures do not depend on it.
+    pub(crate) fn new(threads: Option<NonZero<usize>>) -> Self {
+        Self { threads, ..Self::default() }
+    }
+
+    /// A picture of the scene; its ids are handles of objects.
+    pub(crate) fn picture(&mut self, scene: &Scene, shot: &Shot, channels: Channels) -> Picture {
+        self.models.follow(scene);
+        let subjects = shot.subjects.objects(scene);
+        let depth_apart = channels.depth && subjects.iter().any(|subject| subject.depth_invisible);
+        let all: Vec<Handle> = subjects.iter().map(|subject| subject.handle).collect();
+        if !depth_apart {
+            return self.draw(scene, shot, &all, channels);
+        }
+        let solid: Vec<Handle> = subjects.iter().filter(|s| !s.depth_invisible).map(|s| s.handle).collect();
+        let mut picture = self.draw(scene, shot, &all, Channels { depth: false, ..channels });
+        picture.depth = self.draw(scene, shot, &solid, Channels::DEPTH).depth;
+        picture
+    }
+
+    fn draw(&mut self, scene: &Scene, shot: &Shot, objects: &[Handle], channels: Channels) -> Picture {
+        self.models.prepare(scene, objects);
+        let mut stage = Stage::default();
+        for &handle in objects {
+            if let (Some(model), Ok(pose)) = (self.models.get(handle), scene.world_pose(handle)) {
+                stage.add(model, handle.0, pose, shot.look);
+            }
+        }
+        let lights = lighting::lights(scene, shot);
+        let (points, lines) = (&stage.points[..], &stage.lines[..]);
+        let world = World {
+            instances: &stage.instances,
+            points,
+            lines,
+            lights: &lights,
+            ambient: lighting::ambient(scene, shot.look),
+            fog: fog(scene, shot),
+            background: shot.backdrop.colours(scene),
+            shadows: shot.look == Look::Lit { shadows: true },
+        };
+        let renderer = self.renderer.get_or_insert_with(|| Renderer::new(threads(self.threads)));
+        renderer.render(&world, &camera(shot), channels)
+    }
+}
+
+fn threads(wanted: Option<NonZero<usize>>) -> usize {
+    wanted.or_else(|| available_parallelism().ok()).map_or(1, NonZero::get)
+}
+
+fn fog(scene: &Scene, shot: &Shot) -> Option<Fog> {
+    let lit = matches!(shot.look, Look::Lit { .. });
+    (lit && shot.has_fog).then(|| lighting::fog(&scene.settings().environment.fog)).flatten()
+}
+
+fn camera(shot: &Shot) -> Camera {
+    let view = &shot.view;
+    let projection = match view.perspective {
+        true => Projection::Perspective { angle: view.angle },
+        false => Projection::Orthographic { size: view.ortho_size },
+    };
+    Camera { pose: shot.pose, projection, near: view.clipping[0], far: view.clipping[1], resolution: view.resolution }
+}
+
+/// Everything that is drawn in one picture.
+#[derive(Default)]
+struct Stage<'a> {
+    instances: Vec<Instance<'a>>,
+    points: Vec<Points<'a>>,
+    lines: Vec<Lines<'a>>,
+}
+
+impl<'a> Stage<'a> {
+    fn add(&mut self, model: &'a Model, id: u32, pose: Pose, look: Look) {
+        let material = |part: &'a models::ModelPart| -> &'a Material {
+            if look == Look::Auxiliary { &part.auxiliary } else { &part.material }
+        };
+        self.instances.extend(model.parts.iter().map(|part| Instance {
+            mesh: &part.mesh,
+            pose: pose * part.pose,
+            material: material(part),
+            id,
+        }));
+        self.points.extend(model.points.iter().map(|points| Points {
+            positions: &points.positions,
+            colours: if look == Look::Auxiliary { &points.auxiliary } else { &points.colours },
+            pose,
+            size: points.size,
+            id,
+            overlay: points.overlay,
+        }));
+        self.lines.extend(model.lines.iter().map(|lines| Lines {
+            segments: &lines.segments,
+            colours: if look == Look::Auxiliary { &lines.auxiliary } else { &lines.colours },
+            pose,
+            width: lines.width,
+            id,
+            overlay: lines.overlay,
+        }));
+    }
+}

@@ -1,0 +1,100 @@
+//! Pictures from cameras, from sensors at another resolution, and from a place from which all can be seen.
+
+use nalgebra::{Point3, UnitQuaternion, Vector3};
+use rendering::{Channels, Picture};
+
+use super::sensors::sensor_shot;
+use super::{Backdrop, Look, Shot, Subjects, Vision};
+use crate::scene::sensor::{Camera, View};
+use crate::scene::{Handle, Kind, ObjectFlags, Pose, Scene, SceneError, SceneResult};
+
+/// From where a scene without a camera is seen: towards the middle of what is visible.
+const USUAL_DIRECTION: [f64; 3] = [-1.0, -1.5, 1.2];
+/// Free space around what is visible, as a factor.
+const MARGIN: f64 = 1.1;
+/// Radius of an empty scene, metres.
+const EMPTY_RADIUS: f64 = 1.0;
+
+impl Vision {
+    /// The scene as a camera or a vision sensor sees it; without one from where all of it can be seen. `resolution` replaces the
+    /// camera's own. Ids are handles of objects.
+    ///
+    /// # Errors
+    /// When `from` is neither a camera nor a vision sensor.
+    pub(crate) fn view(
+        &mut self,
+        scene: &Scene,
+        from: Option<Handle>,
+        resolution: Option<[u32; 2]>,
+        channels: Channels,
+    ) -> SceneResult<Picture> {
+        let mut shot = shot(scene, from)?;
+        if let Some(resolution) = resolution {
+            shot.view.set_resolution(resolution.map(i64::from));
+        }
+        Ok(self.picture(scene, &shot, channels))
+    }
+}
+
+/// The projection of a camera or vision sensor; without one of that from which the whole scene is seen.
+///
+/// # Errors
+/// When `from` is neither a camera nor a vision sensor.
+pub(crate) fn projection(scene: &Scene, from: Option<Handle>) -> SceneResult<View> {
+    Ok(shot(scene, from)?.view)
+}
+
+fn shot(scene: &Scene, from: Option<Handle>) -> SceneResult<Shot> {
+    let Some(handle) = from else {
+        let mut shot = camera_shot(overview(scene), Camera::default().view);
+        // As far as the scene reaches.
+        shot.view.clipping[1] = shot.view.clipping[1].max(4.0 * shot.pose.translation.vector.norm());
+        return Ok(shot);
+    };
+    match &scene.object(handle)?.kind {
+        Kind::Camera(camera) => Ok(camera_shot(scene.world_pose(handle)?, camera.view.clone())),
+        Kind::VisionSensor(sensor) => sensor_shot(scene, handle, sensor, None),
+        _ => Err(SceneError::WrongType("camera")),
+    }
+}
+
+fn camera_shot(pose: Pose, view: View) -> Shot {
+    Shot {
+        pose,
+        view,
+        subjects: Subjects::Visible,
+        look: Look::Lit { shadows: false },
+        backdrop: Backdrop::Views,
+        has_fog: true,
+        lit_by: None,
+    }
+}
+
+/// A place from which all that is visible can be seen, with the usual camera.
+fn overview(scene: &Scene) -> Pose {
+    let (centre, radius) = extent(scene);
+    let direction = Vector3::from(USUAL_DIRECTION).normalize();
+    let distance = MARGIN * radius / libm::sin(0.5 * Camera::default().view.angle);
+    let rotation = UnitQuaternion::face_towards(&-direction, &Vector3::z());
+    Pose::from_parts((centre + distance * direction).coords.into(), rotation)
+}
+
+/// A ball around all that is visible.
+fn extent(scene: &Scene) -> (Point3<f64>, f64) {
+    let mut corners: Vec<Point3<f64>> = Vec::new();
+    for subject in Subjects::Visible.objects(scene) {
+        let Ok(object) = scene.object(subject.handle) else { continue };
+        let Ok(pose) = scene.world_pose(subject.handle) else { continue };
+        if object.object_property.contains(ObjectFlags::IGNORE_VIEW_FITTING) {
+            continue;
+        }
+        let bounds = object.bounding_box();
+        let half = Vector3::from(bounds.size) / 2.0;
+        let signs = (0..8).map(|bits| Vector3::from([0, 1, 2].map(|i| if bits >> i & 1 == 0 { -1.0 } else { 1.0 })));
+        let placed = signs.map(|sign| pose * bounds.pose * Point3::from(half.component_mul(&sign)));
+        corners.extend(placed.filter(|corner| corner.coords.iter().all(|c| c.is_finite())));
+    }
+    let Some(first) = corners.first() else { return (Point3::origin(), EMPTY_RADIUS) };
+    let (low, high) = corners.iter().fold((*first, *first), |(low, high), corner| (low.inf(corner), high.sup(corner)));
+    (nalgebra::center(&low, &high), (nalgebra::distance(&low, &high) / 2.0).max(1e-3))
+}

@@ -1,0 +1,33 @@
+//! Pictures of the scene for Rust programs.
+
+use super::{Error, Simulator};
+use crate::perception::vision::{Channels, Picture, projection};
+use crate::scene::Handle;
+use crate::scene::sensor::View;
+use crate::script::ApiError;
+
+impl Simulator {
+    /// What a camera or a vision sensor sees now; without one the scene from a place where all of it can be seen. `resolution` (width and
+    /// height, at most 4096 each) replaces the camera's own. Ids are handles of objects; rows begin at the bottom.
+    ///
+    /// # Errors
+    /// When `from` is neither a camera nor a vision sensor.
+    pub fn picture(
+        &self,
+        from: Option<Handle>,
+        resolution: Option<[u32; 2]>,
+        channels: Channels,
+    ) -> Result<Picture, Error> {
+        let mut perception = self.sim.perception.borrow_mut();
+        let picture = perception.vision.view(&self.sim.scene.borrow(), from, resolution, channels);
+        Ok(picture.map_err(ApiError::from)?)
+    }
+
+    /// The projection with which `picture` draws: near and far plane, angle, resolution.
+    ///
+    /// # Errors
+    /// When `from` is neither a camera nor a vision sensor.
+    pub fn projection(&self, from: Option<Handle>) -> Result<View, Error> {
+        Ok(projection(&self.sim.scene.borrow(), from).map_err(ApiError::from)?)
+    }
+}
