@@ -329,6 +329,20 @@ function sim.changeEntityColor(entityHandle, color, component) end
 ---@return integer locationHigh 0
 function sim.checkOctreePointOccupancy(octreeHandle, options, points) end
 
+--- Takes a picture of an entity with a vision sensor and lets its scripts look at it. The picture and the results of the sensor stay as
+--- they are.
+---@param sensorHandle integer the sensor
+---@param entityHandle integer an object, which need not be renderable, a collection, or sim.handle_all
+---@return any result packets 1: triggered, 0: not; then the packets of numbers, at least two
+function sim.checkVisionSensor(sensorHandle, entityHandle) end
+
+--- The picture of an entity that a vision sensor takes. The picture and the results of the sensor stay as they are.
+---@param sensorHandle integer the sensor
+---@param entityHandle integer an object, which need not be renderable, a collection, or sim.handle_all
+---@param returnImage boolean whether it is the image, otherwise the depths
+---@return number[] theBuffer numbers from 0 to 1: red, green, blue of each pixel, or its depth, from the lowest row
+function sim.checkVisionSensorEx(sensorHandle, entityHandle, returnImage) end
+
 --- Removes a buffer signal.
 ---@param name string of the signal
 ---@return integer result 1 if it existed, else 0
@@ -1968,9 +1982,9 @@ function sim.handleSimulationStart() end
 ---@return integer result 0
 function sim.handleVarious() end
 
---- Handles vision sensors. They see nothing yet.
+--- Takes pictures with vision sensors and lets their scripts look at them (`sysCall_vision`). A sensor alone must be handled explicitly.
 ---@param sensorHandle integer a sensor, sim.handle_all or sim.handle_all_except_explicit
----@return integer result number of detections
+---@return any result packets number of sensors that were triggered, and the packets of numbers of a single sensor, at least two
 function sim.handleVisionSensor(sensorHandle) end
 
 --- Runs a file, given by its path relative to the folder of the scene. Where there is none, '/lua/name.lua' is the module of that name.

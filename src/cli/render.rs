@@ -26,7 +26,7 @@ const MILLIMETRES: f64 = 1000.0;
 pub(super) struct Args {
     /// Scene or model: a Lua file, a CoppeliaSim file, or a folder made by unpack
     scene: PathBuf,
-    /// Camera or vision sensor, by its path or handle [default: the first camera, or where all can be seen]
+    /// Camera or vision sensor, by its path or handle [default: the first camera of a scene, or where all can be seen]
     #[arg(long, value_name = "PATH")]
     camera: Option<String>,
     /// Width and height in pixels [default: those of the vision sensor, or 640x480]
@@ -122,6 +122,9 @@ impl Args {
     fn camera(&self, sim: &Simulator) -> Result<Option<Handle>, String> {
         let scene = sim.scene();
         let Some(name) = &self.camera else {
+            if self.is_model() {
+                return Ok(None);
+            }
             let first = scene.objects().find(|object| matches!(object.kind, ObjectKind::Camera(_)));
             return Ok(first.map(crate::scene::Object::handle));
         };
@@ -133,6 +136,11 @@ impl Args {
             Ok(ObjectKind::Camera(_) | ObjectKind::VisionSensor(_)) => Ok(Some(camera)),
             _ => Err(format!("{name} is neither a camera nor a vision sensor")),
         }
+    }
+
+    /// Whether the file holds a model, which the camera of the default scene does not look at.
+    fn is_model(&self) -> bool {
+        self.scene.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ttm"))
     }
 
     fn extension(&self) -> String {
