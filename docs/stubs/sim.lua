@@ -58,20 +58,25 @@ function setYieldAllowed(allow) end
 --- Forbids yielding and interruption until sim.releaseLock.
 function sim.acquireLock() end
 
---- Something to draw points, lines or triangles with. Nothing is drawn here.
+--- Something to draw points, lines, triangles or small bodies with, seen by cameras and vision sensors. Without
+--- sim.drawing_persistent it ends with the script.
 ---@param objectType integer sim.drawing_*
----@param size number of points and lines
----@param duplicateTolerance number items closer than this are one
----@param parentObjectHandle integer -1 for the world
----@param maxItemCount integer further ones are refused or replace old ones, depending on the type
----@param ... any
+---@param size? number of points and lines in pixels, of others in metres
+---@param duplicateTolerance? number items closer than this to another one are refused, metres
+---@param parentObjectHandle? integer the object they move with, -1 for the world
+---@param maxItemCount? integer further ones are refused, or replace the oldest with sim.drawing_cyclic
+---@param color? number[] red, green, blue
+---@param reserved? number[] not used
+---@param specular? number[] red, green, blue
+---@param emission? number[] red, green, blue
 ---@return integer drawingObjectHandle its handle
-function sim.addDrawingObject(objectType, size, duplicateTolerance, parentObjectHandle, maxItemCount, ...) end
+function sim.addDrawingObject(objectType, size, duplicateTolerance, parentObjectHandle, maxItemCount, color, reserved, specular, emission) end
 
---- Adds items to a drawing object.
----@param drawingObjectHandle integer from sim.addDrawingObject
----@param itemData? any coordinates and other numbers, depending on the type; nil removes all items
----@return integer result 1
+--- Adds an item to a drawing object: its coordinates, then the direction of small bodies, colours, size and transparency where its
+--- type says so.
+---@param drawingObjectHandle integer from sim.addDrawingObject; with sim.handleflag_addmultiple itemData holds any number of items
+---@param itemData? any numbers, or a buffer of 32-bit ones; nothing removes all items
+---@return integer result 1 if an item was stored, 0 if the object is full, has the item already, or was emptied
 function sim.addDrawingObjectItem(drawingObjectHandle, itemData) end
 
 --- Adds a force to a shape for the next dynamics call. Static shapes do not feel it.
@@ -430,7 +435,7 @@ function sim.copyPasteObjects(objectHandles, options) end
 ---@return any[] copy shares nothing with the original
 function sim.copyTable(original) end
 
---- Creates an empty collection.
+--- Creates an empty collection. It ends with the script that created it.
 ---@param options? integer 1: its members override their collidable, measurable and detectable flags
 ---@return integer collectionHandle the collection
 function sim.createCollection(options) end
@@ -2429,6 +2434,7 @@ function sim.removeCollection(collectionHandle) end
 
 --- Removes a drawing object.
 ---@param drawingObjectHandle integer from sim.addDrawingObject, or sim.handle_all
+---@return integer result 1
 function sim.removeDrawingObject(drawingObjectHandle) end
 
 --- Removes a model: its base and everything below.

@@ -70,7 +70,8 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Objects in octrees and point clouds", sensors::voxel_objects::FUNCTIONS),
     ("Scene files", files::scene_file::FUNCTIONS),
     ("Graphs", display::graph::FUNCTIONS),
-    ("Display", display::drawing::FUNCTIONS),
+    ("Drawing objects", display::drawing::FUNCTIONS),
+    ("Display", display::views::FUNCTIONS),
 ];
 
 /// The module `sim`, with the global functions that come along with it.

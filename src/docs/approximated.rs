@@ -34,7 +34,7 @@ mod tests {
 
     #[test]
     fn what_works_in_full_has_no_difference() {
-        assert_eq!(difference("sim.addDrawingObject"), Some("accepted without effect: nothing is drawn"));
+        assert_eq!(difference("sim.adjustView"), Some("accepted without effect: nothing is drawn"));
         assert_eq!(difference("sim.getObject"), None);
     }
 }

@@ -4,6 +4,7 @@
 //! is recorded in the [`Journal`], which events, caches and the physics read.
 
 pub mod appearance;
+pub mod drawing;
 pub mod error;
 pub mod graph;
 pub mod joint;

@@ -1,9 +1,10 @@
 //! The scene: its parts, and access to its objects.
 //!
-//! Each part owns its data: the objects ([`Objects`]), who refers to whom, the selection, collections, textures. What concerns several
+//! Each part owns its data: the objects ([`Objects`]), who refers to whom, the selection, collections, drawing objects, textures. What concerns several
 //! parts, such as adding and removing objects, is a method of [`Scene`], as is everything that the journal records.
 
 use super::appearance::texture_mapping::Textures;
+use super::drawing::Drawings;
 use super::joint::dependency::DependentJoints;
 use super::object::identity;
 use super::object::objects::Objects;
@@ -27,6 +28,7 @@ pub struct Scene {
     pub(super) roots: Vec<Handle>,
     pub(super) selection: Selection,
     pub(super) collections: Collections,
+    pub(super) drawings: Drawings,
     pub(super) referrers: Referrers,
     pub(super) dependent_joints: DependentJoints,
     /// A simulation runs: new objects remember their state.

@@ -117,14 +117,15 @@ const SCENE: Rooms = &[
     // Images lie on the meshes of shapes.
     ("appearance", &["shape"]),
     ("sensor", &["appearance"]),
+    ("drawing", &["appearance"]),
     ("shape", &["appearance", "voxels"]),
     ("joint", &["parameters"]),
     ("pose", &["joint"]),
     ("simulation", &["appearance", "joint", "parameters", "pose", "shape"]),
     ("object", &["appearance", "graph", "joint", "pose", "sensor", "shape", "simulation", "voxels"]),
-    ("tree", &["appearance", "graph", "joint", "object", "pose", "sensor", "shape", "simulation", "voxels"]),
+    ("tree", &["appearance", "drawing", "graph", "joint", "object", "pose", "sensor", "shape", "simulation", "voxels"]),
     ("parameters", &["appearance", "joint", "object", "sensor", "shape"]),
-    ("store", &["appearance", "joint", "object", "pose", "shape", "tree"]),
+    ("store", &["appearance", "drawing", "joint", "object", "pose", "shape", "tree"]),
 ];
 
 const DYNAMICS: Rooms = &[

@@ -1,61 +1,78 @@
-//! `sim.*`: drawing objects, floating views, particles: shown on a display only, or not simulated.
-//!
-//! There is no display. Handles are checked, so that scripts find their mistakes; drawing has no effect.
-
-use std::cell::RefCell;
-use std::rc::Rc;
+//! `sim.*`: drawing objects. Cameras and vision sensors see them.
 
 use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Handle, SceneError, special};
-use crate::script::{ByHandle, Number, Rest};
+use crate::scene::appearance::colour::Colour;
+use crate::scene::drawing::DrawingStyle;
+use crate::scene::drawing::options::{DrawingFlags, DrawingKind};
+use crate::scene::{Data, Handle, SceneError, flag, special};
+use crate::script::Number;
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![
-    add_drawing_object,
-    add_drawing_object_item,
-    remove_drawing_object,
-    floating_view_add,
-    floating_view_remove,
-    adjust_view,
-    add_particle_object,
-    add_particle_object_item,
-    remove_particle_object,
-];
+pub(crate) const FUNCTIONS: &[ApiFn] = functions![add_drawing_object, add_drawing_object_item, remove_drawing_object];
 
-/// Bits above the handle of a drawing object: several items at once.
+/// Bits above the handle of a drawing object.
 const HANDLE_BITS: i64 = 0x000f_ffff;
+const WHITE: [f64; 3] = [1.0; 3];
 
-/// Something to draw points, lines or triangles with. Nothing is drawn here.
+/// Something to draw points, lines, triangles or small bodies with, seen by cameras and vision sensors. Without
+/// sim.drawing_persistent it ends with the script.
 ///
 /// @param objectType sim.drawing_*
-/// @param size of points and lines
-/// @param duplicateTolerance items closer than this are one
-/// @param parentObjectHandle -1 for the world
-/// @param maxItemCount further ones are refused or replace old ones, depending on the type
+/// @param size of points and lines in pixels, of others in metres
+/// @param duplicateTolerance items closer than this to another one are refused, metres
+/// @param parentObjectHandle the object they move with, -1 for the world
+/// @param maxItemCount further ones are refused, or replace the oldest with sim.drawing_cyclic
+/// @param color red, green, blue
+/// @param reserved not used
+/// @param specular red, green, blue
+/// @param emission red, green, blue
 /// @return drawingObjectHandle its handle
 #[api("sim.addDrawingObject")]
+#[expect(clippy::too_many_arguments, reason = "the reference has them")]
 fn add_drawing_object(
     cx: &mut Cx,
     object_type: Number,
-    size: f64,
-    duplicate_tolerance: f64,
-    parent_object_handle: Number,
-    max_item_count: Number,
-    colour: Rest,
+    #[default(1.0)] size: f64,
+    #[default(0.0)] duplicate_tolerance: f64,
+    #[default(-1)] parent_object_handle: Number,
+    #[default(1000)] max_item_count: Number,
+    #[default(None)] color: Option<[f64; 3]>,
+    #[default(None)] reserved: Option<[f64; 3]>,
+    #[default(None)] specular: Option<[f64; 3]>,
+    #[default(None)] emission: Option<[f64; 3]>,
 ) -> Result<i64> {
-    let _ = (object_type, size, duplicate_tolerance, max_item_count, colour);
-    if parent_object_handle.0 >= 0 {
-        object(cx, parent_object_handle)?;
-    }
-    Ok(drawings(cx).borrow_mut().add(Drawing))
+    let _ = reserved;
+    let parts = |part: [f64; 3]| part.map(|value| value as f32);
+    let mut colour = Colour::new(parts(color.unwrap_or(WHITE)));
+    colour.specular = specular.map_or(colour.specular, parts);
+    colour.emission = emission.map_or(colour.emission, parts);
+    let style = DrawingStyle {
+        kind: DrawingKind::from_code(object_type.0).ok_or(SceneError::InvalidArgument)?,
+        flags: DrawingFlags::from_code(object_type.0),
+        size,
+        duplicate_tolerance,
+        parent: parent(parent_object_handle.0)?,
+        max_items: usize::try_from(max_item_count.0).unwrap_or(0),
+        colour,
+    };
+    let owner = cx.script().id;
+    Ok(cx.scene_mut().add_drawing(style, Some(owner))?)
 }
 
-/// Adds items to a drawing object.
+fn parent(raw: i64) -> Result<Option<Handle>> {
+    if raw < 0 {
+        return Ok(None);
+    }
+    Ok(Some(Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?))
+}
+
+/// Adds an item to a drawing object: its coordinates, then the direction of small bodies, colours, size and transparency where its
+/// type says so.
 ///
-/// @param drawingObjectHandle from sim.addDrawingObject
-/// @param itemData coordinates and other numbers, depending on the type; nil removes all items
-/// @return result 1
+/// @param drawingObjectHandle from sim.addDrawingObject; with sim.handleflag_addmultiple itemData holds any number of items
+/// @param itemData numbers, or a buffer of 32-bit ones; nothing removes all items
+/// @return result 1 if an item was stored, 0 if the object is full, has the item already, or was emptied
 #[api("sim.addDrawingObjectItem")]
 fn add_drawing_object_item(
     cx: &mut Cx,
@@ -63,9 +80,26 @@ fn add_drawing_object_item(
     #[default(Data::Nil)] item_data: Data,
 ) -> Result<i64> {
     let handle = drawing_object_handle.0 & HANDLE_BITS;
-    drawings(cx).borrow_mut().get_mut(handle).ok_or_else(no_drawing)?;
-    match item_data {
-        Data::Nil | Data::Array(_) => Ok(1),
+    let mut numbers = numbers(&item_data)?;
+    let mut scene = cx.scene_mut();
+    if numbers.is_empty() {
+        scene.clear_drawing(handle)?;
+        return Ok(0);
+    }
+    if drawing_object_handle.0 & flag::ADD_MULTIPLE == 0 {
+        numbers.truncate(scene.drawings().get(handle)?.item_len());
+    }
+    Ok(i64::from(scene.add_drawing_items(handle, &numbers)? > 0))
+}
+
+/// The numbers of a table, or of a buffer of 32-bit ones.
+fn numbers(data: &Data) -> Result<Vec<f64>> {
+    match data {
+        Data::Nil => Ok(Vec::new()),
+        Data::Array(items) => items.iter().map(|item| item.as_f64().ok_or(ApiError::ArgumentType)).collect(),
+        Data::Buffer(bytes) | Data::Text(bytes) => {
+            Ok(bytes.as_chunks().0.iter().map(|number| f32::from_le_bytes(*number).into()).collect())
+        }
         _ => Err(ApiError::ArgumentType),
     }
 }
@@ -73,142 +107,14 @@ fn add_drawing_object_item(
 /// Removes a drawing object.
 ///
 /// @param drawingObjectHandle from sim.addDrawingObject, or sim.handle_all
+/// @return result 1
 #[api("sim.removeDrawingObject")]
-fn remove_drawing_object(cx: &mut Cx, drawing_object_handle: Number) -> Result<()> {
-    remove(&mut drawings(cx).borrow_mut(), drawing_object_handle, no_drawing)
-}
-
-/// Adds a view to the page.
-///
-/// @param posX of its centre, 0 to 1
-/// @param posY of its centre
-/// @param sizeX part of the window
-/// @param sizeY part of the window
-/// @param options bits
-/// @return floatingViewHandle its handle
-#[api("sim.floatingViewAdd")]
-fn floating_view_add(cx: &mut Cx, pos_x: f64, pos_y: f64, size_x: f64, size_y: f64, options: Number) -> Result<i64> {
-    let _ = (pos_x, pos_y, size_x, size_y, options);
-    Ok(views(cx).borrow_mut().add(View))
-}
-
-/// Removes a view.
-///
-/// @param floatingViewHandle from sim.floatingViewAdd
-/// @return result 1, or 0 when there is no such view
-#[api("sim.floatingViewRemove")]
-fn floating_view_remove(cx: &mut Cx, floating_view_handle: Number) -> Result<i64> {
-    Ok(views(cx).borrow_mut().remove(floating_view_handle.0).is_some().into())
-}
-
-/// Shows an object in a view.
-///
-/// @param viewHandleOrIndex from sim.floatingViewAdd, or the number of a view of the page
-/// @param objectHandle a camera, vision sensor or graph, or -1
-/// @param options bits
-/// @return res 1
-#[api("sim.adjustView")]
-fn adjust_view(
-    cx: &Cx,
-    view_handle_or_index: Number,
-    object_handle: Number,
-    options: Number,
-    label: Rest,
-) -> Result<i64> {
-    let _ = (view_handle_or_index, options, label);
-    if object_handle.0 >= 0 {
-        object(cx, object_handle)?;
+fn remove_drawing_object(cx: &mut Cx, drawing_object_handle: Number) -> Result<i64> {
+    let mut scene = cx.scene_mut();
+    if drawing_object_handle.0 == special::ALL {
+        scene.remove_all_drawings();
+    } else {
+        scene.remove_drawing(drawing_object_handle.0)?;
     }
     Ok(1)
-}
-
-/// A source of particles. They are not simulated, with a warning.
-///
-/// @param objectType sim.particle_*
-/// @param size of a particle
-/// @param density of a particle
-/// @param params of the physics
-/// @param lifeTime in seconds
-/// @param maxItemCount more replace old ones
-/// @return particleObjectHandle its handle
-#[api("sim.addParticleObject")]
-#[expect(clippy::too_many_arguments, reason = "the reference has them")]
-fn add_particle_object(
-    cx: &mut Cx,
-    object_type: Number,
-    size: f64,
-    density: f64,
-    params: Data,
-    life_time: f64,
-    max_item_count: Number,
-    colour: Rest,
-) -> Result<i64> {
-    let _ = (object_type, size, density, params, life_time, max_item_count, colour);
-    cx.env().warn_once("sim.addParticleObject", "particles are not simulated.");
-    Ok(particles(cx).borrow_mut().add(Particles))
-}
-
-/// Adds a particle. It is not simulated.
-///
-/// @param particleObjectHandle from sim.addParticleObject
-/// @param itemData position and target position; nil removes all
-/// @return result 1
-#[api("sim.addParticleObjectItem")]
-fn add_particle_object_item(
-    cx: &mut Cx,
-    particle_object_handle: Number,
-    #[default(Data::Nil)] item_data: Data,
-) -> Result<i64> {
-    let _ = item_data;
-    particles(cx).borrow_mut().get_mut(particle_object_handle.0).map(|_| 1).ok_or_else(no_particles)
-}
-
-/// Removes a source of particles.
-///
-/// @param particleObjectHandle from sim.addParticleObject, or sim.handle_all
-#[api("sim.removeParticleObject")]
-fn remove_particle_object(cx: &mut Cx, particle_object_handle: Number) -> Result<()> {
-    remove(&mut particles(cx).borrow_mut(), particle_object_handle, no_particles)
-}
-
-/// A source of particles.
-struct Particles;
-/// A drawing object.
-struct Drawing;
-/// A floating view.
-struct View;
-
-/// Removes one of them, or all.
-fn remove<T>(all: &mut ByHandle<T>, handle: Number, missing: fn() -> ApiError) -> Result<()> {
-    if handle.0 == special::ALL {
-        all.clear();
-        return Ok(());
-    }
-    all.remove(handle.0).map(drop).ok_or_else(missing)
-}
-
-fn drawings(cx: &Cx) -> Rc<RefCell<ByHandle<Drawing>>> {
-    cx.script_state()
-}
-
-fn particles(cx: &Cx) -> Rc<RefCell<ByHandle<Particles>>> {
-    cx.script_state()
-}
-
-fn views(cx: &Cx) -> Rc<RefCell<ByHandle<View>>> {
-    cx.script_state()
-}
-
-fn object(cx: &Cx, handle: Number) -> Result<Handle> {
-    let scene = cx.scene();
-    let handle = Handle::from_raw(handle.0).ok_or(SceneError::NoSuchObject)?;
-    Ok(scene.object(handle)?.handle())
-}
-
-fn no_drawing() -> ApiError {
-    ApiError::Other("drawing object does not exist.".into())
-}
-
-fn no_particles() -> ApiError {
-    ApiError::Other("particle object does not exist.".into())
 }

@@ -15,14 +15,15 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_collection_objects,
 ];
 
-/// Creates an empty collection.
+/// Creates an empty collection. It ends with the script that created it.
 ///
 /// @param options 1: its members override their collidable, measurable and detectable flags
 /// @return collectionHandle the collection
 #[api("sim.createCollection")]
 fn create_collection(cx: &mut Cx, #[default(0)] options: Number) -> Result<i64> {
-    let options = CollectionOptions::from_bits_retain(options.0);
-    Ok(cx.scene_mut().collections_mut().add(options.contains(CollectionOptions::OVERRIDES)))
+    let overrides = CollectionOptions::from_bits_retain(options.0).contains(CollectionOptions::OVERRIDES);
+    let owner = cx.script().id;
+    Ok(cx.scene_mut().collections_mut().add(overrides, Some(owner)))
 }
 
 /// Removes a collection; its objects stay.

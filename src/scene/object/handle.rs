@@ -58,6 +58,7 @@ pub mod flag {
     pub const AXIS: i64 = 0x40_0000;
     pub const WXYZ_QUATERNION: i64 = 0x100_0000;
     pub const RESET_FORCE: i64 = 0x40_0000;
+    pub const ADD_MULTIPLE: i64 = 0x100_0000;
     pub const RESET_TORQUE: i64 = 0x80_0000;
     pub const GREYSCALE: i64 = 0x40_0000;
     pub const PACKED: i64 = 0x40_0000;

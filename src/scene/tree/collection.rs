@@ -34,6 +34,8 @@ bitflags! {
 pub struct Collection {
     /// [`CollectionOptions::OVERRIDES`].
     pub overrides: bool,
+    /// The script whose end removes it.
+    owner: Option<i64>,
     pub items: Vec<CollectionItem>,
 }
 
@@ -82,11 +84,11 @@ pub struct Collections {
 }
 
 impl Collections {
-    /// Makes an empty collection.
-    pub fn add(&mut self, overrides: bool) -> i64 {
+    /// Makes an empty collection, which ends with the script `owner`.
+    pub fn add(&mut self, overrides: bool, owner: Option<i64>) -> i64 {
         let handle = FIRST_HANDLE + self.made;
         self.made += 1;
-        self.by_handle.insert(handle, Collection { overrides, items: Vec::new() });
+        self.by_handle.insert(handle, Collection { overrides, owner, items: Vec::new() });
         handle
     }
 
@@ -108,6 +110,10 @@ impl Collections {
     /// When there is none with that handle.
     pub fn get_mut(&mut self, handle: i64) -> SceneResult<&mut Collection> {
         self.by_handle.get_mut(&handle).ok_or(SceneError::NoSuchCollection)
+    }
+
+    pub(in crate::scene) fn forget_owner(&mut self, owner: i64) {
+        self.by_handle.retain(|_, collection| collection.owner != Some(owner));
     }
 
     pub(super) fn forget(&mut self, doomed: &BTreeSet<Handle>) {

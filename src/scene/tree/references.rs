@@ -96,12 +96,14 @@ impl Scene {
         })
     }
 
-    /// Removes references to objects that are being removed: links, dependencies, selection, collections, lists of handles.
+    /// Removes references to objects that are being removed: links, dependencies, selection, collections, lists of handles. The drawing
+    /// objects that move with them are removed.
     pub(in crate::scene) fn forget_references(&mut self, doomed: &BTreeSet<Handle>) {
         if self.selection.forget(doomed) {
             self.note(Change::Selection);
         }
         self.collections.forget(doomed);
+        self.drawings.forget(doomed);
         let objects = &mut self.objects;
         self.referrers.0.retain(|&handle| {
             let referrer = objects.get_in_place(handle);

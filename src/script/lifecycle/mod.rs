@@ -246,10 +246,12 @@ impl Sim {
         }
     }
 
-    /// Releases the interpreter, which is closed when its last call has returned, and the signals of the script.
+    /// Releases the interpreter, which is closed when its last call has returned, and what belongs to the script: signals, collections,
+    /// drawing objects.
     fn close(&self, script: &Script) {
         script.runtime.replace(None);
         self.drop_signals_of(script);
+        self.scene.borrow_mut().forget_owner(script.id);
     }
 
     /// `restartOnError` is a one-shot.

@@ -138,7 +138,7 @@ fn original_lists(common: &Common, file: &File, objects: &[Handle]) -> Reference
 fn collections(scene: &mut Scene, chunks: &[CollectionChunk], map: &HandleMap) -> SceneResult<BTreeMap<i32, i64>> {
     let mut made = BTreeMap::new();
     for chunk in chunks {
-        let handle = scene.collections_mut().add(chunk.flags.unwrap_or(0) & 1 != 0);
+        let handle = scene.collections_mut().add(chunk.flags.unwrap_or(0) & 1 != 0, None);
         let items = chunk.elements.iter().filter_map(|element| item(element, map));
         scene.collections_mut().get_mut(handle)?.items = items.collect();
         if let Some(old) = chunk.handle {

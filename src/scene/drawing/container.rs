@@ -1,0 +1,95 @@
+//! The drawing objects of a scene.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::{DrawingObject, DrawingStyle};
+use crate::scene::{Handle, Scene, SceneError, SceneResult};
+
+/// Drawing objects by handle. Handles count from 1 and are not used twice.
+#[derive(Debug, Default)]
+pub struct Drawings {
+    by_handle: BTreeMap<i64, DrawingObject>,
+    created: i64,
+}
+
+impl Drawings {
+    /// The drawing objects with their handles, in the order of their creation.
+    pub fn iter(&self) -> impl Iterator<Item = (i64, &DrawingObject)> {
+        self.by_handle.iter().map(|(handle, drawing)| (*handle, drawing))
+    }
+
+    /// # Errors
+    /// When there is none with that handle.
+    pub fn get(&self, handle: i64) -> SceneResult<&DrawingObject> {
+        self.by_handle.get(&handle).ok_or(SceneError::NoSuchObject)
+    }
+
+    fn get_mut(&mut self, handle: i64) -> SceneResult<&mut DrawingObject> {
+        self.by_handle.get_mut(&handle).ok_or(SceneError::NoSuchObject)
+    }
+
+    /// Removes those that move with objects which are being removed.
+    pub(in crate::scene) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
+        self.by_handle.retain(|_, drawing| drawing.style.parent.is_none_or(|parent| !doomed.contains(&parent)));
+    }
+
+    pub(in crate::scene) fn forget_owner(&mut self, owner: i64) {
+        self.by_handle.retain(|_, drawing| drawing.owner != Some(owner));
+    }
+}
+
+impl Scene {
+    pub fn drawings(&self) -> &Drawings {
+        &self.drawings
+    }
+
+    /// Adds an empty drawing object; without the persistent flag it ends with the script `owner`.
+    ///
+    /// # Errors
+    /// When its parent does not exist.
+    pub fn add_drawing(&mut self, style: DrawingStyle, owner: Option<i64>) -> SceneResult<i64> {
+        if let Some(parent) = style.parent {
+            self.object(parent)?;
+        }
+        self.drawings.created += 1;
+        let handle = self.drawings.created;
+        self.drawings.by_handle.insert(handle, DrawingObject::new(style, owner));
+        Ok(handle)
+    }
+
+    /// Adds items, whose numbers are one after the other, until one of them is refused for want of room; returns how many were stored.
+    ///
+    /// # Errors
+    /// When there is no drawing object with that handle.
+    pub fn add_drawing_items(&mut self, handle: i64, numbers: &[f64]) -> SceneResult<usize> {
+        let parent = self.drawings.get(handle)?.style.parent;
+        let frame = parent.map_or(Ok(super::Pose::identity()), |parent| self.world_pose(parent))?;
+        let drawing = self.drawings.get_mut(handle)?;
+        Ok(numbers.chunks(drawing.item_len()).filter(|item| drawing.add(item, &frame)).count())
+    }
+
+    /// Removes all items of a drawing object.
+    ///
+    /// # Errors
+    /// When there is none with that handle.
+    pub fn clear_drawing(&mut self, handle: i64) -> SceneResult<()> {
+        self.drawings.get_mut(handle).map(DrawingObject::clear)
+    }
+
+    /// # Errors
+    /// When there is no drawing object with that handle.
+    pub fn remove_drawing(&mut self, handle: i64) -> SceneResult<()> {
+        self.drawings.by_handle.remove(&handle).map(drop).ok_or(SceneError::NoSuchObject)
+    }
+
+    /// Removes all drawing objects.
+    pub fn remove_all_drawings(&mut self) {
+        self.drawings.by_handle.clear();
+    }
+
+    /// Removes what ends with the script `owner`: its collections, and its drawing objects that are not persistent.
+    pub(crate) fn forget_owner(&mut self, owner: i64) {
+        self.collections.forget_owner(owner);
+        self.drawings.forget_owner(owner);
+    }
+}
