@@ -23,6 +23,11 @@ pub(super) struct Table(c_int);
 #[repr(transparent)]
 pub(super) struct Occupied(c_int);
 
+/// A function that Lua calls as a hook.
+#[repr(transparent)]
+#[derive(Clone, Copy)]
+pub(super) struct Hook(ffi::lua_Hook);
+
 /// A stack with a free place.
 #[repr(transparent)]
 pub(super) struct Room<'a>(Stack<'a>);
@@ -46,7 +51,11 @@ struct Known<'a>(Stack<'a>);
 unsafe extern "C-unwind" {
     pub(super) safe fn lua_gettop(stack: Stack<'_>) -> c_int;
     pub(super) safe fn lua_checkstack(stack: Stack<'_>, count: c_int) -> c_int;
+    pub(super) safe fn lua_status(stack: Stack<'_>) -> c_int;
+    pub(super) safe fn lua_gethook(stack: Stack<'_>) -> Option<Hook>;
+    pub(super) safe fn lua_gethookmask(stack: Stack<'_>) -> c_int;
     pub(super) safe fn lua_gethookcount(stack: Stack<'_>) -> c_int;
+    pub(super) safe fn lua_sethook(stack: Stack<'_>, hook: Option<Hook>, mask: c_int, interval: c_int);
     pub(super) safe fn lua_isyieldable(stack: Stack<'_>) -> c_int;
     pub(super) safe fn lua_type(stack: Stack<'_>, slot: Slot) -> c_int;
     pub(super) safe fn lua_iscfunction(stack: Stack<'_>, slot: Slot) -> c_int;
@@ -67,6 +76,7 @@ unsafe extern "C-unwind" {
     pub(super) safe fn lua_pushvalue(room: Room<'_>, slot: Slot);
     pub(super) safe fn lua_pushthread(room: Room<'_>) -> c_int;
     pub(super) safe fn luaL_where(room: Room<'_>, level: c_int);
+    pub(super) safe fn luaL_traceback(room: Room<'_>, of: Stack<'_>, message: Option<&c_char>, level: c_int);
     pub(super) safe fn lua_createtable(room: Room<'_>, array: c_int, fields: c_int);
     pub(super) safe fn lua_getmetatable(room: Room<'_>, slot: Slot) -> c_int;
     pub(super) safe fn lua_getupvalue(room: Room<'_>, slot: Slot, number: c_int) -> *const c_char;
@@ -81,12 +91,38 @@ unsafe extern "C-unwind" {
     pub(super) safe fn lua_rawsetp(value: Top<'_>, table: Table, key: *const c_void);
     pub(super) safe fn luaL_ref(value: Top<'_>, table: Table) -> c_int;
     pub(super) safe fn luaL_unref(stack: Stack<'_>, table: Table, reference: c_int);
+    safe fn lua_setmetatable(table: Top<'_>, owner: Slot) -> c_int;
     safe fn lua_next(key: Known<'_>, table: Table) -> c_int;
 }
 
 impl Slot {
     /// The number of a running function of ours.
     pub(super) const NUMBER: Self = Self(ffi::lua_upvalueindex(1));
+    /// The first argument of a running function.
+    pub(super) const FIRST: Self = Self(1);
+
+    pub(super) fn index(self) -> c_int {
+        self.0
+    }
+}
+
+impl Hook {
+    /// Of coroutines: pre-empts and stops them.
+    pub(super) const COUNT: Self = Self(super::hooks::count::hook);
+    /// Beside a hook of a script that counts nothing.
+    pub(super) const BESIDE: Self = Self(super::hooks::beside::beside_hook);
+    /// Beside a hook of a script that counts instructions.
+    pub(super) const BESIDE_COUNTING: Self = Self(super::hooks::beside::beside_counting_hook);
+
+    pub(super) fn function(self) -> ffi::lua_Hook {
+        self.0
+    }
+}
+
+impl PartialEq for Hook {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::fn_addr_eq(self.0, other.0)
+    }
 }
 
 impl Table {
@@ -165,6 +201,13 @@ impl<'a> Stack<'a> {
             }
         }
         true
+    }
+
+    /// Pops a table and makes it the metatable of the table or userdata at `index`.
+    pub(crate) fn set_metatable(self, index: c_int) {
+        self.table(-1);
+        assert!(matches!(self.kind(index), Type::Table | Type::UserData), "other values share their metatable");
+        lua_setmetatable(Top(self), self.slot(index));
     }
 
     /// Cuts the stack to `top` values.

@@ -1,13 +1,13 @@
 //! Calling Lua code, and inspecting the call stack.
 
-use std::ffi::{CStr, c_char, c_int};
-use std::mem::MaybeUninit;
+use std::ffi::c_int;
 
 use mlua::{Error, ffi};
 
 use super::api;
 use super::entry::{Exit, push_function};
-use super::interrupt::Running;
+use super::frame::Facts;
+use super::hooks::interrupt::Running;
 use super::seal::seal_top;
 use super::stack::Stack;
 
@@ -68,7 +68,7 @@ impl Stack<'_> {
 
     /// The line being executed by the function `level` calls up; -1 when that is not a Lua function.
     pub(crate) fn current_line(self, level: c_int) -> c_int {
-        self.frame(level, c"l").map_or(-1, |frame| frame.line)
+        self.frame(level, Facts::LINE).map_or(-1, |frame| frame.line())
     }
 
     /// The text of Lua's own functions for an invalid argument, raised by the running callback.
@@ -84,27 +84,9 @@ impl Stack<'_> {
 
     /// The name the running function was called by, and whether as a method.
     fn called_as(self) -> (String, bool) {
-        let frame = self.frame(0, c"n");
-        frame.and_then(|frame| Some((frame.name?, frame.is_method))).unwrap_or_else(|| ("?".into(), false))
-    }
-
-    /// Information about the function `level` calls up.
-    fn frame(self, level: c_int, what: &'static CStr) -> Option<Frame> {
-        let mut record = MaybeUninit::<ffi::lua_Debug>::zeroed();
-        let text = |text: *const c_char| {
-            // SAFETY: names in a record are texts, which last until the function returns.
-            (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned())
-        };
-        // SAFETY: a record of zeros is valid; Lua fills in the requested fields, which pushes nothing.
-        let record = unsafe {
-            if ffi::lua_getstack(self.raw(), level, record.as_mut_ptr()) == 0 {
-                return None;
-            }
-            ffi::lua_getinfo(self.raw(), what.as_ptr(), record.as_mut_ptr());
-            record.assume_init()
-        };
-        let is_method = text(record.namewhat).is_some_and(|kind| kind == "method");
-        Some(Frame { line: record.currentline, name: text(record.name), is_method })
+        let frame = self.frame(0, Facts::NAME);
+        let called = frame.and_then(|frame| Some((frame.name()?.to_string_lossy().into_owned(), frame.is_method())));
+        called.unwrap_or_else(|| ("?".into(), false))
     }
 
     /// `chunk:line: ` of the Lua function that called; nothing when that is none.
@@ -122,9 +104,7 @@ impl Stack<'_> {
 
     /// The same from a level on: 0 is the running function.
     pub(crate) fn traceback_from(self, level: c_int) -> String {
-        let _room = self.large_room();
-        // SAFETY: there is room for the text and its parts.
-        unsafe { ffi::luaL_traceback(self.raw(), self.raw(), std::ptr::null(), level) };
+        api::luaL_traceback(self.large_room(), self, None, level);
         let text = self.text(-1).unwrap_or_default();
         self.pop(1);
         String::from_utf8_lossy(&text).into_owned()
@@ -140,13 +120,6 @@ impl Stack<'_> {
     pub(crate) fn push_running_coroutine(self) {
         api::lua_pushthread(self.room());
     }
-}
-
-/// A function on the call stack.
-struct Frame {
-    line: c_int,
-    name: Option<String>,
-    is_method: bool,
 }
 
 /// Adds the traceback to string errors, and to those of Rust functions, and leaves other values alone, as `debug.traceback` does.

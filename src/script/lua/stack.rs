@@ -69,6 +69,13 @@ impl<'a> Stack<'a> {
         unsafe { Lua::get_or_init_from_ptr(self.raw) }
     }
 
+    /// The coroutine in a slot.
+    pub(super) fn coroutine(self, slot: Slot) -> Option<Self> {
+        // SAFETY: null for what is no coroutine; one in a slot is of this state, and alive.
+        let raw = unsafe { ffi::lua_tothread(self.raw, slot.index()) };
+        (!raw.is_null()).then_some(Self { raw, ..self })
+    }
+
     /// The memory budget of the state.
     pub(super) fn budget(self) -> &'a Budget {
         &self.owner().budget

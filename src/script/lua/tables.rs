@@ -133,14 +133,6 @@ impl Stack<'_> {
         api::lua_getmetatable(self.room(), slot) != 0
     }
 
-    /// Pops a table and makes it the metatable of the table or userdata at `index`.
-    pub(crate) fn set_metatable(self, index: c_int) {
-        self.table(-1);
-        assert!(matches!(self.kind(index), Type::Table | Type::UserData), "other values share their metatable");
-        // SAFETY: a metatable, and something that has one of its own.
-        unsafe { ffi::lua_setmetatable(self.raw(), index) };
-    }
-
     /// Pushes upvalue `number` of the function at `index`, if it has that many.
     pub(super) fn push_upvalue(self, index: c_int, number: c_int) -> bool {
         let slot = self.slot(index);

@@ -3,17 +3,17 @@
 //! Lua has one hook for each coroutine. After `debug.sethook` it is one of ours, which asks whether the code may go on and then calls what
 //! Lua's library had set; `debug.gethook` sees the latter.
 
-use std::ffi::c_int;
 use std::sync::OnceLock;
 
 use mlua::ffi;
 
-use super::coroutine::{HOOK_INTERVAL, Step, hook, next_step};
-use super::guard::{Next, guarded, install};
-use super::{Stack, Type};
+use super::count::{HOOK_INTERVAL, Step, hook, next_step};
+use crate::script::lua::Stack;
+use crate::script::lua::api::{self, Hook, Slot};
+use crate::script::lua::guard::{Next, guarded, install};
 
 /// The hook of Lua's library, which calls the function of the script.
-static OF_LIBRARY: OnceLock<ffi::lua_Hook> = OnceLock::new();
+static OF_LIBRARY: OnceLock<Hook> = OnceLock::new();
 
 /// Guards the functions of the table `debug`, which is on top.
 pub(super) fn keep_watch(stack: Stack<'_>) {
@@ -25,17 +25,8 @@ pub(super) fn keep_watch(stack: Stack<'_>) {
 }
 
 /// The coroutine that is meant: the first argument, or the running one.
-fn coroutine(stack: Stack<'_>) -> *mut ffi::lua_State {
-    if stack.kind(1) == Type::Thread {
-        // SAFETY: a coroutine on the stack is alive.
-        unsafe { ffi::lua_tothread(stack.raw(), 1) }
-    } else {
-        stack.raw()
-    }
-}
-
-fn is(hook: ffi::lua_Hook, other: ffi::lua_Hook) -> bool {
-    std::ptr::fn_addr_eq(hook, other)
+fn coroutine(stack: Stack<'_>) -> Stack<'_> {
+    stack.coroutine(Slot::FIRST).unwrap_or(stack)
 }
 
 /// Puts a hook of ours in the place of the one of the library, or of none.
@@ -44,22 +35,18 @@ fn watch(stack: Stack<'_>) {
         return;
     }
     let coroutine = coroutine(stack);
-    // SAFETY: the coroutine is alive. Hooks are read and set.
-    unsafe {
-        let mask = ffi::lua_gethookmask(coroutine);
-        match ffi::lua_gethook(coroutine) {
-            None => ffi::lua_sethook(coroutine, Some(hook as ffi::lua_Hook), ffi::LUA_MASKCOUNT, HOOK_INTERVAL),
-            Some(own) if [hook as ffi::lua_Hook, beside_hook, beside_counting_hook].iter().any(|&one| is(own, one)) => {
-            }
-            Some(of_library) => {
-                OF_LIBRARY.get_or_init(|| of_library);
-                let (ours, interval): (ffi::lua_Hook, c_int) = if mask & ffi::LUA_MASKCOUNT != 0 {
-                    (beside_counting_hook, ffi::lua_gethookcount(coroutine))
-                } else {
-                    (beside_hook, HOOK_INTERVAL)
-                };
-                ffi::lua_sethook(coroutine, Some(ours), mask | ffi::LUA_MASKCOUNT, interval);
-            }
+    let mask = api::lua_gethookmask(coroutine);
+    match api::lua_gethook(coroutine) {
+        None => api::lua_sethook(coroutine, Some(Hook::COUNT), ffi::LUA_MASKCOUNT, HOOK_INTERVAL),
+        Some(own) if [Hook::COUNT, Hook::BESIDE, Hook::BESIDE_COUNTING].contains(&own) => {}
+        Some(of_library) => {
+            OF_LIBRARY.get_or_init(|| of_library);
+            let (ours, interval) = if mask & ffi::LUA_MASKCOUNT != 0 {
+                (Hook::BESIDE_COUNTING, api::lua_gethookcount(coroutine))
+            } else {
+                (Hook::BESIDE, HOOK_INTERVAL)
+            };
+            api::lua_sethook(coroutine, Some(ours), mask | ffi::LUA_MASKCOUNT, interval);
         }
     }
 }
@@ -67,41 +54,42 @@ fn watch(stack: Stack<'_>) {
 /// Puts the hook of the library back.
 fn unwatch(stack: Stack<'_>) {
     let coroutine = coroutine(stack);
-    // SAFETY: the coroutine is alive. Hooks are read and set.
-    unsafe {
-        let (mask, interval) = (ffi::lua_gethookmask(coroutine), ffi::lua_gethookcount(coroutine));
-        match ffi::lua_gethook(coroutine) {
-            Some(own) if is(own, beside_counting_hook) => {
-                ffi::lua_sethook(coroutine, OF_LIBRARY.get().copied(), mask, interval);
-            }
-            Some(own) if is(own, beside_hook) => {
-                ffi::lua_sethook(coroutine, OF_LIBRARY.get().copied(), mask & !ffi::LUA_MASKCOUNT, 0);
-            }
-            _ => {}
-        }
+    let (mask, interval) = (api::lua_gethookmask(coroutine), api::lua_gethookcount(coroutine));
+    let of_library = OF_LIBRARY.get().copied();
+    match api::lua_gethook(coroutine) {
+        Some(own) if own == Hook::BESIDE_COUNTING => api::lua_sethook(coroutine, of_library, mask, interval),
+        Some(own) if own == Hook::BESIDE => api::lua_sethook(coroutine, of_library, mask & !ffi::LUA_MASKCOUNT, 0),
+        _ => {}
     }
 }
 
 /// Beside a hook that counts nothing.
-unsafe extern "C-unwind" fn beside_hook(raw: *mut ffi::lua_State, record: *mut ffi::lua_Debug) {
+pub(in crate::script::lua) unsafe extern "C-unwind" fn beside_hook(
+    raw: *mut ffi::lua_State,
+    record: *mut ffi::lua_Debug,
+) {
     // SAFETY: Lua's call is passed on. Nothing is owned here.
-    unsafe { if (*record).event == ffi::LUA_HOOKCOUNT { hook(raw, record) } else { call_library(raw, record) } }
+    unsafe {
+        if (*record).event == ffi::LUA_HOOKCOUNT {
+            hook(raw, record);
+        } else if let Some(of_library) = OF_LIBRARY.get() {
+            of_library.function()(raw, record);
+        }
+    }
 }
 
 /// Beside a hook that counts instructions as well.
-unsafe extern "C-unwind" fn beside_counting_hook(raw: *mut ffi::lua_State, record: *mut ffi::lua_Debug) {
+pub(in crate::script::lua) unsafe extern "C-unwind" fn beside_counting_hook(
+    raw: *mut ffi::lua_State,
+    record: *mut ffi::lua_Debug,
+) {
     // SAFETY: as above. The error leaves it by `longjmp`.
     unsafe {
         if (*record).event == ffi::LUA_HOOKCOUNT && next_step(Stack::from_raw(raw)) == Step::Raise {
             ffi::lua_error(raw);
         }
-        call_library(raw, record);
-    }
-}
-
-unsafe fn call_library(raw: *mut ffi::lua_State, record: *mut ffi::lua_Debug) {
-    if let Some(of_library) = OF_LIBRARY.get() {
-        // SAFETY: the caller's.
-        unsafe { of_library(raw, record) };
+        if let Some(of_library) = OF_LIBRARY.get() {
+            of_library.function()(raw, record);
+        }
     }
 }

@@ -5,10 +5,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use mlua::ffi;
 
-use super::callback::panic_message;
-use super::guard::{Next, guarded, install};
 use super::interrupt::{is_requested, place_of_interruption};
-use super::{Stack, api};
+use crate::script::lua::Stack;
+use crate::script::lua::api::{self, Hook};
+use crate::script::lua::callback::panic_message;
+use crate::script::lua::guard::{Next, guarded, install};
 
 /// Virtual machine instructions between two checks of the budget.
 pub(crate) const HOOK_INTERVAL: c_int = 1000;
@@ -76,12 +77,8 @@ fn set_interval(stack: Stack<'_>, interval: c_int) {
 /// Sets the hook of the coroutine on top for every `interval` instructions; none with an interval of 0.
 fn set_hook(stack: Stack<'_>, interval: c_int) {
     let mask = if interval > 0 { ffi::LUA_MASKCOUNT } else { 0 };
-    // SAFETY: null for what is no coroutine; a coroutine on the stack is alive.
-    unsafe {
-        let coroutine = ffi::lua_tothread(stack.raw(), -1);
-        if !coroutine.is_null() {
-            ffi::lua_sethook(coroutine, (mask != 0).then_some(hook as ffi::lua_Hook), mask, interval);
-        }
+    if let Some(coroutine) = stack.coroutine(stack.slot(-1)) {
+        api::lua_sethook(coroutine, (mask != 0).then_some(Hook::COUNT), mask, interval);
     }
 }
 
@@ -97,7 +94,7 @@ pub(crate) enum HookAction {
 }
 
 /// The hook: yields without values, or raises an error, as the host decides.
-pub(super) unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
+pub(in crate::script::lua) unsafe extern "C-unwind" fn hook(raw: *mut ffi::lua_State, _: *mut ffi::lua_Debug) {
     // SAFETY: Lua calls the hook of a running coroutine. Yields and errors leave it by `longjmp`; nothing is owned here.
     unsafe {
         match next_step(Stack::from_raw(raw)) {

@@ -4,13 +4,15 @@
 //! called or freed. So natives have no upvalues and no locals for `debug`, userdata keep their metatables, a metatable with `__metatable`
 //! is hidden from `debug.getmetatable` too, and the registry is a copy of what is public in it.
 
-use std::ffi::{CStr, c_int};
+use std::ffi::c_int;
 
 use mlua::{Lua, Table, ffi};
 
-use super::debug_hook::keep_watch;
-use super::guard::{Next, guarded, install};
-use super::{Stack, Type, api};
+use super::beside::keep_watch;
+use crate::script::lua::api::{self, Slot};
+use crate::script::lua::frame::Facts;
+use crate::script::lua::guard::{Next, guarded, install};
+use crate::script::lua::{Stack, Type};
 
 /// Replaces the functions of `debug` that reach into native functions.
 pub(crate) fn restrict_debug(stack: Stack<'_>, lua: &Lua) -> mlua::Result<()> {
@@ -88,24 +90,11 @@ impl Local {
         let first = if stack.kind(1) == Type::Thread { 2 } else { 1 };
         let level = argument(stack, first)?;
         let number = argument(stack, first + 1)?;
-        // SAFETY: `lua_Debug` is plain data that `lua_getstack` fills, for this coroutine or the one in the first argument, which is alive.
-        // There is room for the value of the local, which is popped again; names are static or belong to the function.
-        unsafe {
-            let of = if first == 2 { ffi::lua_tothread(stack.raw(), 1) } else { stack.raw() };
-            let mut record: ffi::lua_Debug = std::mem::zeroed();
-            if ffi::lua_getstack(of, level, &raw mut record) == 0 || ffi::lua_checkstack(of, 1) == 0 {
-                return None;
-            }
-            ffi::lua_getinfo(of, c"S".as_ptr(), &raw mut record);
-            let is_native = CStr::from_ptr(record.what) == c"C";
-            let name = ffi::lua_getlocal(of, &raw const record, number);
-            if name.is_null() {
-                return Some(Self { is_native, is_temporary: false });
-            }
-            ffi::lua_settop(of, -2);
-            let is_temporary = number > 0 && CStr::from_ptr(name).to_bytes().starts_with(b"(");
-            Some(Self { is_native, is_temporary })
-        }
+        let coroutine = if first == 2 { stack.coroutine(Slot::FIRST)? } else { stack };
+        let frame = coroutine.frame(level, Facts::SOURCE)?;
+        let name = coroutine.reserve(1).then(|| frame.local_name(number))?;
+        let is_temporary = number > 0 && name.is_some_and(|name| name.to_bytes().starts_with(b"("));
+        Some(Self { is_native: frame.is_native(), is_temporary })
     }
 }
 

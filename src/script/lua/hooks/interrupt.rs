@@ -6,15 +6,16 @@
 //! records of its calls; nothing is written there.
 
 use std::cell::Cell;
-use std::ffi::{CStr, c_int};
-use std::mem::MaybeUninit;
+use std::ffi::c_int;
 use std::ptr::null_mut;
 use std::sync::atomic::{AtomicU8, AtomicU64, AtomicUsize, Ordering};
 
 use mlua::ffi;
 
-use super::coroutine::{hook, restore_count_hook};
-use super::{Stack, api};
+use super::count::restore_count_hook;
+use crate::script::lua::Stack;
+use crate::script::lua::api::{self, Hook, Slot};
+use crate::script::lua::frame::Facts;
 
 /// Coroutines within coroutines that are looked at.
 const LONGEST_CHAIN: usize = 250;
@@ -39,12 +40,12 @@ static PLACE: [AtomicU8; LONGEST_PLACE] = [const { AtomicU8::new(0) }; LONGEST_P
 static PLACE_LENGTH: AtomicUsize = AtomicUsize::new(0);
 
 /// A call into Lua from outside. Nested ones end in reverse order.
-pub(super) struct Running {
+pub(in crate::script::lua) struct Running {
     outer: *mut ffi::lua_State,
 }
 
 impl Running {
-    pub(super) fn begin(stack: Stack<'_>) -> Self {
+    pub(in crate::script::lua) fn begin(stack: Stack<'_>) -> Self {
         let outer = RUNNING.replace(stack.raw());
         if outer.is_null() {
             REQUESTED.set(false);
@@ -76,22 +77,21 @@ pub(crate) fn place_of_interruption() -> Option<String> {
 
 /// Stops the Lua code of this thread. For signal handlers: it neither allocates nor waits.
 pub(crate) fn interrupt_running_code() {
-    let mut state = RUNNING.get();
-    if state.is_null() {
+    let running = RUNNING.get();
+    if running.is_null() {
         return;
     }
+    // SAFETY: the state is being called on this very thread, which stands still meanwhile. Setting a hook is what Lua allows a signal
+    // handler to do; the other functions only read.
+    let mut coroutine = unsafe { Stack::from_raw(running) };
     REQUESTED.set(true);
     IS_ROUGH.set(true);
     for _ in 0..LONGEST_CHAIN {
-        // SAFETY: `state` is alive, being called or inside of such a call on this very thread, which stands still meanwhile. Setting the
-        // hook is what Lua allows a signal handler to do; the other functions only read.
-        unsafe {
-            ffi::lua_sethook(state, Some(hook as ffi::lua_Hook), ffi::LUA_MASKCOUNT, 1);
-            note_place(state);
-            match resumed_by(state) {
-                Some(coroutine) => state = coroutine,
-                None => return,
-            }
+        api::lua_sethook(coroutine, Some(Hook::COUNT), ffi::LUA_MASKCOUNT, 1);
+        note_place(coroutine);
+        match resumed_by(coroutine) {
+            Some(resumed) => coroutine = resumed,
+            None => return,
         }
     }
 }
@@ -103,57 +103,40 @@ pub(super) fn is_requested(stack: Stack<'_>) -> bool {
         restore_count_hook(stack);
     }
     if is_requested && IS_ROUGH.take() {
-        // SAFETY: the coroutine runs this hook, on this thread.
-        unsafe { note_place(stack.raw()) };
+        note_place(stack);
     }
     is_requested
 }
 
-/// The coroutine that the function written in C on top of `state`'s calls has resumed.
-unsafe fn resumed_by(state: *mut ffi::lua_State) -> Option<*mut ffi::lua_State> {
-    // SAFETY: the caller's. Indices beyond what is there are "none" to Lua.
-    unsafe {
-        let mut record = MaybeUninit::<ffi::lua_Debug>::zeroed().assume_init();
-        if ffi::lua_getstack(state, 0, &raw mut record) == 0 {
-            return None;
-        }
-        ffi::lua_getinfo(state, c"S".as_ptr(), &raw mut record);
-        if CStr::from_ptr(record.what) != c"C" {
-            return None;
-        }
-        let candidates = [ffi::lua_tothread(state, 1), ffi::lua_tothread(state, ffi::lua_upvalueindex(1))];
-        candidates.into_iter().find(|&coroutine| {
-            !coroutine.is_null()
-                && coroutine != state
-                && ffi::lua_status(coroutine) == ffi::LUA_OK
-                && ffi::lua_getstack(coroutine, 0, &raw mut record) != 0
-        })
+/// The coroutine that the function written in C on top of the calls has resumed: its first argument, or what it was made for.
+fn resumed_by(coroutine: Stack<'_>) -> Option<Stack<'_>> {
+    if !coroutine.frame(0, Facts::SOURCE)?.is_native() {
+        return None;
     }
+    let candidates = [Slot::FIRST, Slot::NUMBER].into_iter().filter_map(|slot| coroutine.coroutine(slot));
+    candidates.into_iter().find(|candidate| {
+        candidate.raw() != coroutine.raw()
+            && api::lua_status(*candidate) == ffi::LUA_OK
+            && candidate.frame(0, Facts::SOURCE).is_some()
+    })
 }
 
 /// Notes the lines of the innermost calls, up to a few: the first may be in the library.
-unsafe fn note_place(state: *mut ffi::lua_State) {
+fn note_place(coroutine: Stack<'_>) {
     let mut place = Place { length: 0 };
     let mut lines = 0;
-    // SAFETY: the caller's; names last as long as the functions that run.
-    unsafe {
-        let mut record = MaybeUninit::<ffi::lua_Debug>::zeroed().assume_init();
-        for level in 0..DEEPEST_LEVEL {
-            if lines == MOST_LINES || ffi::lua_getstack(state, level, &raw mut record) == 0 {
-                break;
-            }
-            ffi::lua_getinfo(state, c"nSl".as_ptr(), &raw mut record);
-            if record.currentline > 0 {
-                place.push(if lines > 0 { b", called from " } else { b"" });
-                place.push(CStr::from_ptr(record.short_src.as_ptr()).to_bytes());
-                place.push(b":");
-                place.push_number(record.currentline);
-                lines += 1;
-            } else if level == 0 && !record.name.is_null() {
-                place.push(b"function '");
-                place.push(CStr::from_ptr(record.name).to_bytes());
-                place.push(b"', called from ");
-            }
+    for level in 0..DEEPEST_LEVEL {
+        let Some(frame) = coroutine.frame(level, Facts::ALL).filter(|_| lines < MOST_LINES) else { break };
+        if frame.line() > 0 {
+            place.push(if lines > 0 { b", called from " } else { b"" });
+            place.push(frame.chunk().to_bytes());
+            place.push(b":");
+            place.push_number(frame.line());
+            lines += 1;
+        } else if let Some(name) = frame.name().filter(|_| level == 0) {
+            place.push(b"function '");
+            place.push(name.to_bytes());
+            place.push(b"', called from ");
         }
     }
     if lines > 0 {

@@ -1,0 +1,84 @@
+//! The records of running functions. Reading them changes nothing, so that signal handlers may do it.
+
+use std::ffi::{CStr, c_char, c_int};
+use std::mem::MaybeUninit;
+
+use mlua::ffi;
+
+use super::Stack;
+
+/// A running function, and what was asked about it. Its texts are read while it runs.
+pub(super) struct Frame<'a> {
+    stack: Stack<'a>,
+    record: ffi::lua_Debug,
+}
+
+/// What Lua fills in about a running function. None of it pushes a value.
+#[derive(Clone, Copy)]
+pub(super) struct Facts(&'static CStr);
+
+impl Facts {
+    pub(super) const LINE: Self = Self(c"l");
+    pub(super) const NAME: Self = Self(c"n");
+    pub(super) const SOURCE: Self = Self(c"S");
+    pub(super) const ALL: Self = Self(c"nSl");
+}
+
+impl<'a> Stack<'a> {
+    /// The function `level` calls up; 0 is the running one.
+    pub(super) fn frame(self, level: c_int, facts: Facts) -> Option<Frame<'a>> {
+        let mut record = MaybeUninit::<ffi::lua_Debug>::zeroed();
+        // SAFETY: a record of zeros is valid; Lua fills in the requested fields.
+        let record = unsafe {
+            if ffi::lua_getstack(self.raw(), level, record.as_mut_ptr()) == 0 {
+                return None;
+            }
+            ffi::lua_getinfo(self.raw(), facts.0.as_ptr(), record.as_mut_ptr());
+            record.assume_init()
+        };
+        Some(Frame { stack: self, record })
+    }
+}
+
+impl Frame<'_> {
+    /// The line being executed; -1 for a function written in C.
+    pub(super) fn line(&self) -> c_int {
+        self.record.currentline
+    }
+
+    /// The name it was called by.
+    pub(super) fn name(&self) -> Option<&CStr> {
+        self.text(self.record.name)
+    }
+
+    /// Whether it was called as a method.
+    pub(super) fn is_method(&self) -> bool {
+        self.text(self.record.namewhat) == Some(c"method")
+    }
+
+    /// Whether it is written in C.
+    pub(super) fn is_native(&self) -> bool {
+        self.text(self.record.what) == Some(c"C")
+    }
+
+    /// Its chunk, as errors name it.
+    pub(super) fn chunk(&self) -> &CStr {
+        self.text(self.record.short_src.as_ptr()).unwrap_or_default()
+    }
+
+    /// The name of a local variable or temporary value; None where there is none.
+    pub(super) fn local_name(&self, number: c_int) -> Option<&CStr> {
+        let _room = self.stack.room();
+        // SAFETY: the function runs, and there is room for the value that is pushed with the name.
+        let name = unsafe { ffi::lua_getlocal(self.stack.raw(), &raw const self.record, number) };
+        if !name.is_null() {
+            self.stack.pop(1);
+        }
+        self.text(name)
+    }
+
+    fn text(&self, text: *const c_char) -> Option<&CStr> {
+        // SAFETY: the texts of a record, and the names of variables, end with NUL and last as long as the function runs.
+        (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) })
+    }
+}
