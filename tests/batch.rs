@@ -81,7 +81,7 @@ fn an_interrupted_batch_goes_on() {
 }
 
 #[test]
-fn wrong_usage_is_told() {
+fn wrong_usage_is_an_error() {
     let dir = tempfile::tempdir().expect("a folder");
     for wrong in [["--seeds", "9..1"], ["--seeds", "x"], ["--sweep", "kp"], ["--out", "/dev/null/x"]] {
         assert_eq!(batch(dir.path(), &wrong).0, 2, "{wrong:?}");

@@ -175,7 +175,7 @@ fn files_are_written_whatever_the_result_and_replace_older_ones() {
 }
 
 #[test]
-fn a_file_that_cannot_be_written_is_told_before_anything_runs() {
+fn a_file_that_cannot_be_written_is_an_error_before_anything_runs() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("file"), "").expect("a file");
     for target in ["file/junit.xml", "."] {

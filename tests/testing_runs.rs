@@ -194,7 +194,7 @@ fn what_scripts_write_belongs_to_their_test() {
 }
 
 #[test]
-fn results_with_recordings_are_told_as_they_come() {
+fn results_with_recordings_are_reported_as_they_come() {
     let suite = "
     local sim = require 'sim'
     local t = require 'swanilda.test'

@@ -5,7 +5,6 @@ use std::process::ExitCode;
 
 use super::{refuse, say};
 use crate::docs::{self, Function};
-use crate::script::log::suggestion::edit_distance;
 
 /// Largest edit distance of a suggested name.
 const NEAR: usize = 3;
@@ -66,7 +65,7 @@ fn unknown(name: &str, functions: &[Function]) -> String {
     let wanted = name.strip_prefix("sim.").unwrap_or(name).to_lowercase();
     let distance = |f: &Function| {
         let member = f.member().to_lowercase();
-        if wanted.len() > NEAR && member.contains(&wanted) { 1 } else { edit_distance(&wanted, &member) }
+        if wanted.len() > NEAR && member.contains(&wanted) { 1 } else { strsim::levenshtein(&wanted, &member) }
     };
     let mut near: Vec<(usize, &str)> = functions.iter().map(|f| (distance(f), f.name.as_str())).collect();
     near.retain(|(distance, _)| *distance <= NEAR);

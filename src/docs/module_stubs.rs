@@ -144,7 +144,7 @@ fn described(module: &str, source: &str, table: &str) -> BTreeMap<String, Functi
 
 /// What the file declares and its head mentions. The file knows the parameters best, unless it takes whatever comes.
 fn stubs(source: &str, table: &str) -> Stubs {
-    let mut stubs = told(modules::head(source));
+    let mut stubs = stubs_of_head(modules::head(source));
     for (name, declared) in declared(source, table) {
         let stub = stubs.entry(name).or_default();
         stub.is_method = declared.is_method;
@@ -212,7 +212,7 @@ fn taken(module: &str, source: &str) -> Vec<Function> {
 }
 
 /// Functions described in the head: lines indented by four, columns separated by at least two spaces.
-fn told(head: &str) -> Stubs {
+fn stubs_of_head(head: &str) -> Stubs {
     let mut stubs = Stubs::new();
     for line in head.lines().filter_map(|line| line.strip_prefix("    ")).filter(|line| !line.starts_with(' ')) {
         let columns: Vec<&str> = line.split("  ").map(str::trim).filter(|column| !column.is_empty()).collect();
@@ -269,7 +269,7 @@ fn is_name(text: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{declared, signatures, told};
+    use super::{declared, signatures, stubs_of_head};
 
     fn named(name: &str, parameters: &[&str]) -> (String, Vec<String>) {
         (name.to_owned(), parameters.iter().map(|&name| name.to_owned()).collect())
@@ -289,8 +289,8 @@ mod tests {
     }
 
     #[test]
-    fn a_head_tells_of_functions() {
-        let stubs = told(
+    fn a_head_describes_functions() {
+        let stubs = stubs_of_head(
             "Files.\n\n    dir(path)    names in it\n                 more\n    open(path) -> f   close(f) -> ok\n",
         );
         assert_eq!(stubs["dir"].text, "names in it");

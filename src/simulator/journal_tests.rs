@@ -78,7 +78,7 @@ fn scripts_learn_what_rust_changes() {
 }
 
 #[test]
-fn scripts_that_cannot_be_told_all_changes_are_told_the_whole_world_anew() {
+fn scripts_get_a_new_genesis_after_an_overflow() {
     let (mut sim, dummy) = simulator();
     let listener = listener(&mut sim);
     let world = counted(&mut sim, &listener, "objectAdded");

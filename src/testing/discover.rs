@@ -51,7 +51,7 @@ mod tests {
     use super::{find_files, is_test};
 
     #[test]
-    fn names_tell_tests() {
+    fn tests_are_found_by_their_names() {
         assert!(is_test("drive_test.lua") && is_test("test_drive.lua"));
         assert!(!is_test("drive.lua") && !is_test("test_drive.py") && !is_test("contest.lua") && !is_test("tests.lua"));
     }

@@ -1,6 +1,6 @@
 //! Outcomes of the tests of a run, in the order of reports.
 //!
-//! An outcome is told at once. Only one with recordings waits until the tests before it in its file are over: a recording belongs to the first
+//! An outcome is reported at once. Only one with recordings waits until the tests before it in its file are over: a recording belongs to the first
 //! test of that name, whichever ends first.
 
 use std::collections::BTreeSet;
@@ -21,7 +21,7 @@ pub(super) struct Results<'a> {
     /// Outcomes with recordings that wait for tests before them.
     waiting: Vec<Outcome>,
     claims: Claims,
-    told: Vec<Outcome>,
+    reported: Vec<Outcome>,
     has_failure: bool,
     counts: LineCounts,
 }
@@ -39,7 +39,7 @@ impl<'a> Results<'a> {
             open,
             waiting: Vec::new(),
             claims: Claims::default(),
-            told: Vec::new(),
+            reported: Vec::new(),
             has_failure: false,
             counts: LineCounts::default(),
         }
@@ -53,12 +53,12 @@ impl<'a> Results<'a> {
         self.has_failure |= outcome.is_bad();
         let file = outcome.test.file.clone();
         if outcome.comparisons.is_empty() {
-            self.tell(outcome);
+            self.report(outcome);
         } else {
             self.waiting.push(outcome);
         }
         let first_open = self.first_open(&file);
-        self.tell_waiting(|outcome| {
+        self.report_waiting(|outcome| {
             outcome.test.file == file && first_open.as_ref().is_none_or(|first| outcome.test.key() < *first)
         });
     }
@@ -69,7 +69,7 @@ impl<'a> Results<'a> {
     }
 
     /// Reports the waiting outcomes whose turn it is, in the order of their files.
-    fn tell_waiting(&mut self, is_due: impl Fn(&Outcome) -> bool) {
+    fn report_waiting(&mut self, is_due: impl Fn(&Outcome) -> bool) {
         let (mut due, waiting) = std::mem::take(&mut self.waiting).into_iter().partition::<Vec<_>, _>(is_due);
         self.waiting = waiting;
         due.sort_by_key(|outcome| outcome.test.key());
@@ -79,14 +79,14 @@ impl<'a> Results<'a> {
                 golden::record(&mut outcome);
             }
             golden::draw(&mut outcome, &self.config.artifacts);
-            self.tell(outcome);
+            self.report(outcome);
         }
     }
 
-    fn tell(&mut self, outcome: Outcome) {
+    fn report(&mut self, outcome: Outcome) {
         self.has_failure |= outcome.is_bad();
         self.reporter.outcome(&outcome);
-        self.told.push(outcome);
+        self.reported.push(outcome);
     }
 
     /// Whether a test has failed, reported or not.
@@ -96,8 +96,8 @@ impl<'a> Results<'a> {
 
     /// No test that is open will come to its end. The outcomes in the order of the files, and what lines ran.
     pub(super) fn finish(mut self) -> (Vec<Outcome>, LineCounts) {
-        self.tell_waiting(|_| true);
-        self.told.sort_by_key(|outcome| outcome.test.key());
-        (self.told, self.counts)
+        self.report_waiting(|_| true);
+        self.reported.sort_by_key(|outcome| outcome.test.key());
+        (self.reported, self.counts)
     }
 }

@@ -87,12 +87,12 @@ impl Session {
         (outcome.time, outcome.steps) = (self.sim.time(), self.sim.steps());
         outcome.goldens = self.bench.goldens.take();
         outcome.console = self.bench.take_lines();
-        self.tell_interruption(&mut outcome);
+        self.explain_interruption(&mut outcome);
         outcome
     }
 
     /// A test that had to be stopped: where it was, as far as that is in its file or in a script of the scene.
-    fn tell_interruption(&self, outcome: &mut Outcome) {
+    fn explain_interruption(&self, outcome: &mut Outcome) {
         let Some(trace) = self.bench.take_interruption() else { return };
         outcome.console.retain(|line| !(line.level == "error" && line.text.starts_with("interrupted.")));
         let own = format!("{}:", self.bench.file);

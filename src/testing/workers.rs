@@ -1,6 +1,6 @@
 //! Threads that run tests, and the watch over them.
 //!
-//! A test that takes too long is told to stop, which ends Lua code wherever it is. One that does not, since it is inside a function written in
+//! A test that takes too long is asked to stop, which ends Lua code wherever it is. One that does not, since it is inside a function written in
 //! C, is given up with its thread: another thread takes its place, and the process ends without it.
 #![allow(clippy::disallowed_methods, reason = "how long tests take is watched by the wall clock")]
 
@@ -47,7 +47,7 @@ pub(super) enum Message {
 }
 
 enum News {
-    /// A worker begins with something that takes time, and can be told to stop it.
+    /// A worker begins with something that takes time, and can be asked to stop it.
     Begun(Running),
     Ready(Message),
     /// A worker has nothing left to do.
@@ -117,7 +117,7 @@ pub(super) fn work(config: &Config, tasks: Vec<Task>, receive: &mut dyn FnMut(Me
     }
     while !watch.workers.is_empty() {
         if let Ok((worker, news)) = watch.news.recv_timeout(TICK) {
-            watch.hear(worker, news);
+            watch.receive(worker, news);
         }
         watch.look_after();
     }
@@ -133,7 +133,7 @@ impl Watch<'_> {
         self.workers.insert(id, None);
     }
 
-    fn hear(&mut self, worker: usize, news: News) {
+    fn receive(&mut self, worker: usize, news: News) {
         // Those that were given up may say what they like.
         let Some(running) = self.workers.get_mut(&worker) else { return };
         match news {
@@ -195,10 +195,10 @@ impl Watch<'_> {
 
     fn give_up(&mut self, worker: usize) {
         let mut queue = self.shared.queue();
-        // A worker tells of a test before it takes the next: with the queue locked and no news, it is still at this one.
-        if let Ok((teller, news)) = self.news.try_recv() {
+        // A worker reports a test before it takes the next: with the queue locked and no news, it is still at this one.
+        if let Ok((sender, news)) = self.news.try_recv() {
             drop(queue);
-            return self.hear(teller, news);
+            return self.receive(sender, news);
         }
         queue.given_up.insert(worker);
         drop(queue);
@@ -249,11 +249,11 @@ impl Worker {
                 Task::Simulate(job) => self.simulate(&job),
             }
         }
-        self.tell(News::Gone);
+        self.send(News::Gone);
     }
 
     /// Without a receiver the run is over, and so is this thread's work.
-    fn tell(&self, news: News) {
+    fn send(&self, news: News) {
         let _ = self.sender.send((self.id, news));
     }
 
@@ -264,7 +264,7 @@ impl Worker {
 
     fn begin(&self, test: &Arc<TestCase>, rest: &[Arc<TestCase>], stop: &Arc<AtomicBool>) {
         let (test, rest, stop) = (Arc::clone(test), rest.to_vec(), Arc::clone(stop));
-        self.tell(News::Begun(Running { test, rest, stop, begun: Instant::now() }));
+        self.send(News::Begun(Running { test, rest, stop, begun: Instant::now() }));
     }
 
     fn collect(&self, file: &Path) {
@@ -274,7 +274,7 @@ impl Worker {
         let collect = || Session::new(&self.shared.config, file, self.shared.config.seed, stop).collect(file);
         let collection = catch_unwind(AssertUnwindSafe(collect))
             .unwrap_or_else(|_| Collection::broken(Outcome::new(test, Status::Error, CRASHED)));
-        self.tell(News::Ready(Message::Collected(Box::new(collection))));
+        self.send(News::Ready(Message::Collected(Box::new(collection))));
     }
 
     /// Runs tests in one simulator; those after one that had to be stopped get another.
@@ -335,7 +335,7 @@ impl Worker {
     }
 
     fn finished(&self, outcome: Outcome) {
-        self.tell(News::Ready(Message::Finished(Box::new(outcome))));
+        self.send(News::Ready(Message::Finished(Box::new(outcome))));
     }
 }
 

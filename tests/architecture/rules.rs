@@ -88,6 +88,8 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("serde_json", "src/testing"),
     ("serialport", "src/io/serial.rs"),
     ("socket2", "src/io/socket"),
+    ("strsim", "src/cli/api.rs"),
+    ("strsim", "src/script/log"),
     ("syn", "crates/api-macro"),
     ("tempfile", "src/cli/test"),
     ("tempfile", "src/format"),

@@ -54,8 +54,8 @@ fn one_interrupt_ends_lua_code_wherever_it_is() {
 #[test]
 fn a_script_that_was_interrupted_cleans_up() {
     let scene = Scene::new(
-        "sim = require 'sim' print('ready')
-        function sysCall_actuation() while true do pcall(string.rep, 'x', 10) end end
+        "sim = require 'sim'
+        function sysCall_actuation() print('ready') while true do pcall(string.rep, 'x', 10) end end
         function sysCall_cleanup() print('cleanup') end",
     );
     let output = interrupt(&scene, &["--as", "simulation", "--quiet"], 1);

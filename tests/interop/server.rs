@@ -25,7 +25,7 @@ impl Server {
         command.args(["serve", "--json"]).args(args).stdin(Stdio::null()).stdout(Stdio::piped());
         let mut child = command.spawn().expect("the server starts");
         let mut out = BufReader::new(child.stdout.take().expect("standard output is piped"));
-        let port = port_told(&mut out);
+        let port = announced_port(&mut out);
         // What else it says must not fill the pipe.
         std::thread::spawn(move || std::io::copy(&mut out, &mut std::io::sink()));
         Self { child, port }
@@ -33,12 +33,12 @@ impl Server {
 }
 
 /// Reads until the server says where it listens.
-fn port_told(out: &mut impl BufRead) -> String {
+fn announced_port(out: &mut impl BufRead) -> String {
     for line in out.lines() {
-        let told: serde_json::Value =
+        let event: serde_json::Value =
             serde_json::from_str(&line.expect("the server lives")).expect("--json gives JSON");
-        if told["type"] == "listening" {
-            return told["port"].to_string();
+        if event["type"] == "listening" {
+            return event["port"].to_string();
         }
     }
     panic!("the server ended without listening");

@@ -1,4 +1,4 @@
-//! `swanilda test --isolate`: each test in a child, which is called like its parent, and told by its environment which test to run.
+//! `swanilda test --isolate`: each test in a child, which is called like its parent, with the test to run in its environment.
 
 use std::ffi::OsString;
 use std::path::PathBuf;

@@ -123,7 +123,7 @@ fn run(args: &Args, config: &Config) -> Result<u8, String> {
     args.reports.write(&summary)?;
     if let (Some(coverage), Some(file)) = (&summary.coverage, &config.coverage) {
         coverage.write(file).map_err(|error| error.to_string())?;
-        args.reports.tell(&coverage::summary(coverage, file));
+        args.reports.print(&coverage::summary(coverage, file));
     }
     Ok(exit_code(config, &summary))
 }

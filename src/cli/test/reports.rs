@@ -58,7 +58,7 @@ impl ReportArgs {
     }
 
     /// Prints a message that belongs to no report, without disturbing one.
-    pub(super) fn tell(&self, text: &str) {
+    pub(super) fn print(&self, text: &str) {
         // A reader that closes the pipe has seen enough, which is no error.
         let _ = match (self.tap || self.json, std::io::stdout().is_terminal()) {
             (true, true) => Ok(()),

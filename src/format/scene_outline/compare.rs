@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_different_is_told() {
+    fn differences_are_listed() {
         let mut other = robot();
         for object in &mut other.contents.objects {
             let alias = object.common.alias.as_ref().unwrap().decode();

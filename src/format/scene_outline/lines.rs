@@ -114,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn differences_are_told_with_what_is_around() {
+    fn differences_are_shown_with_their_context() {
         assert_eq!(unified("a\nb\n", "a\nb"), "");
         assert_eq!(unified("a\nb\nc", "a\nx\nc"), "@@ -1,3 +1,3 @@\n a\n-b\n+x\n c\n");
         assert_eq!(unified("", "a"), "@@ -1,0 +1,1 @@\n+a\n");

@@ -189,7 +189,7 @@ fn frame(element: Element<'_>, name: &str) -> Words<Pose> {
 fn mass(root: &mut Node, shape: Element<'_>, all: &Mesh) -> Words<()> {
     let mut properties = solid(all, DENSITY).unwrap_or_default();
     if let Some(dynamics) = shape.find(&["dynamics"]) {
-        told_mass(&mut properties, dynamics.mark())?;
+        read_mass(&mut properties, dynamics.mark())?;
     }
     let inertia = (0..9).map(|at| Node::Real(properties.inertia[(at / 3, at % 3)]));
     put(root, &[Step::Name("mass")], Node::Real(properties.mass));
@@ -198,7 +198,7 @@ fn mass(root: &mut Node, shape: Element<'_>, all: &Mesh) -> Words<()> {
     Ok(())
 }
 
-fn told_mass(properties: &mut MassProperties, dynamics: Element<'_>) -> Words<()> {
+fn read_mass(properties: &mut MassProperties, dynamics: Element<'_>) -> Words<()> {
     let part = |name: &str| dynamics.find(&[name]).map(|found| found.mark().text());
     if let Some(text) = part("mass") {
         let [mass] = numbers(&text)?;

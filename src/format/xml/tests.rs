@@ -161,7 +161,7 @@ fn assert_wrong(inner: &str, expected: &str) {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_place() {
+fn errors_name_the_place() {
     let joint = "<joint><position>1e</position></joint>";
     assert_wrong(joint, "line 3, column 8, in CoppeliaSim/joint/position: '1e' is no number.");
     assert_wrong("<joint><type>round</type></joint>", "CoppeliaSim/joint/type: 'round' is unknown here");

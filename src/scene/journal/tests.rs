@@ -38,7 +38,7 @@ fn scene_with_dummy() -> (Scene, Handle) {
 }
 
 #[test]
-fn a_new_reader_is_told_that_everything_may_have_changed() {
+fn for_a_new_reader_everything_may_have_changed() {
     let mut journal = Journal::default();
     journal.note(moved(1));
     let mut cursor = journal.follow(Topics::ALL);
@@ -107,7 +107,7 @@ fn a_reader_that_is_gone_holds_nothing() {
 }
 
 #[test]
-fn who_is_too_slow_is_told_that_everything_changed_and_goes_on_from_there() {
+fn a_reader_too_far_behind_gets_everything_and_continues_from_there() {
     let (mut journal, mut slow) = journal(100, Topics::ALL);
     let mut quick = follower(&journal, Topics::ALL);
     for handle in 0..1000 {
@@ -124,7 +124,7 @@ fn who_is_too_slow_is_told_that_everything_changed_and_goes_on_from_there() {
 }
 
 #[test]
-fn a_reader_of_another_scene_is_told_that_everything_changed() {
+fn a_reader_of_another_scene_gets_everything() {
     let (_, mut cursor) = journal(1000, Topics::ALL);
     let mut mark = Mark::new(Topics::ALL);
     assert!(Journal::default().changed_since(&mut mark));
@@ -150,7 +150,7 @@ fn changes_made_while_reading_are_read_next_time() {
 }
 
 #[test]
-fn a_handle_that_is_used_again_is_told_apart_by_the_order_of_changes() {
+fn the_order_of_changes_distinguishes_uses_of_a_handle() {
     let (mut scene, first) = scene_with_dummy();
     let mut cursor = follower(scene.journal(), Topics::TREE);
     let uid = scene.object(first).unwrap().uid();

@@ -62,7 +62,7 @@ mod tests {
     use super::Record;
 
     #[test]
-    fn missed_lines_are_told_in_ranges() {
+    fn missed_lines_are_listed_as_ranges() {
         let counts = [(1, 1), (2, 0), (4, 0), (5, 3), (9, 0)];
         let record = Record { lines: counts.into(), functions: Vec::new() };
         assert_eq!(record.missed(), [(2, 4), (9, 9)]);

@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_and_the_worst_divergence_are_told() {
+    fn the_first_and_the_worst_divergence_are_reported() {
         let expected = sine(0.05, 0.0, 1.0);
         let mut actual = expected.clone();
         actual.rows[10][1] += 0.01;

@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_saved_is_told_once_and_kept() {
+    fn a_failure_to_save_is_logged_once_and_the_data_stay() {
         let folder = tempfile::tempdir().expect("a temporary folder can be made");
         let no_folder = folder.path().join("file");
         std::fs::write(&no_folder, b"").expect("our own folder is writable");
