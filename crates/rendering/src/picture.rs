@@ -1,5 +1,7 @@
 //! What a renderer returns.
 
+use crate::Background;
+
 /// Which parts of a picture are computed. What is not asked for costs nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Channels {
@@ -32,13 +34,24 @@ impl Picture {
     /// The id where nothing is.
     pub const NOTHING: u32 = u32::MAX;
 
-    /// A picture of nothing.
-    pub(crate) fn clear(&mut self, resolution: [u32; 2], channels: Channels) {
+    /// Makes room for a picture.
+    pub(crate) fn resize(&mut self, resolution: [u32; 2], channels: Channels) {
         let pixels = resolution[0] as usize * resolution[1] as usize;
         let size = |wanted: bool| if wanted { pixels } else { 0 };
         self.resolution = resolution;
         self.colour.resize(3 * size(channels.colour), 0);
         self.depth.resize(size(channels.depth), 1.0);
         self.ids.resize(size(channels.ids), Self::NOTHING);
+    }
+
+    /// Shows nothing but the background.
+    pub(crate) fn fill(&mut self, background: &Background) {
+        let [width, height] = self.resolution.map(|side| side as usize);
+        self.depth.fill(1.0);
+        self.ids.fill(Self::NOTHING);
+        for (y, row) in self.colour.chunks_mut(3 * width).enumerate() {
+            let colour = background.row(y, height).map(|part| (part * 255.0 + 0.5) as u8);
+            row.chunks_exact_mut(3).for_each(|pixel| pixel.copy_from_slice(&colour));
+        }
     }
 }

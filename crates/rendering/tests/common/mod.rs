@@ -2,6 +2,8 @@
 
 #![allow(dead_code)]
 
+pub mod showcase;
+
 use geometry::Pose;
 use geometry::primitive::{PrimitiveKind, tessellate};
 use rendering::{Camera, Channels, Instance, Light, LightKind, Material, Mesh, Picture, Projection, Renderer, World};

@@ -4,7 +4,9 @@ use geometry::{Finite, Pose};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::camera::{Camera, Projection};
-use crate::raster::{GUARD_BAND, Plane, UNIT};
+use wide::f64x4;
+
+use crate::coverage::face::{Face, GUARD_BAND, Plane, UNIT, UNIT_BITS};
 
 /// A camera in the form that projecting needs.
 ///
@@ -79,9 +81,16 @@ impl View {
         self.closeness(self.far)
     }
 
-    /// The depth in metres.
-    pub fn depth(&self, closeness: f64) -> f64 {
-        if self.perspective { 1.0 / closeness } else { self.far - closeness * (self.far - self.near) }
+    /// `(z - near) / (far - near)` of a face at a ray and at the three pixels to the right.
+    pub fn relative_depths(&self, face: &Face, ray: [f64; 2]) -> [f32; 4] {
+        let [least, most] = face.range.map(|limit| f64x4::splat(limit.into()));
+        let columns = f64x4::new([0.0, 1.0, 2.0, 3.0]);
+        let closeness = (columns * face.closeness.a + face.closeness.at(ray)).fast_max(least).fast_min(most);
+        let depth = match self.perspective {
+            true => (f64x4::ONE / closeness - self.near) * (1.0 / (self.far - self.near)),
+            false => f64x4::ONE - closeness,
+        };
+        depth.fast_max(f64x4::ZERO).fast_min(f64x4::ONE).to_array().map(|depth| depth as f32)
     }
 
     /// Whether a ball in view coordinates may be visible; `radius` is in metres.
@@ -98,6 +107,7 @@ impl View {
         if self.perspective { (offset - border * z) / (1.0 + border * border).sqrt() } else { offset - border }
     }
 
+    #[inline(always)]
     /// A point on the picture, in units of 1 / `UNIT` pixel; None where it is closer than the near plane or beyond the guard band.
     pub fn project(&self, point: &Vector3<f64>) -> Option<[i32; 2]> {
         let over_depth = if self.perspective { 1.0 / point.z } else { 1.0 };
@@ -112,6 +122,7 @@ impl View {
         self.grid_point([point.x / depth, point.y / depth].map(|offset| offset.clamp(-GUARD_BAND, GUARD_BAND)))
     }
 
+    #[inline(always)]
     fn grid_point(&self, offset: [f64; 2]) -> [i32; 2] {
         // Shifted so that it is positive, where conversion rounds downwards.
         const SHIFT: f64 = 2.0 * GUARD_BAND;
@@ -120,15 +131,16 @@ impl View {
         })
     }
 
-    /// The pixels whose centres are within the bounding box of a triangle: first and last column and row.
-    pub fn pixels(&self, corners: &[[i32; 2]; 3]) -> Option<[[u16; 2]; 2]> {
-        let [columns, rows] = [0, 1].map(|axis| {
-            let [a, b, c] = corners.map(|corner| corner[axis]);
-            let first = (a.min(b).min(c) + UNIT / 2 - 1).div_euclid(UNIT).max(0);
-            let last = (a.max(b).max(c) - UNIT / 2).div_euclid(UNIT).min(self.resolution[axis] as i32 - 1);
+    /// The pixels whose centres are within a rectangle: first and last column and row.
+    #[inline(always)]
+    pub fn pixels(&self, low: [i32; 2], high: [i32; 2]) -> Option<[[u16; 2]; 2]> {
+        // Shifting divides by `UNIT` and rounds downwards.
+        let range = |axis: usize| {
+            let first = ((low[axis] + UNIT / 2 - 1) >> UNIT_BITS).max(0);
+            let last = ((high[axis] - UNIT / 2) >> UNIT_BITS).min(self.resolution[axis] as i32 - 1);
             (first <= last).then_some([first as u16, last as u16])
-        });
-        Some([columns?, rows?])
+        };
+        Some([range(0)?, range(1)?])
     }
 
     /// How far a point is on the inner side of a plane; negative beyond it.
@@ -148,16 +160,19 @@ impl View {
         [column as f64 + 0.5 - self.centre[0], row as f64 + 0.5 - self.centre[1]]
     }
 
-    /// How much each corner of a triangle contributes to what is seen at a ray; the sum is 1.
-    pub fn weights(&self, corners: &[Vector3<f64>; 3], ray: [f64; 2]) -> [f64; 3] {
-        let ray = Vector3::new(ray[0], ray[1], 1.0);
-        let [a, b, c] =
-            corners.map(|corner| if self.perspective { corner } else { Vector3::new(corner.x, corner.y, 1.0) });
-        let parts = [b.cross(&c).dot(&ray), c.cross(&a).dot(&ray), a.cross(&b).dot(&ray)];
-        let sum = parts[0] + parts[1] + parts[2];
-        parts.map(|part| part / sum)
+    /// A point such that its x and y divided by its z are its place on the picture.
+    pub fn homogeneous(&self, point: Vector3<f64>) -> Vector3<f64> {
+        Vector3::new(point.x, point.y, if self.perspective { point.z } else { 1.0 })
     }
 
+    /// How the closeness on a plane through a point changes from column to column and from row to row. The normal is that of the plane in
+    /// view coordinates.
+    pub fn closeness_gradient(&self, normal: &Vector3<f64>, point: &Vector3<f64>) -> [f64; 2] {
+        let distance = if self.perspective { normal.dot(point) } else { normal.z * (self.far - self.near) };
+        [normal.x / distance, normal.y / distance]
+    }
+
+    #[inline(always)]
     /// The closeness on the plane through three points, on the picture. Not finite where the plane is seen edge-on.
     pub fn closeness_on_plane(&self, [a, b, c]: &[Vector3<f64>; 3]) -> Plane {
         let normal = (b - a).cross(&(c - a));
@@ -172,7 +187,7 @@ impl View {
     }
 }
 
-/// What triangles are cut by.
+/// What triangles and lines are cut by.
 #[derive(Debug, Clone, Copy)]
 pub enum ClipPlane {
     Near,

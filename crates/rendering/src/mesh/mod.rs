@@ -1,8 +1,13 @@
 //! Triangle meshes prepared for drawing.
 
+pub mod edges;
+
 use std::collections::{HashMap, HashSet};
+use std::sync::OnceLock;
 
 use nalgebra::Vector3;
+
+use crate::mesh::edges::MeshEdge;
 
 /// Triangles in one cluster.
 const CLUSTER_TRIANGLES: usize = 512;
@@ -19,12 +24,16 @@ pub struct Mesh {
     pub(crate) ball: Ball,
     /// Whether the triangles enclose volumes, seen from outside counter-clockwise: back faces are always hidden by front faces.
     pub(crate) closed: bool,
+    /// Found when they are drawn for the first time.
+    edges: OnceLock<Vec<MeshEdge>>,
 }
 
 /// A triangle: its corners in its cluster, and what belongs to each corner.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Triangle {
     pub corners: [u16; 3],
+    /// Whether the three normals are equal.
+    pub is_flat: bool,
     pub normals: [[f32; 3]; 3],
     pub uv: [[f32; 2]; 3],
 }
@@ -61,9 +70,20 @@ impl Mesh {
         }
         let ball = Ball::around(order.iter().flat_map(|at| source.corners(*at).unwrap_or_default()));
         let closed = source.is_closed(&order, ball.centre.into());
-        let mut mesh = Self { vertices: Vec::new(), triangles: Vec::new(), clusters: Vec::new(), ball, closed };
+        let mut mesh = Self {
+            vertices: Vec::new(),
+            triangles: Vec::new(),
+            clusters: Vec::new(),
+            ball,
+            closed,
+            edges: OnceLock::new(),
+        };
         order.chunks(CLUSTER_TRIANGLES).for_each(|chunk| mesh.add_cluster(&source, chunk));
         Some(mesh)
+    }
+
+    pub(crate) fn edges(&self) -> &[MeshEdge] {
+        self.edges.get_or_init(|| self.find_edges())
     }
 
     /// The cluster of a triangle.
@@ -137,7 +157,8 @@ impl Source<'_> {
             let has_uv = self.uv.len() == 3 * self.triangles.len();
             has_uv.then(|| self.uv[3 * at + corner]).filter(|uv| uv.iter().all(|number| number.is_finite()))
         };
-        Triangle { corners, normals, uv: [0, 1, 2].map(|corner| uv(corner).unwrap_or_default()) }
+        let is_flat = normals[0] == normals[1] && normals[1] == normals[2];
+        Triangle { corners, is_flat, normals, uv: [0, 1, 2].map(|corner| uv(corner).unwrap_or_default()) }
     }
 
     /// The unit normal of a corner; the face's where there is none.

@@ -1,0 +1,4 @@
+//! Which pixels faces cover, and which face is in front.
+
+pub mod band;
+pub mod face;

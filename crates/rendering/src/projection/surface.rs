@@ -1,0 +1,206 @@
+//! From the triangles of a mesh to faces on the picture: transformed, culled, clipped.
+
+use nalgebra::Vector3;
+
+use crate::coverage::face::{Face, Plane, SMALL, UNIT};
+use crate::mesh::{Cluster, Mesh};
+use crate::projection::strokes::add_wire_frame;
+use crate::projection::view::{ClipPlane, Transform, View};
+
+/// What is drawn of a mesh.
+#[derive(Debug, Clone, Copy)]
+pub struct Surface<'a> {
+    pub mesh: &'a Mesh,
+    pub transform: Transform,
+    /// Whether back faces are left out.
+    pub culling: bool,
+    /// Whether only the sides of triangles are drawn.
+    pub wire_frame: bool,
+    /// Which owner its faces have.
+    pub owner: u32,
+}
+
+impl Surface<'_> {
+    /// The corners of a triangle in view coordinates.
+    pub fn corners(&self, triangle: usize) -> [Vector3<f64>; 3] {
+        let vertices = &self.mesh.vertices[self.mesh.cluster_of(triangle).vertices.clone()];
+        self.mesh.triangles[triangle].corners.map(|corner| self.transform.apply(&vertices[usize::from(corner)]))
+    }
+}
+
+/// The place of vertices that are too close or too far to the side.
+const OFF_PICTURE: [i32; 2] = [i32::MIN; 2];
+
+/// Makes faces; its memory is used again.
+#[derive(Debug, Default)]
+pub struct Setup {
+    pub faces: Vec<Face>,
+    /// Of a cluster's vertices, in view coordinates.
+    points: Vec<Vector3<f64>>,
+    /// The same on the picture; `OFF_PICTURE` where a vertex must be clipped first.
+    places: Vec<[i32; 2]>,
+    polygon: Vec<Vector3<f64>>,
+    cut: Vec<Vector3<f64>>,
+}
+
+/// What the faces of one triangle have in common.
+struct Origin<'a> {
+    view: &'a View,
+    surface: &'a Surface<'a>,
+    points: [Vector3<f64>; 3],
+    detail: u32,
+}
+
+impl Setup {
+    /// Adds the faces of a cluster.
+    pub fn add_cluster(&mut self, view: &View, surface: &Surface, cluster: &Cluster) {
+        let ball = &cluster.ball;
+        if !view.may_see(surface.transform.apply(&ball.centre), ball.radius) {
+            return;
+        }
+        if surface.wire_frame {
+            return cluster.triangles.clone().for_each(|at| add_wire_frame(&mut self.faces, view, surface, at));
+        }
+        self.transform(view, surface, cluster);
+        for at in cluster.triangles.clone() {
+            let corners = surface.mesh.triangles[at].corners.map(usize::from);
+            let places = [self.places[corners[0]], self.places[corners[1]], self.places[corners[2]]];
+            let origin = || Origin {
+                view,
+                surface,
+                points: [self.points[corners[0]], self.points[corners[1]], self.points[corners[2]]],
+                detail: at as u32,
+            };
+            if places.contains(&OFF_PICTURE) {
+                let origin = origin();
+                self.add_clipped(&origin);
+            } else if let Some(outline) = Outline::new(view, surface.culling, places) {
+                let face = origin().face(outline);
+                self.faces.push(face);
+            }
+        }
+    }
+
+    fn transform(&mut self, view: &View, surface: &Surface, cluster: &Cluster) {
+        self.points.clear();
+        self.places.clear();
+        for vertex in &surface.mesh.vertices[cluster.vertices.clone()] {
+            let point = surface.transform.apply(vertex);
+            self.points.push(point);
+            self.places.push(view.project(&point).unwrap_or(OFF_PICTURE));
+        }
+    }
+
+    /// Cuts a triangle by the near plane and by the guard band.
+    fn add_clipped(&mut self, origin: &Origin) {
+        if !origin.points.iter().all(|point| point.iter().all(|number| number.is_finite())) {
+            return;
+        }
+        self.polygon.clear();
+        self.polygon.extend(origin.points);
+        for plane in ClipPlane::ALL {
+            cut(&self.polygon, &mut self.cut, |point| origin.view.inside(plane, point));
+            std::mem::swap(&mut self.polygon, &mut self.cut);
+        }
+        let [first, rest @ ..] = self.polygon.as_slice() else { return };
+        let first = origin.view.project_clipped(first);
+        for pair in rest.windows(2) {
+            let [b, c] = [&pair[0], &pair[1]].map(|point| origin.view.project_clipped(point));
+            let outline = Outline::new(origin.view, origin.surface.culling, [first, b, c]);
+            self.faces.extend(outline.map(|outline| origin.face(outline)));
+        }
+    }
+}
+
+/// The part of a polygon where `inside` is not negative (I. Sutherland and G. Hodgman, *Reentrant polygon clipping*, 1974).
+fn cut(polygon: &[Vector3<f64>], part: &mut Vec<Vector3<f64>>, inside: impl Fn(&Vector3<f64>) -> f64) {
+    part.clear();
+    let Some(mut previous) = polygon.last() else { return };
+    for point in polygon {
+        match [inside(previous), inside(point)] {
+            [a, b] if a >= 0.0 && b < 0.0 => part.push(between(previous, a, point, b)),
+            // From the inner side, so that neighbours compute the same point of a common edge.
+            [a, b] if a < 0.0 && b >= 0.0 => part.extend([between(point, b, previous, a), *point]),
+            [_, b] if b >= 0.0 => part.push(*point),
+            _ => (),
+        }
+        previous = point;
+    }
+}
+
+fn between(inner: &Vector3<f64>, a: f64, outer: &Vector3<f64>, b: f64) -> Vector3<f64> {
+    inner + (outer - inner) * (a / (a - b))
+}
+
+/// What a triangle covers.
+pub struct Outline {
+    /// Counter-clockwise.
+    pub corners: [[i32; 2]; 3],
+    pub bounds: [[u16; 2]; 2],
+    /// The longer side of the bounding box.
+    pub extent: i32,
+    doubled_area: i64,
+    back: bool,
+}
+
+impl Outline {
+    /// None where it covers no pixel or is culled.
+    #[inline(always)]
+    pub fn new(view: &View, culling: bool, [a, b, c]: [[i32; 2]; 3]) -> Option<Self> {
+        let area = doubled_area(a, b, c);
+        if area == 0 || (area < 0 && culling) {
+            return None;
+        }
+        let low = [0, 1].map(|axis| a[axis].min(b[axis]).min(c[axis]));
+        let high = [0, 1].map(|axis| a[axis].max(b[axis]).max(c[axis]));
+        let bounds = view.pixels(low, high)?;
+        let back = area < 0;
+        let corners = if back { [a, c, b] } else { [a, b, c] };
+        let extent = (high[0] - low[0]).max(high[1] - low[1]);
+        Some(Self { corners, bounds, extent, doubled_area: area.abs(), back })
+    }
+
+    /// Whether it is thinner than 1/8 pixel: the rounding of its corners is no longer small then.
+    fn is_thin(&self) -> bool {
+        self.doubled_area < i64::from(self.extent) * i64::from(UNIT / 8)
+    }
+
+    fn is_one_pixel(&self) -> bool {
+        self.bounds[0][0] == self.bounds[0][1] && self.bounds[1][0] == self.bounds[1][1]
+    }
+}
+
+impl Origin<'_> {
+    #[inline(always)]
+    fn face(&self, outline: Outline) -> Face {
+        let (closeness, range) = self.closeness();
+        Face {
+            corners: outline.corners,
+            bounds: outline.bounds,
+            closeness,
+            range,
+            owner: self.surface.owner,
+            detail: self.detail,
+            back: outline.back,
+            is_small: outline.extent <= SMALL,
+            is_uniform: outline.is_one_pixel() || outline.is_thin(),
+        }
+    }
+
+    /// The closeness on the plane of the triangle, and its limits on the triangle itself: on planes that are seen edge-on it would be
+    /// exaggerated by the rounding of corners.
+    #[inline(always)]
+    fn closeness(&self) -> (Plane, [f32; 2]) {
+        let [a, b, c] = [0, 1, 2].map(|i| self.points[i].z.max(self.view.near));
+        let range = [a.max(b).max(c), a.min(b).min(c)].map(|depth| self.view.closeness(depth) as f32);
+        let plane = self.view.closeness_on_plane(&self.points);
+        let edge_on = Plane { a: 0.0, b: 0.0, c: f64::from(range[0]) };
+        (if plane.is_finite() { plane } else { edge_on }, range)
+    }
+}
+
+/// Positive where the corners are counter-clockwise.
+fn doubled_area(a: [i32; 2], b: [i32; 2], c: [i32; 2]) -> i64 {
+    let (ab, ac) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+    i64::from(ab[0]) * i64::from(ac[1]) - i64::from(ab[1]) * i64::from(ac[0])
+}

@@ -1,0 +1,7 @@
+//! From visible faces to colours, depths and ids.
+
+pub mod attributes;
+pub mod lighting;
+pub mod row;
+pub mod strip;
+pub mod visible;

@@ -1,0 +1,112 @@
+//! Rows of a picture that are filled together: faces are drawn, then shaded row by row.
+
+use std::ops::Range;
+
+use crate::coverage::band::{Band, Fragment, NO_FACE};
+use crate::projection::chunk::face_number;
+use crate::projection::owner::Pass;
+use crate::shading::row::Row;
+use crate::shading::visible::Shading;
+
+/// The memory for some rows.
+#[derive(Debug, Default)]
+pub struct Strip {
+    band: Band,
+    /// What is drawn over the opaque faces.
+    fragments: Vec<Fragment>,
+    row: Row,
+    /// The faces of the closest fragments.
+    closest: Vec<u32>,
+    layer: Vec<u32>,
+    layer_row: Row,
+}
+
+/// The channels of a strip; those that are not wanted are empty.
+pub struct Pixels<'a> {
+    pub colour: &'a mut [u8],
+    pub depth: &'a mut [f32],
+    pub ids: &'a mut [u32],
+}
+
+impl Strip {
+    pub fn fill(&mut self, shading: &Shading, rows: Range<usize>, pixels: &mut Pixels) {
+        self.band.clear(shading.view.resolution, rows.clone(), shading.view.far_closeness() as f32);
+        self.draw(shading);
+        self.shade(shading, pixels);
+    }
+
+    fn draw(&mut self, shading: &Shading) {
+        let rows = self.band.rows.clone();
+        for (at, chunk) in shading.chunks.iter().enumerate() {
+            for (face_at, face, _) in chunk.faces_in(rows.clone(), shading.owners, true) {
+                self.band.draw(face, face_number(at, face_at));
+            }
+        }
+        self.fragments.clear();
+        for (at, chunk) in shading.chunks.iter().enumerate() {
+            for (face_at, face, owner) in chunk.faces_in(rows.clone(), shading.owners, false) {
+                let is_overlay = owner.pass == Pass::Overlay;
+                self.band.collect(face, face_number(at, face_at), is_overlay, &mut self.fragments);
+            }
+        }
+        self.fragments.sort_unstable();
+    }
+
+    fn shade(&mut self, shading: &Shading, pixels: &mut Pixels) {
+        let width = shading.view.resolution[0] as usize;
+        self.row.begin(width);
+        self.layer_row.begin(width);
+        let mut first = 0;
+        for at in 0..self.band.rows.len() {
+            let count = self.fragments[first..].iter().take_while(|fragment| fragment.row as usize == at).count();
+            let fragments = first..first + count;
+            first += count;
+            self.find_closest(shading, at, fragments.clone());
+            if let Some(ids) = pixels.ids.get_mut(at * width..(at + 1) * width) {
+                shading.ids(&self.closest, ids);
+            }
+            if let Some(depths) = pixels.depth.get_mut(at * width..(at + 1) * width) {
+                shading.depths(self.band.rows.start + at, &self.closest, depths);
+            }
+            if let Some(colours) = pixels.colour.get_mut(3 * at * width..3 * (at + 1) * width) {
+                self.row.shade(shading, self.band.rows.start + at, self.band.row(at));
+                self.blend(shading, at, fragments);
+                self.row.write_bytes(colours);
+            }
+        }
+    }
+
+    /// What depths and ids show of a row.
+    fn find_closest(&mut self, shading: &Shading, at: usize, fragments: Range<usize>) {
+        self.closest.clear();
+        self.closest.extend(self.band.row(at));
+        for fragment in &self.fragments[fragments] {
+            if shading.face(fragment.face()).is_some_and(|(_, owner)| !owner.is_decoration) {
+                self.closest[fragment.column as usize] = fragment.face();
+            }
+        }
+    }
+
+    /// Blends the fragments of a row over its opaque faces: first the farthest of each pixel, then the next ones.
+    fn blend(&mut self, shading: &Shading, at: usize, fragments: Range<usize>) {
+        let visible = visible(shading, &self.fragments[fragments]);
+        let deepest = visible.iter().map(|(layer, _)| layer + 1).max().unwrap_or(0);
+        for layer in 0..deepest {
+            self.layer.clear();
+            self.layer.resize(self.band.row(at).len(), NO_FACE);
+            for (_, fragment) in visible.iter().filter(|(other, _)| *other == layer) {
+                self.layer[fragment.column as usize] = fragment.face();
+            }
+            self.layer_row.shade(shading, self.band.rows.start + at, &self.layer);
+            self.row.blend(shading, &self.layer_row, &self.layer);
+        }
+    }
+}
+
+/// The fragments of a row that no opaque one covers, with their places in their pixels: 0 is the farthest.
+fn visible<'a>(shading: &Shading, fragments: &'a [Fragment]) -> Vec<(usize, &'a Fragment)> {
+    let is_opaque = |fragment: &Fragment| shading.face(fragment.face()).is_some_and(|(_, owner)| owner.opacity == 1.0);
+    let pixels = fragments.chunk_by(|a, b| a.column == b.column);
+    let uncovered = pixels.map(|pixel| &pixel[pixel.iter().rposition(is_opaque).unwrap_or(0)..]);
+    uncovered.flat_map(|pixel| pixel.iter().enumerate()).collect()
+}

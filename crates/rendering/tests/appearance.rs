@@ -1,0 +1,247 @@
+//! Light, transparency, textures, fog, strokes, in numbers; and the same bytes on every machine.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::showcase::{self, Showcase};
+use common::*;
+use geometry::Pose;
+use rendering::{
+    Background, Channels, Edges, Fog, FogDensity, Image, Light, LightKind, Lines, Material, Mesh, Picture, Points,
+    Projection, Renderer, Texture, TextureMode, World,
+};
+
+fn showcase_picture(threads: usize, width: u32, height: u32, channels: Channels) -> Picture {
+    let showcase = Showcase::new();
+    let (instances, points, lines, lights) =
+        (showcase.instances(), showcase.points(), showcase.lines(), showcase::lights());
+    let world = World { shadows: true, ..showcase.world(&instances, &points, &lines, &lights) };
+    Renderer::new(threads).render(&world, &showcase::camera(width, height), channels)
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let one = showcase_picture(1, 203, 131, Channels::ALL);
+    for threads in [2, 3, 7] {
+        assert!(one == showcase_picture(threads, 203, 131, Channels::ALL), "{threads}");
+    }
+}
+
+#[test]
+fn channels_do_not_depend_on_each_other() {
+    let all = showcase_picture(1, 120, 90, Channels::ALL);
+    assert!(all.colour == showcase_picture(1, 120, 90, Channels::COLOUR).colour);
+    assert!(all.depth == showcase_picture(1, 120, 90, Channels::DEPTH).depth);
+    assert!(all.ids == showcase_picture(1, 120, 90, Channels::IDS).ids);
+}
+
+#[test]
+fn a_renderer_remembers_nothing() {
+    let showcase = Showcase::new();
+    let (instances, lights) = (showcase.instances(), showcase::lights());
+    let world = showcase.world(&instances, &[], &[], &lights);
+    let (camera, other) = (showcase::camera(64, 64), showcase::camera(200, 30));
+    let mut renderer = Renderer::new(2);
+    let first = renderer.render(&world, &camera, Channels::ALL);
+    renderer.render(&World::EMPTY, &other, Channels::ALL);
+    renderer.render(&world, &other, Channels::DEPTH);
+    assert!(renderer.render(&world, &camera, Channels::ALL) == first);
+}
+
+/// The FNV-1a hash of bytes (G. Fowler, L. Noll and P. Vo).
+fn hash(bytes: impl Iterator<Item = u8>) -> u64 {
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+/// These numbers must be the same on every machine. They change when the look of pictures changes: look at `--example showcase` then.
+#[test]
+fn pictures_have_the_same_bytes_on_every_machine() {
+    let picture = showcase_picture(2, 160, 120, Channels::ALL);
+    let depth = picture.depth.iter().flat_map(|depth| depth.to_bits().to_le_bytes());
+    let ids = picture.ids.iter().flat_map(|id| id.to_le_bytes());
+    let hashes = [hash(picture.colour.iter().copied()), hash(depth), hash(ids)];
+    assert_eq!(hashes, [12637824571536313341, 15213499577631138766, 18123009579411283979]);
+}
+
+fn wall() -> Mesh {
+    rectangle(40.0, 40.0, 3.0)
+}
+
+/// A picture of instances at depth 3 lit by ambient light only, and its colour in the middle.
+fn middle(world: &World) -> [u8; 3] {
+    let picture = Renderer::new(1).render(world, &camera(31, 31), Channels::ALL);
+    colour_at(&picture, 15, 15)
+}
+
+#[test]
+fn transparent_surfaces_are_blended_from_back_to_front() {
+    let wall = wall();
+    let [red, green, blue] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(Material::unlit);
+    let (green, blue) = (Material { opacity: 0.5, ..green }, Material { opacity: 0.25, ..blue });
+    let back = instance(&wall, &red, 1);
+    let (middle_one, front) =
+        (at(instance(&wall, &green, 2), 0.0, 0.0, -1.0), at(instance(&wall, &blue, 3), 0.0, 0.0, -2.0));
+    for instances in [[back, middle_one, front], [front, back, middle_one], [middle_one, front, back]] {
+        let world = World { instances: &instances, ..World::EMPTY };
+        assert_eq!(middle(&world), [96, 96, 64]);
+        let picture = Renderer::new(1).render(&world, &camera(31, 31), Channels::ALL);
+        assert!((id_at(&picture, 3, 3), depth_at(&picture, 3, 3)) == (3, (0.99 / 9.99) as f32));
+    }
+    let behind = [at(back, 0.0, 0.0, -2.5), middle_one, front];
+    assert_eq!(middle(&World { instances: &behind, ..World::EMPTY }), [255, 0, 0]);
+}
+
+#[test]
+fn lights_have_attenuation_and_cones() {
+    let (wall, white) = (wall(), Material { specular: [0.0; 3], ..Material::new([1.0; 3]) });
+    let instances = [instance(&wall, &white, 1)];
+    let lit = |light: Light| middle(&World { instances: &instances, lights: &[light], ..World::EMPTY })[0];
+    let omni = Light { attenuation: [1.0, 1.0, 0.0], ..Light::new(LightKind::Omni, Pose::translation(0.0, 0.0, 2.0)) };
+    assert_eq!(lit(omni), 128);
+    let away = Light { pose: Pose::translation(0.0, 0.0, 4.0), ..omni };
+    assert_eq!(lit(away), 0);
+    // 45 degrees off the axis: the cosine is the root of 1/2, to the power of 2, and once more for the surface.
+    let pose = Pose::translation(1.0, 0.0, 2.0);
+    let spot = |cutoff: f64| Light::new(LightKind::Spot { cutoff, exponent: 2 }, pose);
+    assert_eq!(lit(spot(0.8)), (0.5f64 * 0.5f64.sqrt() * 255.0).round() as u8);
+    assert_eq!(lit(spot(0.7)), 0);
+}
+
+#[test]
+fn highlights_are_between_light_and_viewer() {
+    let (wall, shiny) = (wall(), Material { specular: [0.5; 3], ..Material::new([0.0; 3]) });
+    let instances = [instance(&wall, &shiny, 1)];
+    let lit = |degrees: f64| {
+        let pose = Pose::rotation(nalgebra::Vector3::y() * degrees.to_radians());
+        let light = Light::new(LightKind::Directional, pose);
+        middle(&World { instances: &instances, lights: &[light], ..World::EMPTY })[0]
+    };
+    assert_eq!(lit(0.0), 128);
+    // The half-way vector is 5 degrees away from the normal.
+    assert_eq!(lit(10.0), (0.5 * 5f64.to_radians().cos().powi(48) * 255.0).round() as u8);
+}
+
+#[test]
+fn textures_repeat_or_end() {
+    let pixels = [[200, 0, 0], [0, 200, 0], [0, 0, 200], [200, 200, 200]].concat();
+    let image = Arc::new(Image::new([2, 2], false, &pixels).unwrap());
+    assert!(Image::new([2, 2], true, &pixels).is_none() && Image::new([0, 2], false, &[]).is_none());
+    // The picture shows -1 to 2 along both axes of the image; +X is on the left.
+    let vertices = [[1.5, -1.5, 3.0], [-1.5, -1.5, 3.0], [-1.5, 1.5, 3.0], [1.5, 1.5, 3.0]];
+    let uv = [[-1.0, -1.0], [2.0, -1.0], [2.0, 2.0], [-1.0, -1.0], [2.0, 2.0], [-1.0, 2.0]];
+    let square = Mesh::new(&vertices, &[[0, 1, 2], [0, 2, 3]], &[], &uv).unwrap();
+    let mut camera = camera(60, 60);
+    camera.projection = Projection::Orthographic { size: 3.0 };
+    let picture = |repeat: bool, mode: TextureMode| {
+        let texture = Texture { repeat: [repeat; 2], interpolate: false, mode, ..Texture::new(image.clone()) };
+        let material = Material { texture: Some(texture), ..Material::unlit([1.0, 0.5, 1.0]) };
+        Renderer::new(1).render(
+            &World { instances: &[instance(&square, &material, 1)], ..World::EMPTY },
+            &camera,
+            Channels::ALL,
+        )
+    };
+    let repeated = picture(true, TextureMode::Modulate);
+    for (x, y) in [(2, 2), (22, 22), (42, 2), (2, 42)] {
+        assert_eq!(colour_at(&repeated, x, y), [200, 0, 0]);
+        assert_eq!(colour_at(&repeated, x + 10, y), [0, 100, 0]);
+        assert_eq!(colour_at(&repeated, x, y + 10), [0, 0, 200]);
+    }
+    let once = picture(false, TextureMode::Decal);
+    assert_eq!((colour_at(&once, 2, 2), colour_at(&once, 58, 58)), ([200, 0, 0], [200; 3]));
+    assert_eq!((colour_at(&once, 58, 22), colour_at(&once, 2, 58)), ([0, 200, 0], [0, 0, 200]));
+}
+
+#[test]
+fn textures_are_correct_in_perspective() {
+    // A floor whose texture is a gradient along the view: the colour is that of the place.
+    let ramp: Vec<u8> = (0..=255).flat_map(|i| [i, i, i]).collect();
+    let texture = Texture { repeat: [false; 2], ..Texture::new(Arc::new(Image::new([1, 256], false, &ramp).unwrap())) };
+    let material = Material { texture: Some(texture), ..Material::unlit([1.0; 3]) };
+    let vertices = [[5.0, -1.0, 0.5], [-5.0, -1.0, 0.5], [-5.0, -1.0, 10.5], [5.0, -1.0, 10.5]];
+    let uv = [[0.0, 0.0], [0.0, 0.0], [0.0, 1.0], [0.0, 0.0], [0.0, 1.0], [0.0, 1.0]];
+    let floor = Mesh::new(&vertices, &[[0, 1, 2], [0, 2, 3]], &[], &uv).unwrap();
+    let picture = render(&[instance(&floor, &material, 1)], &camera(64, 64));
+    for y in 0..28 {
+        let z = f64::from(depth_at(&picture, 20, y)) * 9.99 + 0.01;
+        if z < 9.9 {
+            let expected = (z - 0.5) / 10.0 * 256.0 - 0.5;
+            assert!((f64::from(colour_at(&picture, 20, y)[0]) - expected).abs() < 1.0, "{y} {z}");
+        }
+    }
+}
+
+#[test]
+fn fog_grows_with_depth() {
+    let (wall, white) = (wall(), Material::unlit([1.0; 3]));
+    let instances = [instance(&wall, &white, 1)];
+    let seen = |density: FogDensity| {
+        let fog = Some(Fog { density, colour: [0.0, 0.0, 1.0] });
+        middle(&World { instances: &instances, fog, background: Background::plain([1.0, 0.0, 0.0]), ..World::EMPTY })
+    };
+    assert_eq!(seen(FogDensity::Linear { start: 2.0, end: 6.0 }), [191, 191, 255]);
+    assert_eq!(seen(FogDensity::Linear { start: 1.0, end: 2.0 }), [0, 0, 255]);
+    assert_eq!(seen(FogDensity::Exponential(0.5)), [57, 57, 255]);
+    assert_eq!(seen(FogDensity::ExponentialSquared(0.5)), [27, 27, 255]);
+}
+
+#[test]
+fn the_background_is_a_gradient() {
+    let background = Background { bottom: [0.0; 3], top: [1.0, 0.5, 0.0] };
+    let picture = Renderer::new(1).render(&World { background, ..World::EMPTY }, &camera(3, 100), Channels::ALL);
+    assert_eq!((colour_at(&picture, 1, 0), colour_at(&picture, 2, 99)), ([1, 1, 0], [254, 127, 0]));
+}
+
+#[test]
+fn points_are_squares_and_lines_have_a_width() {
+    let colours = [[1.0, 0.0, 0.0]];
+    let points = Points {
+        positions: &[[0.0, 0.0, 2.0]],
+        colours: &colours,
+        pose: Pose::identity(),
+        size: 4.0,
+        id: 3,
+        overlay: false,
+    };
+    let lines = Lines {
+        segments: &[[[-9.0, 0.5, 2.0], [9.0, 0.5, 2.0]]],
+        colours: &colours,
+        pose: Pose::identity(),
+        width: 3.0,
+        id: 4,
+        overlay: false,
+    };
+    let (wall, grey) = (wall(), Material::unlit([0.5; 3]));
+    let picture = |z: f64, overlay: bool| {
+        let instances = [at(instance(&wall, &grey, 1), 0.0, 0.0, z)];
+        let (points, lines) = ([Points { overlay, ..points }], [Lines { overlay, ..lines }]);
+        let world = World { instances: &instances, points: &points, lines: &lines, ..World::EMPTY };
+        Renderer::new(1).render(&world, &camera(100, 100), Channels::ALL)
+    };
+    let visible = picture(0.0, false);
+    assert_eq!((count(&visible, 3), count(&visible, 4)), (16, 300));
+    assert_eq!(colour_at(&visible, 50, 50), [255, 0, 0]);
+    assert!((depth_at(&visible, 50, 50) - (1.99 / 9.99) as f32).abs() < 1e-7);
+    assert_eq!(count(&picture(-1.5, false), 1), 10_000);
+    assert_eq!(picture(-1.5, true).ids, visible.ids);
+}
+
+#[test]
+fn sharp_edges_are_drawn_and_wire_frames_are_hollow() {
+    let cube = cuboid([1.0; 3]);
+    let edges = Some(Edges { angle: 0.5, colour: [0.0; 3], width: 1.0 });
+    let (plain, edged) = (Material::unlit([1.0; 3]), Material { edges, ..Material::unlit([1.0; 3]) });
+    let wire = Material { wireframe: true, ..Material::unlit([1.0; 3]) };
+    let draw = |material: &Material| {
+        let mut cube = at(instance(&cube, material, 7), 0.0, 0.0, 3.0);
+        cube.pose.rotation = nalgebra::UnitQuaternion::from_euler_angles(0.5, 0.6, 0.1);
+        render(&[cube], &camera(200, 200))
+    };
+    let (plain, edged, wire) = (draw(&plain), draw(&edged), draw(&wire));
+    // Colours show edges, depths and ids do not; diagonals of faces are no edges.
+    assert_eq!((&plain.ids, &plain.depth), (&edged.ids, &edged.depth));
+    let black = edged.colour.iter().zip(&plain.colour).filter(|(edged, plain)| edged < plain).count() / 3;
+    assert!((200..700).contains(&black), "{black}");
+    assert!(count(&wire, 7) > black && count(&wire, 7) < count(&plain, 7) / 3);
+}
