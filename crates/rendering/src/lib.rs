@@ -28,6 +28,7 @@
 //!    neighbours leave no gap and share no pixel. Back faces of closed meshes are left out, since front faces hide them.
 //! 3. Ids, depths and colours are computed once for each visible pixel, by runs of one triangle in a row. Depths come from the plane of the
 //!    triangle in 64 bits.
+//!    Shadows are found by rays to the lights, through trees of boxes.
 //! 4. Transparent surfaces, sharp edges and overlays become lists of fragments, sorted per pixel and blended from back to front.
 //!    Transparent surfaces count in depths and ids as if they were opaque; sharp edges do not count.
 //!

@@ -15,7 +15,7 @@ pub struct World<'a> {
     pub ambient: [f32; 3],
     pub fog: Option<Fog>,
     pub background: Background,
-    /// Whether lights that cast shadows do.
+    /// Whether lights that cast shadows do, by rays: several times slower. Transparent surfaces, wire frames, points and lines cast none.
     pub shadows: bool,
 }
 

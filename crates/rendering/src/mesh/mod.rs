@@ -1,6 +1,7 @@
 //! Triangle meshes prepared for drawing.
 
 pub mod edges;
+pub mod tree;
 
 use std::collections::{HashMap, HashSet};
 use std::sync::OnceLock;
@@ -8,6 +9,7 @@ use std::sync::OnceLock;
 use nalgebra::Vector3;
 
 use crate::mesh::edges::MeshEdge;
+use crate::mesh::tree::LazyTree;
 
 /// Triangles in one cluster.
 const CLUSTER_TRIANGLES: usize = 512;
@@ -26,6 +28,7 @@ pub struct Mesh {
     pub(crate) closed: bool,
     /// Found when they are drawn for the first time.
     edges: OnceLock<Vec<MeshEdge>>,
+    tree: LazyTree,
 }
 
 /// A triangle: its corners in its cluster, and what belongs to each corner.
@@ -77,6 +80,7 @@ impl Mesh {
             ball,
             closed,
             edges: OnceLock::new(),
+            tree: OnceLock::new(),
         };
         order.chunks(CLUSTER_TRIANGLES).for_each(|chunk| mesh.add_cluster(&source, chunk));
         Some(mesh)

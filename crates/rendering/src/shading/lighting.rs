@@ -12,17 +12,19 @@ use nalgebra::Vector3;
 use wide::f32x8;
 
 use crate::projection::view::View;
+use crate::shading::shadows::{Shadows, Source};
 use crate::{Light, LightKind, Material, World};
 
 /// Three numbers of eight pixels each.
 pub type Vectors = [f32x8; 3];
 
 /// The lights of a world, in the camera's axes: right, up, depth; metres.
-#[derive(Debug, Clone)]
-pub struct Lighting {
+#[derive(Debug)]
+pub struct Lighting<'a> {
     ambient: [f32; 3],
     lights: Vec<PlacedLight>,
-    /// Whether all lights shine everywhere from the same direction.
+    shadows: Option<Shadows<'a>>,
+    /// Whether all lights shine everywhere from the same direction, without shadows.
     pub is_uniform: bool,
 }
 
@@ -38,22 +40,27 @@ struct PlacedLight {
     cutoff_cosine: f32,
 }
 
-impl Lighting {
+impl<'a> Lighting<'a> {
     /// Lights with poses that are not finite are left out.
-    pub fn new(world: &World, view: &View) -> Self {
+    pub fn new(world: &World<'a>, view: &View) -> Self {
         let lights = world.lights.iter().filter(|light| light.pose.is_finite());
         let lights: Vec<PlacedLight> = lights.map(|light| PlacedLight::new(light, view)).collect();
-        let is_uniform = lights.iter().all(|placed| placed.light.kind == LightKind::Directional);
-        Self { ambient: world.ambient, lights, is_uniform }
+        let has_shadows = world.shadows && lights.iter().any(|placed| placed.light.casts_shadows);
+        let shadows = has_shadows.then(|| Shadows::new(world, view));
+        let is_uniform = !has_shadows && lights.iter().all(|placed| placed.light.kind == LightKind::Directional);
+        Self { ambient: world.ambient, lights, shadows, is_uniform }
     }
 
-    /// The colours of eight points of a surface; the normals need not have unit length.
-    pub fn lit(&self, material: &Material, normals: Vectors, points: Vectors) -> Vectors {
+    /// The colours of eight points of a surface; the normals need not have unit length. Only the first `count` points have shadows.
+    pub fn lit(&self, material: &Material, normals: Vectors, points: Vectors, count: usize) -> Vectors {
         let normals = normalized(normals);
         let has_highlights = material.specular != [0.0; 3];
         let (mut diffuse, mut specular) = (self.ambient.map(f32x8::splat), [f32x8::ZERO; 3]);
         for placed in &self.lights {
-            let incoming = placed.incoming(points);
+            let mut incoming = placed.incoming(points);
+            if let Some(shadows) = self.shadows.as_ref().filter(|_| placed.light.casts_shadows) {
+                incoming.strength *= shadows.reach(placed.source(), points, normals, count);
+            }
             let cosine = dot(normals, incoming.to_light);
             add_scaled(&mut diffuse, cosine.max(f32x8::ZERO) * incoming.strength, placed.light.diffuse);
             if has_highlights && placed.light.specular != [0.0; 3] {
@@ -92,6 +99,13 @@ impl PlacedLight {
             to_light: to_light.cast().into(),
             half: half.cast().into(),
             cutoff_cosine,
+        }
+    }
+
+    fn source(&self) -> Source {
+        match self.light.kind {
+            LightKind::Directional => Source::Direction(self.to_light),
+            LightKind::Omni | LightKind::Spot { .. } => Source::Point(self.position),
         }
     }
 

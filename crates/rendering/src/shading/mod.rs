@@ -3,5 +3,6 @@
 pub mod attributes;
 pub mod lighting;
 pub mod row;
+pub mod shadows;
 pub mod strip;
 pub mod visible;

@@ -113,7 +113,7 @@ impl Row {
             let is_uniform = attributes.is_flat && shading.lighting.is_uniform && material.texture.is_none();
             let colour = is_uniform.then(|| {
                 let normals = attributes.normals(0, 0);
-                shading.lighting.lit(material, normals, [f32x8::ZERO; 3]).map(|part| part.to_array()[0])
+                shading.lighting.lit(material, normals, [f32x8::ZERO; 3], 0).map(|part| part.to_array()[0])
             });
             *entry = Remembered { face: Some(number), attributes, colour };
         }
@@ -139,7 +139,8 @@ impl Row {
         if let Some(material) = unlit.surface {
             for x in unlit.pixels.clone().step_by(8) {
                 let normals = [0, 1, 2].map(|i| load(&self.normal[i], x));
-                let colours = shading.lighting.lit(material, normals, self.points(shading.view, x));
+                let colours =
+                    shading.lighting.lit(material, normals, self.points(shading.view, x), unlit.pixels.end - x);
                 self.colour.iter_mut().zip(colours).for_each(|(list, part)| store(list, x, part));
             }
             self.apply_texture(shading.view, material, unlit.pixels.clone());

@@ -15,7 +15,7 @@ pub struct Shading<'a> {
     pub view: &'a View,
     pub owners: &'a [Owner<'a>],
     pub chunks: &'a [Chunk],
-    pub lighting: Lighting,
+    pub lighting: Lighting<'a>,
     pub fog: Option<Fog>,
     pub background: Background,
 }
