@@ -70,6 +70,7 @@ mod projection;
 mod renderer;
 mod shading;
 mod texture;
+mod three;
 mod world;
 
 pub use camera::{Camera, Projection};

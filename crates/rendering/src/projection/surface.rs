@@ -6,6 +6,7 @@ use crate::coverage::face::{Face, Plane, SMALL, UNIT};
 use crate::mesh::{Cluster, Mesh};
 use crate::projection::strokes::add_wire_frame;
 use crate::projection::view::{ClipPlane, Transform, View};
+use crate::three::three;
 
 /// What is drawn of a mesh.
 #[derive(Debug, Clone, Copy)]
@@ -24,7 +25,8 @@ impl Surface<'_> {
     /// The corners of a triangle in view coordinates.
     pub fn corners(&self, triangle: usize) -> [Vector3<f64>; 3] {
         let vertices = &self.mesh.vertices[self.mesh.cluster_of(triangle).vertices.clone()];
-        self.mesh.triangles[triangle].corners.map(|corner| self.transform.apply(&vertices[usize::from(corner)]))
+        let corners = self.mesh.triangles[triangle].corners;
+        three(|i| self.transform.apply(&vertices[usize::from(corners[i])]))
     }
 }
 
@@ -63,14 +65,9 @@ impl Setup {
         }
         self.transform(view, surface, cluster);
         for at in cluster.triangles.clone() {
-            let corners = surface.mesh.triangles[at].corners.map(usize::from);
-            let places = [self.places[corners[0]], self.places[corners[1]], self.places[corners[2]]];
-            let origin = || Origin {
-                view,
-                surface,
-                points: [self.points[corners[0]], self.points[corners[1]], self.points[corners[2]]],
-                detail: at as u32,
-            };
+            let corners = three(|i| usize::from(surface.mesh.triangles[at].corners[i]));
+            let places = three(|i| self.places[corners[i]]);
+            let origin = || Origin { view, surface, points: three(|i| self.points[corners[i]]), detail: at as u32 };
             if places.contains(&OFF_PICTURE) {
                 let origin = origin();
                 self.add_clipped(&origin);
@@ -191,7 +188,7 @@ impl Origin<'_> {
     /// exaggerated by the rounding of corners.
     #[inline(always)]
     fn closeness(&self) -> (Plane, [f32; 2]) {
-        let [a, b, c] = [0, 1, 2].map(|i| self.points[i].z.max(self.view.near));
+        let [a, b, c] = three(|i| self.points[i].z.max(self.view.near));
         let range = [a.max(b).max(c), a.min(b).min(c)].map(|depth| self.view.closeness(depth) as f32);
         let plane = self.view.closeness_on_plane(&self.points);
         let edge_on = Plane { a: 0.0, b: 0.0, c: f64::from(range[0]) };

@@ -11,6 +11,7 @@ use crate::coverage::face::{Face, LANES};
 use crate::projection::surface::Surface;
 use crate::projection::view::View;
 use crate::shading::lighting::Vectors;
+use crate::three::three;
 
 /// A linear function of column and row, from a pixel of the face on: exact enough in 32 bits.
 #[derive(Debug, Clone, Copy, Default)]
@@ -54,16 +55,16 @@ impl Attributes {
         let ray = view.ray(pixel[0].into(), pixel[1].into());
         let ray = Vector3::new(ray[0], ray[1], 1.0);
         let weights = weights(view, surface, face);
-        let [a, b, c] = triangle.normals.map(|normal| Vector3::from(normal).cast::<f64>());
+        let [a, b, c] = three(|i| Vector3::from(triangle.normals[i]).cast::<f64>());
         let side = if face.back { -1.0 } else { 1.0 };
         let to_camera = |normal: Vector3<f64>| view.in_metres(surface.transform.rotation * normal) * side;
         let normal = if triangle.is_flat {
             let normal = to_camera(a);
-            [0, 1, 2].map(|axis| Linear::constant(normal[axis] as f32))
+            three(|axis| Linear::constant(normal[axis] as f32))
         } else {
             // The columns are what the normal changes by from column to column and from row to row, and its value at the centre.
-            let parts = [0, 1, 2].map(|i| to_camera(a * weights[0][i] + b * weights[1][i] + c * weights[2][i]));
-            [0, 1, 2].map(|axis| Linear::new(Vector3::new(parts[0][axis], parts[1][axis], parts[2][axis]), &ray))
+            let parts = three(|i| to_camera(a * weights[0][i] + b * weights[1][i] + c * weights[2][i]));
+            three(|axis| Linear::new(Vector3::new(parts[0][axis], parts[1][axis], parts[2][axis]), &ray))
         };
         let uv = [0, 1].map(|axis| {
             let at = triangle.uv.map(|uv| f64::from(uv[axis]));
@@ -74,12 +75,12 @@ impl Attributes {
 
     /// Vectors along the normals of eight pixels from a column on.
     pub fn normals(&self, column: usize, row: usize) -> Vectors {
-        self.normal.map(|part| part.at(self.offset(column, row)))
+        three(|i| self.normal[i].at(self.offset(column, row)))
     }
 
     /// The texture coordinates of eight pixels from a column on, divided by the depth in perspective.
     pub fn uv(&self, column: usize, row: usize) -> [f32x8; 2] {
-        self.uv.map(|part| part.at(self.offset(column, row)))
+        [self.uv[0].at(self.offset(column, row)), self.uv[1].at(self.offset(column, row))]
     }
 
     fn offset(&self, column: usize, row: usize) -> [f32; 2] {
@@ -93,7 +94,8 @@ fn weights(view: &View, surface: &Surface, face: &Face) -> [Vector3<f64>; 3] {
         let closeness = if view.perspective { f64::from(face.range[0] + face.range[1]) / 2.0 } else { 1.0 };
         return [Vector3::new(0.0, 0.0, closeness / 3.0); 3];
     }
-    let [a, b, c] = surface.corners(face.detail as usize).map(|corner| view.homogeneous(corner));
+    let corners = surface.corners(face.detail as usize);
+    let [a, b, c] = three(|i| view.homogeneous(corners[i]));
     let (ab, bc, ca) = (a.cross(&b), b.cross(&c), c.cross(&a));
     let over_volume = 1.0 / ab.dot(&c);
     [bc * over_volume, ca * over_volume, ab * over_volume]

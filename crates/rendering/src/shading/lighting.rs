@@ -13,6 +13,7 @@ use wide::f32x8;
 
 use crate::projection::view::View;
 use crate::shading::shadows::{Shadows, Source};
+use crate::three::three;
 use crate::{Light, LightKind, Material, World};
 
 /// Three numbers of eight pixels each.
@@ -55,7 +56,7 @@ impl<'a> Lighting<'a> {
     pub fn lit(&self, material: &Material, normals: Vectors, points: Vectors, count: usize) -> Vectors {
         let normals = normalized(normals);
         let has_highlights = material.specular != [0.0; 3];
-        let (mut diffuse, mut specular) = (self.ambient.map(f32x8::splat), [f32x8::ZERO; 3]);
+        let (mut diffuse, mut specular) = (splat(self.ambient), [f32x8::ZERO; 3]);
         for placed in &self.lights {
             let mut incoming = placed.incoming(points);
             if let Some(shadows) = self.shadows.as_ref().filter(|_| placed.light.casts_shadows) {
@@ -69,7 +70,7 @@ impl<'a> Lighting<'a> {
                 add_scaled(&mut specular, highlight, placed.light.specular);
             }
         }
-        [0, 1, 2].map(|i| {
+        three(|i| {
             diffuse[i] * material.ambient_diffuse[i]
                 + specular[i] * material.specular[i]
                 + f32x8::splat(material.emission[i])
@@ -111,14 +112,14 @@ impl PlacedLight {
 
     fn incoming(&self, points: Vectors) -> Incoming {
         if self.light.kind == LightKind::Directional {
-            let [to_light, half] = [self.to_light, self.half].map(|vector| vector.map(f32x8::splat));
+            let (to_light, half) = (splat(self.to_light), splat(self.half));
             return Incoming { to_light, half, strength: f32x8::ONE };
         }
-        let offset = [0, 1, 2].map(|i| f32x8::splat(self.position[i]) - points[i]);
+        let offset = three(|i| f32x8::splat(self.position[i]) - points[i]);
         let distance = dot(offset, offset).sqrt();
         let to_light = normalized(offset);
         let half = normalized([to_light[0], to_light[1], to_light[2] - f32x8::ONE]);
-        let [constant, linear, quadratic] = self.light.attenuation.map(f32x8::splat);
+        let [constant, linear, quadratic] = splat(self.light.attenuation);
         let faded = f32x8::ONE / (constant + (linear + quadratic * distance) * distance);
         Incoming { to_light, half, strength: faded * self.cone(to_light) }
     }
@@ -126,10 +127,14 @@ impl PlacedLight {
     /// The part of a spot's light in the direction of eight points.
     fn cone(&self, to_light: Vectors) -> f32x8 {
         let LightKind::Spot { exponent, .. } = self.light.kind else { return f32x8::ONE };
-        let cosine = dot(to_light, self.to_light.map(f32x8::splat));
+        let cosine = dot(to_light, splat(self.to_light));
         let inside = cosine.simd_ge(f32x8::splat(self.cutoff_cosine));
         inside.select(power(cosine.max(f32x8::ZERO), exponent), f32x8::ZERO)
     }
+}
+
+fn splat(vector: [f32; 3]) -> Vectors {
+    three(|i| f32x8::splat(vector[i]))
 }
 
 fn dot(a: Vectors, b: Vectors) -> f32x8 {
@@ -139,7 +144,7 @@ fn dot(a: Vectors, b: Vectors) -> f32x8 {
 /// Vectors of unit length; zero remains zero.
 fn normalized(vectors: Vectors) -> Vectors {
     let scale = f32x8::ONE / dot(vectors, vectors).max(f32x8::splat(f32::MIN_POSITIVE)).sqrt();
-    vectors.map(|part| part * scale)
+    three(|i| vectors[i] * scale)
 }
 
 fn add_scaled(sum: &mut Vectors, amount: f32x8, colour: [f32; 3]) {

@@ -17,6 +17,7 @@ use crate::projection::view::View;
 use crate::shading::attributes::Attributes;
 use crate::shading::lighting::Vectors;
 use crate::shading::visible::{Shading, runs};
+use crate::three::three;
 
 /// How many faces are remembered from row to row.
 const REMEMBERED: usize = 512;
@@ -138,7 +139,7 @@ impl Row {
         }
         if let Some(material) = unlit.surface {
             for x in unlit.pixels.clone().step_by(8) {
-                let normals = [0, 1, 2].map(|i| load(&self.normal[i], x));
+                let normals = three(|i| load(&self.normal[i], x));
                 let colours =
                     shading.lighting.lit(material, normals, self.points(shading.view, x), unlit.pixels.end - x);
                 self.colour.iter_mut().zip(colours).for_each(|(list, part)| store(list, x, part));
@@ -163,7 +164,7 @@ impl Row {
         for x in pixels {
             let scale = if view.perspective { self.depth[x] } else { 1.0 };
             let sample = texture.sample([self.uv[0][x] * scale, self.uv[1][x] * scale]);
-            let colour = texture.combine([0, 1, 2].map(|i| self.colour[i][x]), sample);
+            let colour = texture.combine(three(|i| self.colour[i][x]), sample);
             (0..3).for_each(|i| self.colour[i][x] = colour[i]);
         }
     }
@@ -171,7 +172,7 @@ impl Row {
     fn cover_with_fog(&mut self, shading: &Shading, faces: &[u32]) {
         let Some(fog) = &shading.fog else { return };
         for x in (0..faces.len()).filter(|x| faces[*x] != NO_FACE) {
-            let colour = fog.cover([0, 1, 2].map(|i| self.colour[i][x]), f64::from(self.depth[x]));
+            let colour = fog.cover(three(|i| self.colour[i][x]), f64::from(self.depth[x]));
             (0..3).for_each(|i| self.colour[i][x] = colour[i]);
         }
     }
@@ -190,12 +191,12 @@ impl Row {
     /// Writes red, green and blue in 8 bits: 0 to 1 becomes 0 to 255, rounded.
     pub fn write_bytes(&self, pixels: &mut [u8]) {
         for (at, block) in pixels.chunks_mut(3 * 8).enumerate() {
-            let parts = [0, 1, 2].map(|i| {
+            let parts = three(|i| {
                 let limited = load(&self.colour[i], 8 * at).max(f32x8::ZERO).min(f32x8::ONE);
                 (limited * 255.0 + 0.5).fast_trunc_int().to_array()
             });
             for (lane, pixel) in block.chunks_exact_mut(3).enumerate() {
-                pixel.copy_from_slice(&[0, 1, 2].map(|i| parts[i][lane] as u8));
+                pixel.copy_from_slice(&three(|i| parts[i][lane] as u8));
             }
         }
     }

@@ -40,7 +40,8 @@ impl<'a> Shadows<'a> {
     /// Transparent surfaces and wire frames cast no shadow.
     pub fn new(world: &World<'a>, view: &View) -> Self {
         let opaque = |instance: &&Instance| {
-            instance.pose.is_finite() && !instance.material.wireframe && !(instance.material.opacity < 1.0)
+            let is_transparent = instance.material.opacity < 1.0;
+            instance.pose.is_finite() && !instance.material.wireframe && !is_transparent
         };
         let casters = world.instances.iter().filter(opaque).map(|instance| Caster::new(instance, view));
         let casters: Vec<Caster> = casters.collect();
