@@ -42,6 +42,7 @@ impl ProximitySensor {
             entity: Entity::ALL,
             ray_colour: Colour { emission: RAY_GLOW, ..Colour::new([0.0; 3]) },
             file_faces: None,
+            handled: false,
             detection: None,
         }
     }

@@ -1,4 +1,4 @@
-//! Data of objects whose behaviour is not implemented yet: sensors, cameras, lights.
+//! Sensors, cameras and lights as data. What sensors measure is computed by the layer `perception`.
 
 pub(in crate::scene) mod build;
 pub mod force_sensor;
@@ -6,6 +6,7 @@ pub mod options;
 pub mod vision;
 pub mod volume;
 pub mod volume_faces;
+pub mod volume_planes;
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -39,8 +40,17 @@ pub struct ProximitySensor {
     pub ray_colour: Colour,
     /// The faces of the volume that its file contains.
     pub file_faces: Option<Box<FileFaces>>,
+    /// Whether it was handled since it was reset.
+    pub handled: bool,
     /// The result of the last handling.
     pub detection: Option<Detection>,
+}
+
+impl ProximitySensor {
+    /// Forgets the results.
+    pub fn reset(&mut self) {
+        (self.handled, self.detection) = (false, None);
+    }
 }
 
 /// What a sensor detects or renders: all objects, an object, or a collection. Unknown handles are stored as written.

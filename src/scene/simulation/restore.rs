@@ -189,8 +189,8 @@ fn forget_run(kind: &mut Kind) {
             (sensor.raw, sensor.filtered, sensor.error) = (None, None, None);
             sensor.violations = 0;
         }
-        Kind::ProximitySensor(sensor) => sensor.detection = None,
         Kind::VisionSensor(sensor) => sensor.reading = None,
+        Kind::ProximitySensor(sensor) => sensor.reset(),
         _ => {}
     }
 }

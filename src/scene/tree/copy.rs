@@ -124,7 +124,7 @@ fn start_anew(object: &mut Object, options: CopyOptions) {
             }
         }
         Kind::ForceSensor(sensor) => (sensor.raw, sensor.filtered, sensor.error) = (None, None, None),
-        Kind::ProximitySensor(sensor) => sensor.detection = None,
+        Kind::ProximitySensor(sensor) => sensor.reset(),
         _ => {}
     }
     if options.contains(CopyOptions::NO_CUSTOM_DATA) {

@@ -73,6 +73,7 @@ pub(super) fn proximity_sensor(context: &Context<'_>, chunk: &file::ProximitySen
             .as_ref()
             .map_or(Colour::new([1.0; 3]), |c| colour(c, Colour::new([1.0; 3]), context.header.serialization < 17)),
         file_faces: None,
+        handled: false,
         detection: None,
     };
     if let Some(faces) = chunk.volume.as_ref().and_then(faces) {
