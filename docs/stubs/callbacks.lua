@@ -70,7 +70,7 @@ function sysCall_dyn(inData) end
 function sysCall_contact(inData) end
 
 --- When a proximity sensor detects something, or a force sensor passes its threshold.
----@param inData { handle?: integer, detectedObjectHandle?: integer, detectedPoint?: number[], normalVector?: number[], force?: number[], torque?: number[], filteredForce?: number[], filteredTorque?: number[] }
+---@param inData { handle?: integer, proximitySensor?: integer, object?: integer, point?: number[], normal?: number[], detectedObjectHandle?: integer, detectedPoint?: number[], normalVector?: number[], force?: number[], torque?: number[], filteredForce?: number[], filteredTorque?: number[] }
 ---@return { trigger?: boolean }? result
 function sysCall_trigger(inData) end
 

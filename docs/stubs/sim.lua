@@ -324,6 +324,29 @@ function sim.cancelScheduledExecution(id) end
 ---@return table[] originalColors for sim.restoreEntityColor
 function sim.changeEntityColor(entityHandle, color, component) end
 
+--- Whether the surfaces of two entities intersect. Flags of objects that are named alone do not count.
+---@param entity1Handle integer an object or a collection
+---@param entity2Handle? integer the same, or sim.handle_all for all other collidable objects
+---@return integer result 1 if they collide, else 0
+---@return integer[] collidingObjects the first pair that collides; -1 for none
+function sim.checkCollision(entity1Handle, entity2Handle) end
+
+--- The segments in which the surfaces of shapes intersect.
+---@param entity1Handle integer an object or a collection
+---@param entity2Handle integer the same, or sim.handle_all for all other collidable objects
+---@return integer segmentCount how many
+---@return number[] segmentData x, y, z of both ends of each, in the world
+function sim.checkCollisionEx(entity1Handle, entity2Handle) end
+
+--- The smallest distance between the surfaces of two entities. Flags of objects that are named alone do not count.
+---@param entity1Handle integer an object or a collection
+---@param entity2Handle? integer the same, or sim.handle_all for all other measurable objects
+---@param threshold? number larger distances do not count, metres; 0 for no limit
+---@return integer result 1 if there is a distance, else 0
+---@return number[] distanceData x, y, z of the closest point on each entity, and the distance, metres
+---@return integer[] objectHandlePair the objects that are closest; -1 for none
+function sim.checkDistance(entity1Handle, entity2Handle, threshold) end
+
 --- Whether points are in voxels.
 ---@param octreeHandle integer the octree
 ---@param options integer 1: points are relative to the octree
@@ -333,6 +356,46 @@ function sim.changeEntityColor(entityHandle, color, component) end
 ---@return integer locationLow 0
 ---@return integer locationHigh 0
 function sim.checkOctreePointOccupancy(octreeHandle, options, points) end
+
+--- Measures without storing the result and without calling scripts.
+---@param sensorHandle integer the sensor
+---@param entityHandle integer an object, whose detectable flag does not count, a collection, or sim.handle_all
+---@param mode? integer 1: front faces, 2: back faces, 4: fast, 8: limited angle; negative: as the sensor is set
+---@param threshold? number nothing farther away is detected, metres; 0 for no limit
+---@param maxAngle? number between ray and normal, rad
+---@return integer result 1 if something is detected, else 0
+---@return number distance from the sensor, metres
+---@return number[] detectedPoint in the frame of the sensor
+---@return integer detectedObjectHandle -1 if nothing is detected
+---@return number[] normalVector of the surface, in the frame of the sensor
+function sim.checkProximitySensor(sensorHandle, entityHandle, mode, threshold, maxAngle) end
+
+--- The same with all parameters.
+---@param sensorHandle integer the sensor
+---@param entityHandle integer an object, a collection, or sim.handle_all
+---@param mode integer 1: front faces, 2: back faces, 4: fast, 8: limited angle; negative: as the sensor is set
+---@param threshold number nothing farther away is detected, metres; 0 for no limit
+---@param maxAngle number between ray and normal, rad
+---@return integer result 1 if something is detected, else 0
+---@return number distance from the sensor, metres
+---@return number[] detectedPoint in the frame of the sensor
+---@return integer detectedObjectHandle -1 if nothing is detected
+---@return number[] normalVector of the surface, in the frame of the sensor
+function sim.checkProximitySensorEx(sensorHandle, entityHandle, mode, threshold, maxAngle) end
+
+--- Measures points, segments or triangles of a script. Rays see triangles only.
+---@param sensorHandle integer the sensor
+---@param vertices number[] x, y, z of each, in the frame of the sensor
+---@param itemType integer 0: points, 1: segments, 2: triangles
+---@param itemCount integer how many
+---@param mode integer 1: front faces, 2: back faces, 4: fast, 8: limited angle; negative: as the sensor is set
+---@param threshold number nothing farther away is detected, metres; 0 for no limit
+---@param maxAngle number between ray and normal, rad
+---@return integer result 1 if something is detected, else 0
+---@return number distance from the sensor, metres
+---@return number[] detectedPoint in the frame of the sensor
+---@return number[] normalVector in the frame of the sensor
+function sim.checkProximitySensorEx2(sensorHandle, vertices, itemType, itemCount, mode, threshold, maxAngle) end
 
 --- Takes a picture of an entity with a vision sensor and lets its scripts look at it. The picture and the results of the sensor stay as
 --- they are.
@@ -1961,9 +2024,14 @@ function sim.handleModule(module, calledInSensingPart) end
 ---@return integer result 0
 function sim.handlePath(pathHandle, deltaTime) end
 
---- Handles proximity sensors. They detect nothing yet.
+--- Measures with a sensor that is tagged for explicit handling, or with all sensors. Scripts of a sensor that detects something are called
+--- (`sysCall_trigger`), and the result is stored.
 ---@param sensorHandle integer a sensor, sim.handle_all or sim.handle_all_except_explicit
----@return integer result number of detections
+---@return integer result 1 if something is detected, 0 if not, -1 if the handle is no proximity sensor
+---@return number distance from the sensor, metres; of several sensors the smallest
+---@return number[] detectedPoint in the frame of the sensor
+---@return integer detectedObjectHandle -1 if nothing is detected
+---@return number[] normalVector of the surface, in the frame of the sensor
 function sim.handleProximitySensor(sensorHandle) end
 
 --- Calls a callback of the sandbox. For the main script.
@@ -2378,6 +2446,15 @@ function sim.readCustomTableData(handle, tag, options) end
 ---@return number[] torqueVector newton metres
 function sim.readForceSensor(objectHandle) end
 
+--- What a sensor detected when it was last handled.
+---@param sensorHandle integer the sensor
+---@return integer result 1 if something was detected, 0 if not, -1 if it was not handled since the start of the simulation
+---@return number distance from the sensor, metres
+---@return number[] detectedPoint in the frame of the sensor
+---@return integer detectedObjectHandle -1 if nothing was detected
+---@return number[] normalVector of the surface, in the frame of the sensor
+function sim.readProximitySensor(sensorHandle) end
+
 --- Reads a part of a texture.
 ---@param textureId integer the texture
 ---@param options integer not used
@@ -2543,7 +2620,7 @@ function sim.resetMill(millHandle) end
 ---@return integer result 0
 function sim.resetMilling(objectHandle) end
 
---- Clears the results of proximity sensors.
+--- Forgets what a sensor that is tagged for explicit handling, or all sensors detected.
 ---@param sensorHandle integer a sensor, sim.handle_all or sim.handle_all_except_explicit
 function sim.resetProximitySensor(sensorHandle) end
 

@@ -178,6 +178,7 @@ fn lua_literal(rust: &str) -> String {
         "String::new()" | "Bytes(Vec::new())" => "''".to_owned(),
         "PI" => "math.pi".to_owned(),
         "Frame::World" | "Frame::default()" => "sim.handle_world".to_owned(),
+        _ if rust.starts_with("Number(special::") => lua_literal(rust["Number(".len()..].trim_end_matches(')')),
         _ if rust.starts_with("special::") => rust.replace("special::", "sim.handle_").to_lowercase(),
         _ if rust.starts_with('[') => rust.replace('[', "{").replace(']', "}"),
         _ => rust

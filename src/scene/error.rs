@@ -38,6 +38,13 @@ pub enum SceneError {
     DividesCompound,
     #[error("collection does not exist.")]
     NoSuchCollection,
+    /// No object and no collection.
+    #[error("entity does not exist.")]
+    NoSuchEntity,
+    #[error("invalid proximity sensor handle.")]
+    InvalidProximitySensor,
+    #[error("object not tagged for explicit handling.")]
+    NotExplicit,
     #[error("the scene is full: it can hold {} objects.", super::Handle::END)]
     TooManyObjects,
     /// Any other refusal, in words made where it happens.

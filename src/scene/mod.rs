@@ -31,7 +31,7 @@ pub use object::handle::{Handle, Uid, flag, special};
 pub use object::movement::Movement;
 pub use object::{Kind, Measured, Object};
 pub use pose::placement::{Frame, Placement};
-pub use simulation::settings::{DynamicsSettings, Settings};
+pub use simulation::settings::{Calculations, DynamicsSettings, Settings};
 pub use store::{FIRST_MESH_UID, Scene};
 pub use tree::collection::{Collection, CollectionItem, CollectionOptions, Collections, ItemOptions, Members};
 pub use tree::copy::CopyOptions;

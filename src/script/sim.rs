@@ -119,7 +119,7 @@ impl Sim {
         console: Box<dyn Console>,
         languages: Languages,
     ) -> Rc<Self> {
-        let perception = RefCell::new(Perception::new(options.render_threads));
+        let perception = RefCell::new(Perception::new(options.seed, options.render_threads));
         Rc::new(Self {
             perception,
             log: Log::new(console, options.verbosity),

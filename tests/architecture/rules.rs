@@ -75,6 +75,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("quick_xml", "src/format/xml"),
     ("quick_xml", "src/testing/report/junit.rs"),
     ("quote", "crates/api-macro"),
+    ("rand_mt", "src/perception"),
     ("rand_mt", "src/script/lifecycle"),
     ("rapier3d", "src/dynamics"),
     ("rendering", "src/perception"),
@@ -108,7 +109,8 @@ pub const OWNERS: &[(&str, &str)] = &[
 pub type Rooms = &'static [(&'static str, &'static [&'static str])];
 
 /// The layers that consist of rooms.
-pub const ROOMS: &[(&str, Rooms)] = &[("scene", SCENE), ("dynamics", DYNAMICS), ("format", FORMAT), ("script", SCRIPT)];
+pub const ROOMS: &[(&str, Rooms)] =
+    &[("scene", SCENE), ("dynamics", DYNAMICS), ("perception", PERCEPTION), ("format", FORMAT), ("script", SCRIPT)];
 
 const SCENE: Rooms = &[
     ("error", &[]),
@@ -144,6 +146,18 @@ const DYNAMICS: Rooms = &[
     ("links", &["bodies", "convert", "load", "motors", "plan", "world"]),
     ("mechanisms", &["bodies", "contacts", "convert", "links", "plan", "world"]),
     ("report", &["bodies", "convert", "links", "load", "plan", "world"]),
+];
+
+const PERCEPTION: Rooms = &[
+    ("vision", &[]),
+    ("entity", &[]),
+    ("index", &["entity"]),
+    ("volume", &[]),
+    ("pairs", &["entity", "index"]),
+    ("collision", &["entity", "index", "pairs"]),
+    ("distance", &["entity", "index", "pairs"]),
+    ("detection", &["entity", "index", "volume"]),
+    ("items", &["detection", "volume"]),
 ];
 
 const FORMAT: Rooms = &[

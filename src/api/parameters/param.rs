@@ -10,7 +10,7 @@ use geometry::pose::euler;
 
 use super::param_property::{self, FLOATS, INTEGERS, LEVELS, LIGHT, SWITCHES, TEXTS};
 use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::SceneError;
+use crate::scene::{Calculations, SceneError};
 use crate::script::{Bytes, Color, Number, PropertyValue, Target, Text};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -43,8 +43,11 @@ const PROGRAM_VERSION: i64 = 41_000;
 
 /// `sim.boolparam_*` that are no property and have a meaning here, or read true.
 mod switch {
-    pub const HANDLING: std::ops::RangeInclusive<i64> = 2..=5;
-    pub const SENSOR_HANDLING: std::ops::RangeInclusive<i64> = 9..=10;
+    pub const COLLISION: i64 = 2;
+    pub const DISTANCE: i64 = 3;
+    pub const HANDLING: std::ops::RangeInclusive<i64> = 4..=5;
+    pub const PROXIMITY_SENSORS: i64 = 9;
+    pub const VISION_SENSORS: i64 = 10;
     pub const HEADLESS: i64 = 34;
     pub const EXIT_REQUEST: i64 = 41;
     pub const USING_SCRIPT_OBJECTS: i64 = 61;
@@ -129,9 +132,12 @@ fn get_bool_param(cx: &Cx, parameter: Number) -> Result<bool> {
     Ok(match parameter.0 {
         switch::EXIT_REQUEST => cx.clock().quit_is_requested(),
         switch::HEADLESS | switch::USING_SCRIPT_OBJECTS => true,
+        switch::COLLISION => cx.scene().settings().calculations.collision,
+        switch::DISTANCE => cx.scene().settings().calculations.distance,
+        switch::PROXIMITY_SENSORS => cx.scene().settings().calculations.proximity_sensors,
         other => {
             let number = known(other, switch::LAST)?;
-            let initially = switch::HANDLING.contains(&number) || switch::SENSOR_HANDLING.contains(&number);
+            let initially = switch::HANDLING.contains(&number) || number == switch::VISION_SENSORS;
             cx.app().idle_params.bools.get(&number).copied().unwrap_or(initially)
         }
     })
@@ -148,12 +154,19 @@ fn set_bool_param(cx: &mut Cx, parameter: Number, bool_state: bool) -> Result<()
     }
     match parameter.0 {
         switch::EXIT_REQUEST => cx.request_quit(bool_state),
+        switch::COLLISION => switch_calculation(cx, |on| on.collision = bool_state),
+        switch::DISTANCE => switch_calculation(cx, |on| on.distance = bool_state),
+        switch::PROXIMITY_SENSORS => switch_calculation(cx, |on| on.proximity_sensors = bool_state),
         other => {
             let number = known(other, switch::LAST)?;
             cx.app_mut().idle_params.bools.insert(number, bool_state);
         }
     }
     Ok(())
+}
+
+fn switch_calculation(cx: &mut Cx, switch: impl FnOnce(&mut Calculations)) {
+    cx.scene_mut().modify_settings(|settings| switch(&mut settings.calculations));
 }
 
 /// A float parameter.

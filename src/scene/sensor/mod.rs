@@ -10,6 +10,8 @@ pub mod volume_planes;
 
 use std::f64::consts::FRAC_PI_2;
 
+use nalgebra::Vector3;
+
 use super::Handle;
 use super::appearance::colour::Colour;
 use volume::Volume;
@@ -86,6 +88,13 @@ pub struct Detection {
     pub object: Handle,
     pub point: [f64; 3],
     pub normal: [f64; 3],
+}
+
+impl Detection {
+    /// Of the point from the sensor (m).
+    pub fn distance(&self) -> f64 {
+        Vector3::from(self.point).norm()
+    }
 }
 
 /// The projection of a camera or vision sensor.

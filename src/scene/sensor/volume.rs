@@ -1,6 +1,6 @@
 //! The volume a proximity sensor looks into (spec: sensors 1.1): its numbers, and its edges for display.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// `sim.proximitysensor_*`: the shape of the volume.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,6 +95,28 @@ impl Volume {
             VolumeType::Cylinder => circle(self.radius[end], depths[end], self.faces[0]),
             _ => rectangle(self.x_size[end], self.y_size[end], depths[end]),
         })
+    }
+
+    /// Corners of a box around the volume in the sensor's frame.
+    pub fn extent(&self) -> [Point; 2] {
+        let points = match self.volume_type {
+            VolumeType::Pyramid | VolumeType::Cylinder => self.ends().concat(),
+            VolumeType::Ray => self.edges().concat(),
+            VolumeType::Disc | VolumeType::Cone => self.sector_extent().to_vec(),
+        };
+        let with = |choose: fn(f64, f64) -> f64| {
+            points[1..].iter().fold(points[0], |all, point| [0, 1, 2].map(|axis| choose(all[axis], point[axis])))
+        };
+        [with(f64::min), with(f64::max)]
+    }
+
+    fn sector_extent(&self) -> [Point; 2] {
+        let half = (0.5 * self.angle).clamp(0.0, PI);
+        let radius = (self.radius[0] + self.range).max(0.0);
+        let across = if half < FRAC_PI_2 { radius * half.sin() } else { radius };
+        let thickness = if self.volume_type == VolumeType::Disc { 0.5 * self.y_size[0] } else { across };
+        let behind = (radius * half.cos()).min(0.0);
+        [[-across, -thickness, self.offset + behind], [across, thickness, self.offset + radius]]
     }
 
     /// A flat sector around z, `y_size` thick.

@@ -220,7 +220,7 @@ mod tests {
     #[test]
     fn the_planes_of_a_cone_are_those_of_a_file() {
         let mut cone = volume(VolumeType::Cone);
-        (cone.range, cone.radius, cone.angle) = (1.0, [0.005, 0.0], 0.523_598_8);
+        (cone.range, cone.radius, cone.angle) = (1.0, [0.005, 0.0], PI / 6.0);
         (cone.faces, cone.subdivisions) = ([8, 1], [0, 2]);
         let [ConvexPiece { planes, holes }] = &cone.pieces()[..] else { panic!("one piece") };
         assert_eq!((planes.len(), holes.len(), holes[0].len()), (32, 1, 8));
@@ -233,7 +233,7 @@ mod tests {
     #[test]
     fn the_planes_of_a_disc_are_those_of_a_file() {
         let mut disc = volume(VolumeType::Disc);
-        (disc.range, disc.radius, disc.angle) = (2.0, [0.01, 0.2], 1.047_197_6);
+        (disc.range, disc.radius, disc.angle) = (2.0, [0.01, 0.2], PI / 3.0);
         (disc.faces, disc.y_size) = ([16, 32], [0.05, 0.1]);
         let [ConvexPiece { planes, holes }] = &disc.pieces()[..] else { panic!("one piece") };
         assert_eq!((planes.len(), holes.len(), holes[0].len()), (68, 1, 32));

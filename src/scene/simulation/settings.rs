@@ -25,6 +25,21 @@ pub struct Settings {
     /// The scene may not be saved.
     pub locked: bool,
     pub environment: Environment,
+    pub calculations: Calculations,
+}
+
+/// Which calculations are not switched off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Calculations {
+    pub collision: bool,
+    pub distance: bool,
+    pub proximity_sensors: bool,
+}
+
+impl Default for Calculations {
+    fn default() -> Self {
+        Self { collision: true, distance: true, proximity_sensors: true }
+    }
 }
 
 /// Settings of the physics.
@@ -59,6 +74,7 @@ impl Default for Settings {
             acknowledgment: String::new(),
             locked: false,
             environment: Environment::default(),
+            calculations: Calculations::default(),
         }
     }
 }

@@ -65,6 +65,9 @@ const FREQUENT: &[(Field, &[&str])] = &[
             "sensorTorque",
             "filterSensorForce",
             "filterSensorTorque",
+            "detectedObjectHandle",
+            "detectedPoint",
+            "detectedNormal",
         ],
     ),
     (

@@ -3,6 +3,7 @@
 pub(in crate::script) mod clock;
 pub(in crate::script) mod dynamics;
 pub(in crate::script) mod joint_motion;
+mod proximity;
 pub(in crate::script) mod waiting;
 pub(crate) mod wall_clock;
 

@@ -2,11 +2,11 @@
 
 use super::custom_data;
 use super::material::load_all;
-use crate::format::ttt::chunks::{self, Dynamics, Simulation};
+use crate::format::ttt::chunks::{self, Dynamics, ModuleSettings, Simulation};
 use crate::format::ttt::{File, Text};
 use crate::scene::appearance::environment::{Environment, Fog, FogType};
 use crate::scene::parameters::engine::{Engine, SelectedEngine};
-use crate::scene::{DynamicsSettings, Layers, Scene, SceneResult, Settings};
+use crate::scene::{Calculations, DynamicsSettings, Layers, Scene, SceneResult, Settings};
 
 /// Simulation steps of the presets of old files, seconds; the next number means a step of one's own.
 const STEP_PRESETS: [f64; 5] = [0.2, 0.1, 0.05, 0.025, 0.01];
@@ -29,6 +29,9 @@ pub(super) fn apply(scene: &mut Scene, file: &File) -> SceneResult<()> {
         if let Some(chunk) = &contents.environment {
             environment(settings, chunk);
         }
+        if let Some(chunk) = &contents.module_settings {
+            settings.calculations = calculations(chunk);
+        }
     });
     let mut data = std::mem::take(&mut scene.custom_data);
     custom_data::fill(
@@ -39,6 +42,16 @@ pub(super) fn apply(scene: &mut Scene, file: &File) -> SceneResult<()> {
     );
     scene.custom_data = data;
     Ok(())
+}
+
+/// What old versions could switch off.
+fn calculations(chunk: &ModuleSettings) -> Calculations {
+    let is_on = |switches: Option<u8>, bit: u8| switches.is_none_or(|switches| switches & bit != 0);
+    Calculations {
+        collision: is_on(chunk.va3, 0x2),
+        distance: is_on(chunk.va3, 0x4),
+        proximity_sensors: is_on(chunk.va5, 0x1),
+    }
 }
 
 fn simulation(settings: &mut Settings, chunk: &Simulation) {

@@ -4,9 +4,11 @@ use std::collections::BTreeSet;
 
 use super::{Context, custom_data, shape};
 use crate::format::ttt::Counted;
-use crate::format::ttt::chunks::{Collection, CollectionElement, Dynamics, Environment, Page, Simulation, View, Views};
+use crate::format::ttt::chunks::{
+    Collection, CollectionElement, Dynamics, Environment, ModuleSettings, Page, Simulation, View, Views,
+};
 use crate::format::ttt::tree::Contents;
-use crate::scene::{CollectionItem, Kind, Members, Object, Scene, Settings};
+use crate::scene::{Calculations, CollectionItem, Kind, Members, Object, Scene, Settings};
 
 /// The preset of the physics, and of the step, that means settings of one's own.
 const CUSTOM: i32 = 5;
@@ -21,6 +23,20 @@ pub(super) fn fill(contents: &mut Contents, scene: &Scene) {
     contents.environment = Some(environment(scene));
     contents.custom_data = custom_data::chunk(&scene.custom_data);
     contents.views = views(scene);
+    contents.module_settings = module_settings(&settings.calculations);
+}
+
+/// Only where something is switched off: all is on by default.
+fn module_settings(on: &Calculations) -> Option<ModuleSettings> {
+    let bit = |on: bool, bit: u8| if on { bit } else { 0 };
+    let switches = ModuleSettings {
+        va5: Some(bit(on.proximity_sensors, 0x1)),
+        // Inverse kinematics, and what has no meaning here, as new scenes of the original have it.
+        va2: Some(0x8),
+        va3: Some(0x1 | bit(on.collision, 0x2) | bit(on.distance, 0x4)),
+        ..ModuleSettings::default()
+    };
+    (*on != Calculations::default()).then_some(switches)
 }
 
 fn simulation(settings: &Settings) -> Simulation {

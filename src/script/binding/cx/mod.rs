@@ -10,6 +10,7 @@ mod output;
 mod outside;
 mod properties;
 mod scripts;
+mod sensors;
 mod simulation;
 mod vision;
 
@@ -17,7 +18,6 @@ use std::cell::{Ref, RefMut};
 use std::rc::Rc;
 use std::time::Duration;
 
-use crate::perception::Perception;
 use crate::permissions::Permissions;
 use crate::scene::Scene;
 use crate::script::error::{ApiError, ApiResult};
@@ -131,11 +131,5 @@ impl<'a> Cx<'a> {
 
     pub(crate) fn scene_mut(&mut self) -> RefMut<'_, Scene> {
         self.sim.scene.borrow_mut()
-    }
-
-    /// What makes sensors and queries fast. It changes when it is asked, but no result depends on that.
-    #[expect(dead_code, reason = "sensors and queries that use it come next")]
-    pub(crate) fn perception(&self) -> RefMut<'_, Perception> {
-        self.sim.perception.borrow_mut()
     }
 }

@@ -12,14 +12,9 @@ impl Cx<'_> {
         self.sim.log.print(line, self.sim.clock.time());
     }
 
-    /// Logs in the name of the simulator; `cx.env().log` does in that of the calling script.
     /// Remembers a path that leads to no object, for the hint beside the error.
     pub(crate) fn note_missing_path(&self, path: &str) {
         self.sim.log.note_missing_path(path);
-    }
-
-    pub(crate) fn log(&self, level: i64, text: &str) {
-        self.sim.log(level, text);
     }
 
     /// Number of uncaught script errors.

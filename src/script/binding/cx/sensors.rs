@@ -1,0 +1,40 @@
+//! Sensors, and queries of the geometry of the scene.
+
+use super::Cx;
+use crate::perception::Perception;
+use crate::scene::sensor::Detection;
+use crate::scene::{Handle, Scene};
+use crate::script::error::ApiResult;
+
+impl Cx<'_> {
+    /// Queries the geometry of the scene. The index behind that changes, but no result depends on it.
+    pub(crate) fn query<R>(&self, query: impl FnOnce(&mut Perception, &Scene) -> R) -> R {
+        query(&mut self.sim.perception.borrow_mut(), &self.sim.scene.borrow())
+    }
+
+    /// Handles a proximity sensor that is tagged for explicit handling: detects, calls its scripts, stores the result.
+    ///
+    /// # Errors
+    /// When it is not tagged, or no proximity sensor.
+    pub(crate) fn handle_proximity_sensor(&mut self, sensor: Handle) -> ApiResult<Option<Detection>> {
+        Ok(self.sim.handle_proximity_sensor(sensor)?)
+    }
+
+    /// The same for all, or those that are not tagged; returns the nearest detection.
+    pub(crate) fn handle_proximity_sensors(&mut self, with_explicit: bool) -> Option<Detection> {
+        self.sim.handle_proximity_sensors(with_explicit)
+    }
+
+    /// Forgets what a proximity sensor detected that is tagged for explicit handling.
+    ///
+    /// # Errors
+    /// When it is not tagged, or no proximity sensor.
+    pub(crate) fn reset_proximity_sensor(&mut self, sensor: Handle) -> ApiResult<()> {
+        Ok(self.sim.reset_proximity_sensor(sensor)?)
+    }
+
+    /// The same for all, or those that are not tagged.
+    pub(crate) fn reset_proximity_sensors(&mut self, with_explicit: bool) {
+        self.sim.reset_proximity_sensors(with_explicit);
+    }
+}
