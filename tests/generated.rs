@@ -72,6 +72,7 @@ fn modules_have_the_functions_their_pages_describe() {
         "var",
         "simCmd",
         "simConvex",
+        "simGeom",
         "simSubprocess",
         "simWS",
         "simZMQ",

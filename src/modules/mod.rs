@@ -7,6 +7,7 @@ mod lfs;
 mod mime;
 pub(crate) mod remote;
 mod sim_convex;
+mod sim_geom;
 mod sim_subprocess;
 mod sim_ws;
 pub(crate) mod sim_zmq;
@@ -32,6 +33,7 @@ pub(crate) static ALL: &[&Module] = &[
     &remote::ZMQ,
     &cbor::SIM_CBOR,
     &sim_convex::MODULE,
+    &sim_geom::MODULE,
     &sim_subprocess::MODULE,
     &sim_ws::MODULE,
     &sim_zmq::MODULE,

@@ -4,3 +4,5 @@ pub mod octree;
 pub mod options;
 pub mod point_cloud;
 pub(in crate::scene) mod voxelize;
+
+pub use voxelize::{cells_of_mesh, cells_of_octree};

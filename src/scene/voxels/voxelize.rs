@@ -126,6 +126,28 @@ fn extent(corners: &[Vector3<f64>; 3]) -> (Point, Point) {
     (a.inf(b).inf(c).into(), a.sup(b).sup(c).into())
 }
 
+/// The centres of the cells of a grid, with a boundary at the origin, that the triangles of a mesh touch.
+///
+/// # Errors
+/// When they are too many, or too far away for the grid.
+pub fn cells_of_mesh(mesh: &Mesh, edge: f64) -> SceneResult<Vec<Point>> {
+    let mut grid = Grid::new(edge);
+    grid.add_surface(mesh)?;
+    Ok(grid.centres())
+}
+
+/// The centres of the cells of a grid, with a boundary at the origin, that the voxels of an octree at `pose` overlap.
+///
+/// # Errors
+/// When they are too many, or too far away for the grid.
+pub fn cells_of_octree(tree: &OcTree, pose: &Pose, edge: f64) -> SceneResult<Vec<Point>> {
+    let mut grid = Grid::new(edge);
+    for (centre, _) in tree.voxels() {
+        grid.add_cube(tree.voxel_size(), &(pose * Pose::translation(centre[0], centre[1], centre[2])))?;
+    }
+    Ok(grid.centres())
+}
+
 impl Scene {
     /// The centres of the cells an object takes in the grid of that edge through `frame`, in that frame: those that the triangles of a
     /// shape touch, that voxels overlap, or that points are in.
@@ -134,21 +156,15 @@ impl Scene {
     /// When the object has no voxels, or they are too many.
     pub fn cells_of(&self, handle: Handle, frame: Handle, edge: f64) -> SceneResult<Vec<Point>> {
         let pose = self.world_pose(frame)?.inverse() * self.world_pose(handle)?;
-        let mut grid = Grid::new(edge);
         match &self.object(handle)?.kind {
             Kind::Shape(shape) => {
                 let mut mesh = shape.mesh();
                 mesh.transform(&pose);
-                grid.add_surface(&mesh)?;
+                cells_of_mesh(&mesh, edge)
             }
-            Kind::OcTree(tree) => {
-                for (centre, _) in tree.voxels() {
-                    grid.add_cube(tree.voxel_size(), &(pose * Pose::translation(centre[0], centre[1], centre[2])))?;
-                }
-            }
-            _ => return self.points_of(handle, frame, edge),
+            Kind::OcTree(tree) => cells_of_octree(tree, &pose, edge),
+            _ => self.points_of(handle, frame, edge),
         }
-        Ok(grid.centres())
     }
 
     /// Points that stand for an object, in the frame of another: the centres of the cells of that edge that a shape's triangles touch, of
