@@ -61,7 +61,7 @@ where
     B: Items,
     A::Item: Compare<B::Item>,
 {
-    overlapping_leaves(a, b, place, |i, j| a.item(i).touches(&b.item(j), place))
+    overlapping_leaves(a, b, place, |i, j| a.item(i).touches(&A::Item::moved(&b.item(j), place)))
 }
 
 /// Visits pairs of things in leaves that overlap, until `visit` returns true. Whether it did.
@@ -71,7 +71,7 @@ fn overlapping_leaves<A: Items, B: Items>(
     place: &Transform,
     mut visit: impl FnMut(usize, usize) -> bool,
 ) -> bool {
-    let pairs = NodePairs::new(a.tree(), b.tree(), place);
+    let pairs = NodePairs::new(a, b, place);
     let mut open = vec![[0, 0]];
     while let Some(nodes) = open.pop() {
         if !pairs.overlap(nodes) {

@@ -12,7 +12,7 @@ use crate::items::{Compare, Items};
 use crate::node_pair::{NodePairs, Side};
 use crate::placed::{Geometry, Placed, Transform};
 use crate::points::ORIGIN;
-use crate::primitive::Pair;
+use crate::primitive::{Pair, Vector};
 
 /// The closest points of two geometries.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,9 +94,11 @@ where
     B: Items,
     A::Item: Compare<B::Item>,
 {
-    let pairs = NodePairs::new(a.tree(), b.tree(), place);
+    let pairs = NodePairs::new(a, b, place);
     let mut limit = if below > 0.0 { below * below } else { return None };
     let mut best = None;
+    // From the best pair's first point to the second one: nearly the direction of the gap between other close pairs.
+    let mut across = Vector::zeros();
     let mut open = BinaryHeap::new();
     let visit = |open: &mut BinaryHeap<Candidate>, nodes, limit| {
         let bound = pairs.distance_squared(nodes);
@@ -117,9 +119,9 @@ where
                 children.into_iter().for_each(|child| visit(&mut open, [nodes[0], child], limit))
             }
             None => {
-                let found = closest_in_leaves(a, b, nodes, place);
-                if found.2 < limit {
+                if let Some(found) = closest_in_leaves(a, b, nodes, place, limit, &across) {
                     (limit, best) = (found.2, Some(found));
+                    across = (found.1 - found.0).try_normalize(0.0).unwrap_or_default();
                 }
             }
         }
@@ -127,20 +129,34 @@ where
     best
 }
 
-/// The closest pair of the things in two leaves.
-fn closest_in_leaves<A, B>(a: &A, b: &B, [leaf_a, leaf_b]: [u32; 2], place: &Transform) -> Pair
+/// The closest pair of the things in two leaves, where the square of its distance is below `limit`.
+fn closest_in_leaves<A, B>(
+    a: &A,
+    b: &B,
+    leaves: [u32; 2],
+    place: &Transform,
+    mut limit: f64,
+    across: &Vector,
+) -> Option<Pair>
 where
     A: Items,
     B: Items,
     A::Item: Compare<B::Item>,
 {
-    let [items_a, items_b] = [a.tree().nodes[leaf_a as usize].items(), b.tree().nodes[leaf_b as usize].items()];
-    let mut best = (Default::default(), Default::default(), f64::INFINITY);
+    let [items_a, items_b] = [a.tree().nodes[leaves[0] as usize].items(), b.tree().nodes[leaves[1] as usize].items()];
+    let mut best = None;
     for j in items_b {
-        let other = b.item(j);
+        let other = A::Item::moved(&b.item(j), place);
         for i in items_a.clone() {
-            let found = a.item(i).closest(&other, place);
-            best = crate::primitive::nearer(best, found);
+            let item = a.item(i);
+            let gap = item.gap_along(&other, across);
+            if gap > 0.0 && gap * gap >= limit {
+                continue;
+            }
+            let found = item.closest(&other);
+            if found.2 < limit {
+                (limit, best) = (found.2, Some(found));
+            }
         }
     }
     best

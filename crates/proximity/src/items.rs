@@ -1,6 +1,7 @@
 //! The things that a tree is over, and how pairs of them are compared.
 
 use crate::mesh::TriangleMesh;
+use crate::oriented::OrientedBox;
 use crate::placed::Transform;
 use crate::points::PointSet;
 use crate::primitive::{
@@ -15,14 +16,29 @@ pub(crate) trait Items {
 
     fn tree(&self) -> &Tree;
     fn item(&self, i: usize) -> Self::Item;
+
+    /// A box around a node.
+    fn oriented_box(&self, node: u32) -> OrientedBox {
+        OrientedBox::upright(&self.tree().nodes[node as usize].bounds)
+    }
 }
 
-/// Things of one kind compared with things of another kind, `other` in a frame at `place`. Points are in the first one's frame.
+/// Things of one kind compared with things of another kind in a frame that is somewhere else. Points are in the first one's frame.
 pub(crate) trait Compare<Other> {
-    fn closest(&self, other: &Other, place: &Transform) -> Pair;
+    /// A thing of the other kind with what is computed once for many comparisons.
+    type Moved;
 
-    fn touches(&self, other: &Other, place: &Transform) -> bool {
-        self.closest(other, place).2 == 0.0
+    fn moved(other: &Other, place: &Transform) -> Self::Moved;
+
+    fn closest(&self, other: &Self::Moved) -> Pair;
+
+    fn touches(&self, other: &Self::Moved) -> bool {
+        self.closest(other).2 == 0.0
+    }
+
+    /// A quick lower bound of the distance: the gap along a direction of unit length that leads from the first to the other thing.
+    fn gap_along(&self, _other: &Self::Moved, _direction: &Vector) -> f64 {
+        f64::NEG_INFINITY
     }
 }
 
@@ -35,6 +51,11 @@ impl Items for TriangleMesh {
 
     fn item(&self, i: usize) -> Triangle {
         self.triangles[i]
+    }
+
+    #[inline]
+    fn oriented_box(&self, node: u32) -> OrientedBox {
+        self.oriented_boxes()[node as usize]
     }
 }
 
@@ -63,45 +84,86 @@ impl Items for PointSet {
 }
 
 impl Compare<Triangle> for Triangle {
-    fn closest(&self, other: &Triangle, place: &Transform) -> Pair {
-        closest_on_triangles(self, &other.map(|p| place.point(&p)))
+    type Moved = Triangle;
+
+    #[inline]
+    fn moved(other: &Triangle, place: &Transform) -> Triangle {
+        other.map(|p| place.point(&p))
     }
 
-    fn touches(&self, other: &Triangle, place: &Transform) -> bool {
-        triangles_touch(self, &other.map(|p| place.point(&p)))
+    fn closest(&self, other: &Triangle) -> Pair {
+        closest_on_triangles(self, other)
+    }
+
+    fn touches(&self, other: &Triangle) -> bool {
+        triangles_touch(self, other)
+    }
+
+    #[inline]
+    fn gap_along(&self, other: &Triangle, direction: &Vector) -> f64 {
+        let [own, others] = [self, other].map(|triangle| triangle.map(|p| p.dot(direction)));
+        others[0].min(others[1]).min(others[2]) - own[0].max(own[1]).max(own[2])
     }
 }
 
 impl Compare<SolidBox> for Triangle {
-    fn closest(&self, other: &SolidBox, place: &Transform) -> Pair {
-        let back = place.inverse();
+    /// From the frame of the box to the triangle's and back.
+    type Moved = (SolidBox, [Transform; 2]);
+
+    fn moved(other: &SolidBox, place: &Transform) -> Self::Moved {
+        (*other, [*place, place.inverse()])
+    }
+
+    fn closest(&self, (other, [forth, back]): &Self::Moved) -> Pair {
         let (q, p, squared) = other.closest_to_triangle(&self.map(|p| back.point(&p)));
-        (place.point(&p), place.point(&q), squared)
+        (forth.point(&p), forth.point(&q), squared)
     }
 }
 
 impl Compare<Vector> for Triangle {
-    fn closest(&self, other: &Vector, place: &Transform) -> Pair {
-        let point = place.point(other);
-        pair(closest_on_triangle(&point, self), point)
+    type Moved = Vector;
+
+    fn moved(other: &Vector, place: &Transform) -> Vector {
+        place.point(other)
+    }
+
+    fn closest(&self, other: &Vector) -> Pair {
+        pair(closest_on_triangle(other, self), *other)
     }
 }
 
 impl Compare<SolidBox> for SolidBox {
-    fn closest(&self, other: &SolidBox, place: &Transform) -> Pair {
+    type Moved = (SolidBox, Transform);
+
+    fn moved(other: &SolidBox, place: &Transform) -> Self::Moved {
+        (*other, *place)
+    }
+
+    fn closest(&self, (other, place): &Self::Moved) -> Pair {
         self.closest_to_placed(other, place)
     }
 }
 
 impl Compare<Vector> for SolidBox {
-    fn closest(&self, other: &Vector, place: &Transform) -> Pair {
-        let point = place.point(other);
-        pair(self.closest_to_point(&point), point)
+    type Moved = Vector;
+
+    fn moved(other: &Vector, place: &Transform) -> Vector {
+        place.point(other)
+    }
+
+    fn closest(&self, other: &Vector) -> Pair {
+        pair(self.closest_to_point(other), *other)
     }
 }
 
 impl Compare<Vector> for Vector {
-    fn closest(&self, other: &Vector, place: &Transform) -> Pair {
-        pair(*self, place.point(other))
+    type Moved = Vector;
+
+    fn moved(other: &Vector, place: &Transform) -> Vector {
+        place.point(other)
+    }
+
+    fn closest(&self, other: &Vector) -> Pair {
+        pair(*self, *other)
     }
 }

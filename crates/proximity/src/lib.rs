@@ -41,6 +41,7 @@ mod distance;
 mod items;
 mod mesh;
 mod node_pair;
+mod oriented;
 mod placed;
 mod points;
 pub mod primitive;

@@ -1,8 +1,11 @@
 //! Triangle meshes: surfaces without an inside.
 
+use std::sync::OnceLock;
+
 use geometry::LARGEST_COORDINATE;
 
 use crate::bounds::Bounds;
+use crate::oriented::{OrientedBox, boxes_of};
 use crate::primitive::{Triangle, Vector};
 use crate::tree::Tree;
 
@@ -14,6 +17,8 @@ const FLAT: f64 = 1e-12;
 pub struct TriangleMesh {
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) tree: Tree,
+    /// A box per node, made when a query first asks for one: rays need none.
+    oriented: OnceLock<Vec<OrientedBox>>,
 }
 
 impl TriangleMesh {
@@ -44,12 +49,17 @@ impl TriangleMesh {
         let boxes: Vec<Bounds> = triangles.iter().map(bounds_of).collect();
         let (tree, order) = Tree::build(&boxes);
         let triangles = order.into_iter().map(|i| triangles[i as usize]).collect();
-        Some(Self { triangles, tree })
+        Some(Self { triangles, tree, oriented: OnceLock::new() })
     }
 
     /// The box around all triangles.
     pub fn bounds(&self) -> Bounds {
         self.tree.bounds()
+    }
+
+    #[inline]
+    pub(crate) fn oriented_boxes(&self) -> &[OrientedBox] {
+        self.oriented.get_or_init(|| boxes_of(&self.tree, &self.triangles))
     }
 
     /// How many triangles there are.

@@ -2,7 +2,8 @@
 
 use nalgebra::Matrix3;
 
-use crate::bounds::Bounds;
+use crate::items::Items;
+use crate::oriented::OrientedBox;
 use crate::placed::Transform;
 use crate::primitive::Vector;
 use crate::tree::{Node, Tree};
@@ -11,11 +12,10 @@ use crate::tree::{Node, Tree};
 const ROUNDING: f64 = 4e-15;
 
 /// Two trees, the second one in a frame at a place in the first one's frame.
-pub(crate) struct NodePairs<'a> {
-    trees: [&'a Tree; 2],
-    /// From the frame of the second tree to the first one's, and back; then the rotations with positive entries.
-    places: [Transform; 2],
-    turns: [Matrix3<f64>; 2],
+pub(crate) struct NodePairs<'a, A, B> {
+    a: &'a A,
+    b: &'a B,
+    place: Transform,
     /// Boxes touch below this square of a gap (m²), which rounding may make of nothing.
     rounding: f64,
 }
@@ -26,16 +26,15 @@ pub(crate) enum Side {
     B([u32; 2]),
 }
 
-impl<'a> NodePairs<'a> {
-    pub fn new(a: &'a Tree, b: &'a Tree, place: &Transform) -> Self {
-        let places = [*place, place.inverse()];
+impl<'a, A: Items, B: Items> NodePairs<'a, A, B> {
+    pub fn new(a: &'a A, b: &'a B, place: &Transform) -> Self {
         let largest = |tree: &Tree| Vector::from(tree.bounds().min).amax().max(Vector::from(tree.bounds().max).amax());
-        let rounding = ROUNDING * (largest(a) + largest(b) + place.translation.amax());
-        Self { trees: [a, b], places, turns: places.map(|place| place.rotation.abs()), rounding: rounding * rounding }
+        let rounding = ROUNDING * (largest(a.tree()) + largest(b.tree()) + place.translation.amax());
+        Self { a, b, place: *place, rounding: rounding * rounding }
     }
 
     fn nodes(&self, nodes: [u32; 2]) -> [&'a Node; 2] {
-        [&self.trees[0].nodes[nodes[0] as usize], &self.trees[1].nodes[nodes[1] as usize]]
+        [&self.a.tree().nodes[nodes[0] as usize], &self.b.tree().nodes[nodes[1] as usize]]
     }
 
     /// The children of the larger node, or of the one that has some; `None` for two leaves.
@@ -43,10 +42,10 @@ impl<'a> NodePairs<'a> {
         let [a, b] = self.nodes(nodes);
         match (a.is_leaf(), b.is_leaf()) {
             (true, true) => None,
-            (false, true) => Some(Side::A(self.trees[0].children(a))),
-            (true, false) => Some(Side::B(self.trees[1].children(b))),
-            _ if a.bounds.half_area() >= b.bounds.half_area() => Some(Side::A(self.trees[0].children(a))),
-            _ => Some(Side::B(self.trees[1].children(b))),
+            (false, true) => Some(Side::A(self.a.tree().children(a))),
+            (true, false) => Some(Side::B(self.b.tree().children(b))),
+            _ if a.bounds.half_area() >= b.bounds.half_area() => Some(Side::A(self.a.tree().children(a))),
+            _ => Some(Side::B(self.b.tree().children(b))),
         }
     }
 
@@ -55,19 +54,25 @@ impl<'a> NodePairs<'a> {
         self.distance_squared(nodes) <= self.rounding
     }
 
-    /// A lower bound of the square of the distance (m²): along the axes of both frames.
+    /// A lower bound of the square of the distance (m²): the gaps along the axes of one box, or along those of the other one.
     pub fn distance_squared(&self, nodes: [u32; 2]) -> f64 {
-        let [a, b] = self.nodes(nodes);
-        let in_a = gap(&a.bounds, &b.bounds, &self.places[0], &self.turns[0]);
-        let in_b = gap(&b.bounds, &a.bounds, &self.places[1], &self.turns[1]);
-        in_a.norm_squared().max(in_b.norm_squared())
+        let (a, b) = (self.a.oriented_box(nodes[0]), self.b.oriented_box(nodes[1]));
+        gap_squared(&a, &b, &self.place)
     }
 }
 
-/// The gap along each axis between a box and another one, which is turned and moved before.
-fn gap(fixed: &Bounds, moved: &Bounds, place: &Transform, turn: &Matrix3<f64>) -> Vector {
-    let centre = place.point(&moved.centre().into());
-    let reach = turn * Vector::from(moved.half_size()) + Vector::from(fixed.half_size());
-    let apart = (centre - Vector::from(fixed.centre())).abs() - reach;
-    apart.map(|x| if x > 0.0 { x } else { 0.0 })
+#[inline]
+fn gap_squared(a: &OrientedBox, b: &OrientedBox, place: &Transform) -> f64 {
+    // The axes of `b` in those of `a`: an entry is the cosine between two.
+    let turn: Matrix3<f64> = a.axes.tr_mul(&(place.rotation * b.axes));
+    let apart = a.axes.tr_mul(&(place.point(&b.centre) - a.centre));
+    let reach = turn.abs();
+    let in_a = apart.abs() - a.half - reach * b.half;
+    let in_b = turn.tr_mul(&apart).abs() - b.half - reach.tr_mul(&a.half);
+    positive_squared(&in_a).max(positive_squared(&in_b))
+}
+
+#[inline]
+fn positive_squared(gaps: &Vector) -> f64 {
+    gaps.iter().map(|x| if *x > 0.0 { x * x } else { 0.0 }).sum()
 }

@@ -3,11 +3,12 @@
 use geometry::Pose;
 
 use crate::bounds::Bounds;
+use crate::items::Items;
 use crate::placed::{Geometry, Placed, Transform};
 use crate::points::{ORIGIN, PointSet};
 use crate::primitive::{Vector, clip, closest_on_segment};
 use crate::ray::{Filter, Hit};
-use crate::tree::{STACK, Tree};
+use crate::tree::STACK;
 
 /// A union of convex pieces in the sensor's frame.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -28,8 +29,8 @@ pub fn closest_in_volume(on: Placed, sensor: &Pose, volume: &Volume, below: f64,
     for piece in &volume.pieces {
         search.enter(piece, &place)?;
         match on.geometry {
-            Geometry::Mesh(mesh) => search.descend(&mesh.tree, |search, i| search.face(&mesh.triangles[i])),
-            Geometry::Voxels(grid) => search.descend(&grid.tree, |search, i| search.cell(&grid.cells[i], grid.half)),
+            Geometry::Mesh(mesh) => search.descend(mesh, |search, i| search.face(&mesh.triangles[i])),
+            Geometry::Voxels(grid) => search.descend(grid, |search, i| search.cell(&grid.cells[i], grid.half)),
             Geometry::Points(points) => search.points(points),
             Geometry::Point => search.points(&ORIGIN),
         }
@@ -56,12 +57,11 @@ impl Plane {
         self.normal.dot(p) + self.offset
     }
 
-    /// The lowest and the highest point of a box.
+    /// The height of the lowest point of a box.
     #[inline]
-    fn heights(&self, bounds: &Bounds) -> [f64; 2] {
+    fn lowest(&self, bounds: &Bounds) -> f64 {
         let middle = self.height(&Vector::from(bounds.centre()));
-        let reach = self.normal.abs().dot(&Vector::from(bounds.half_size()));
-        [middle - reach, middle + reach]
+        middle - self.normal.abs().dot(&Vector::from(bounds.half_size()))
     }
 }
 
@@ -101,19 +101,23 @@ impl<'a> Search<'a> {
         self.filter.any && self.found.is_some()
     }
 
-    /// The square of the distance of a box's nearest point; infinity where the box is outside of the piece.
+    /// A lower bound of the square of the distance of what is in a node; infinity where that is outside of the piece.
     #[inline]
-    fn bound(&self, bounds: &Bounds) -> f64 {
-        let squared = bounds.distance_squared_to_point(&self.origin.into());
-        let is_outside = squared < self.limit && self.piece.iter().any(|plane| plane.heights(bounds)[0] > 0.0);
-        if is_outside { f64::INFINITY } else { squared }
+    fn bound(&self, things: &impl Items, node: u32) -> f64 {
+        let bounds = &things.tree().nodes[node as usize].bounds;
+        let upright = bounds.distance_squared_to_point(&self.origin.into());
+        if upright >= self.limit || self.piece.iter().any(|plane| plane.lowest(bounds) > 0.0) {
+            return f64::INFINITY;
+        }
+        upright.max(things.oriented_box(node).distance_squared_to_point(&self.origin))
     }
 
     /// Visits the leaves that reach into the piece, near ones first.
-    fn descend(&mut self, tree: &Tree, mut visit: impl FnMut(&mut Self, usize)) {
+    fn descend(&mut self, things: &impl Items, mut visit: impl FnMut(&mut Self, usize)) {
         let mut waiting = [(0.0, 0); STACK];
         let mut depth = 1;
-        waiting[0] = (self.bound(&tree.bounds()), 0);
+        let tree = things.tree();
+        waiting[0] = (self.bound(things, 0), 0);
         while depth > 0 && !self.is_done() {
             depth -= 1;
             let (bound, node) = waiting[depth];
@@ -125,7 +129,7 @@ impl<'a> Search<'a> {
                 node.items().for_each(|i| visit(self, i));
                 continue;
             }
-            let [a, b] = tree.children(node).map(|child| (self.bound(&tree.nodes[child as usize].bounds), child));
+            let [a, b] = tree.children(node).map(|child| (self.bound(things, child), child));
             // The nearer one is on top.
             (waiting[depth], waiting[depth + 1]) = if a.0 <= b.0 { (b, a) } else { (a, b) };
             depth += 2;
@@ -172,7 +176,7 @@ impl<'a> Search<'a> {
     }
 
     fn points(&mut self, points: &PointSet) {
-        self.descend(&points.tree, |search, i| {
+        self.descend(points, |search, i| {
             let point = points.points[i];
             if search.piece.iter().all(|plane| plane.height(&point) <= 0.0) {
                 let normal = point - search.origin;

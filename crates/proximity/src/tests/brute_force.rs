@@ -48,8 +48,9 @@ where
     let mut found = (f64::INFINITY, false);
     for i in 0..numbers(a.tree()) {
         for j in 0..numbers(b.tree()) {
-            let squared = a.item(i).closest(&b.item(j), place).2;
-            found = (found.0.min(squared.sqrt()), found.1 || a.item(i).touches(&b.item(j), place));
+            let other = A::Item::moved(&b.item(j), place);
+            let squared = a.item(i).closest(&other).2;
+            found = (found.0.min(squared.sqrt()), found.1 || a.item(i).touches(&other));
         }
     }
     found
