@@ -149,8 +149,8 @@ fn functions_are_called_from_rust() {
     assert_eq!(fixture.sim.call_api("sim.isHandle", &[dummy]), Ok(vec![Data::Bool(true)]));
     let refused = fixture.sim.call_api("sim.getObjectPosition", &[Data::text("x")]).expect_err("no handle");
     assert_eq!(refused.to_string(), "argument 1 is not a number.");
-    let missing = fixture.sim.call_api("sim.checkVisionSensor", &[]).expect_err("it is not built");
-    assert_eq!(missing.to_string(), "not implemented in Swanilda: sim.checkVisionSensor");
+    let missing = fixture.sim.call_api("sim.announceSceneContentChange", &[]).expect_err("it is not built");
+    assert_eq!(missing.to_string(), "not implemented in Swanilda: sim.announceSceneContentChange");
     let needs_lua = fixture.sim.call_api("setAutoYield", &[Data::Bool(false)]).expect_err("there is no coroutine");
     assert_eq!(needs_lua.to_string(), "can only be called by a Lua script.");
     assert!(fixture.sim.call_api("sim.noSuchFunction", &[]).is_err());
