@@ -33,6 +33,11 @@ describe('the scene', function()
         assert.is_true(worst < 15)
     end)
 
+    it('lidar measures a room', function()
+        runToEnd('lidar.lua', 1)
+        assert.equal('180 of 180 beams ended; the nearest after 0.92 m, at 206 degrees.', lastLine())
+    end)
+
     it('inverted_pendulum keeps the pole up', function()
         runToEnd('inverted_pendulum.lua', 12)
         assert.equal('The pole stands.', lastLine())

@@ -93,3 +93,6 @@ end
 P('contour', n > 0, n == #segments // 6, on)
 -- two rectangles' sides of 0.05, 0.15 and 0.15 m each
 P('at least its length', length > 2 * (0.05 + 0.15 + 0.15) - 1e-6)
+sim.setBoolParam(sim.boolparam_collision_handling_enabled, false)
+C('switched off', sim.checkCollision(A, B))
+P('no contour', sim.checkCollisionEx(A, B))

@@ -71,3 +71,8 @@ local _, distance, point, object, normal = sim.checkProximitySensor(z, d)
 P('dummy', distance, point, object == d, normal)
 sim.setObjectPosition(d, {0, 0, 0.3})
 P('dummy on a ray', (sim.checkProximitySensor(s, d)))
+-- properties, and an object that is removed after it was detected
+sim.handleProximitySensor(s)
+P('properties', sim.getIntProperty(s, 'detectedObjectHandle') == c, sim.getVector3Property(s, 'detectedPoint')[3], sim.getVector3Property(s, 'detectedNormal')[3])
+sim.removeObjects({c})
+P('object removed', sim.readProximitySensor(s))
