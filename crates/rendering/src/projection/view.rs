@@ -20,6 +20,8 @@ pub struct View {
     eye: Vector3<f64>,
     /// Pixels per metre, at depth 1 in perspective.
     pub scale: f64,
+    /// One divided by `scale`.
+    pub over_scale: f64,
     pub perspective: bool,
     pub near: f64,
     pub far: f64,
@@ -48,6 +50,7 @@ impl View {
                 * camera.pose.rotation.to_rotation_matrix().matrix().transpose(),
             eye: camera.pose.translation.vector,
             scale,
+            over_scale: 1.0 / scale,
             perspective,
             near: camera.near,
             far: camera.far,
@@ -67,7 +70,7 @@ impl View {
 
     /// From view coordinates to metres along the camera's axes: right, up, depth.
     pub fn in_metres(&self, vector: Vector3<f64>) -> Vector3<f64> {
-        Vector3::new(vector.x / self.scale, vector.y / self.scale, vector.z)
+        Vector3::new(vector.x * self.over_scale, vector.y * self.over_scale, vector.z)
     }
 
     /// What the depth buffer holds: larger is closer, linear on the picture, and 0 at the far plane or beyond it (in perspective the

@@ -49,7 +49,7 @@ impl Linear {
 }
 
 impl Attributes {
-    pub fn new(view: &View, surface: &Surface, face: &Face) -> Self {
+    pub fn new(view: &View, surface: &Surface, face: &Face, is_textured: bool) -> Self {
         let triangle = &surface.mesh.triangles[face.detail as usize];
         let pixel = [face.bounds[0][0], face.bounds[1][0]];
         let ray = view.ray(pixel[0].into(), pixel[1].into());
@@ -66,10 +66,11 @@ impl Attributes {
             let parts = three(|i| to_camera(a * weights[0][i] + b * weights[1][i] + c * weights[2][i]));
             three(|axis| Linear::new(Vector3::new(parts[0][axis], parts[1][axis], parts[2][axis]), &ray))
         };
-        let uv = [0, 1].map(|axis| {
-            let at = triangle.uv.map(|uv| f64::from(uv[axis]));
-            Linear::new(weights[0] * at[0] + weights[1] * at[1] + weights[2] * at[2], &ray)
-        });
+        let uv = |axis: usize| {
+            let [a, b, c] = three(|i| weights[i] * f64::from(triangle.uv[i][axis]));
+            Linear::new(a + b + c, &ray)
+        };
+        let uv = if is_textured { [uv(0), uv(1)] } else { Default::default() };
         Self { pixel, normal, uv, is_flat: triangle.is_flat }
     }
 

@@ -78,7 +78,7 @@ impl Row {
             match (material, self.known_colour(shading, owner, face, number)) {
                 (Some(material), None) => {
                     self.light(shading, &mut unlit, Some((material, run.start)));
-                    self.interpolate(number, run.clone());
+                    self.interpolate(number, is_textured, run.clone());
                     unlit.pixels.end = run.end;
                 }
                 (_, colour) => {
@@ -110,7 +110,7 @@ impl Row {
         let Content::Surface(surface, material) = &owner.content else { return Some(unpacked(face.detail)) };
         let entry = &mut self.remembered[number as usize % REMEMBERED];
         if entry.face != Some(number) {
-            let attributes = Attributes::new(shading.view, surface, face);
+            let attributes = Attributes::new(shading.view, surface, face, material.texture.is_some());
             let is_uniform = attributes.is_flat && shading.lighting.is_uniform && material.texture.is_none();
             let colour = is_uniform.then(|| {
                 let normals = attributes.normals(0, 0);
@@ -121,11 +121,14 @@ impl Row {
         entry.colour
     }
 
-    fn interpolate(&mut self, number: u32, run: Range<usize>) {
+    fn interpolate(&mut self, number: u32, is_textured: bool, run: Range<usize>) {
         let attributes = &self.remembered[number as usize % REMEMBERED].attributes;
-        for x in run.step_by(8) {
-            let (normals, uv) = (attributes.normals(x, self.y), attributes.uv(x, self.y));
+        for x in run.clone().step_by(8) {
+            let normals = attributes.normals(x, self.y);
             self.normal.iter_mut().zip(normals).for_each(|(list, part)| store(list, x, part));
+        }
+        for x in run.step_by(8).filter(|_| is_textured) {
+            let uv = attributes.uv(x, self.y);
             self.uv.iter_mut().zip(uv).for_each(|(list, part)| store(list, x, part));
         }
     }
@@ -152,10 +155,11 @@ impl Row {
 
     /// Eight points in the camera's axes: right, up, depth; metres.
     fn points(&self, view: &View, x: usize) -> Vectors {
-        let ray = view.ray(x, self.y).map(|offset| (offset / view.scale) as f32);
+        let ray = view.ray(x, self.y);
+        let ray = [(ray[0] * view.over_scale) as f32, (ray[1] * view.over_scale) as f32];
         let depth = load(&self.depth, x);
         let spread = if view.perspective { depth } else { f32x8::ONE };
-        let column = f32x8::splat(ray[0]) + LANES * (1.0 / view.scale) as f32;
+        let column = f32x8::splat(ray[0]) + LANES * view.over_scale as f32;
         [column * spread, f32x8::splat(ray[1]) * spread, depth]
     }
 

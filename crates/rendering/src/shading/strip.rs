@@ -61,12 +61,15 @@ impl Strip {
             let count = self.fragments[first..].iter().take_while(|fragment| fragment.row as usize == at).count();
             let fragments = first..first + count;
             first += count;
-            self.find_closest(shading, at, fragments.clone());
+            if !fragments.is_empty() {
+                self.find_closest(shading, at, fragments.clone());
+            }
+            let closest = if fragments.is_empty() { self.band.row(at) } else { &self.closest };
             if let Some(ids) = pixels.ids.get_mut(at * width..(at + 1) * width) {
-                shading.ids(&self.closest, ids);
+                shading.ids(closest, ids);
             }
             if let Some(depths) = pixels.depth.get_mut(at * width..(at + 1) * width) {
-                shading.depths(self.band.rows.start + at, &self.closest, depths);
+                shading.depths(self.band.rows.start + at, closest, depths);
             }
             if let Some(colours) = pixels.colour.get_mut(3 * at * width..3 * (at + 1) * width) {
                 self.row.shade(shading, self.band.rows.start + at, self.band.row(at));
@@ -76,7 +79,7 @@ impl Strip {
         }
     }
 
-    /// What depths and ids show of a row.
+    /// What depths and ids show of a row with fragments.
     fn find_closest(&mut self, shading: &Shading, at: usize, fragments: Range<usize>) {
         self.closest.clear();
         self.closest.extend(self.band.row(at));
