@@ -81,12 +81,9 @@ fn overlapping_leaves<A: Items, B: Items>(
             Some(Side::A(children)) => open.extend(children.map(|child| [child, nodes[1]])),
             Some(Side::B(children)) => open.extend(children.map(|child| [nodes[0], child])),
             None => {
-                let [items_a, items_b] =
-                    [a.tree().nodes[nodes[0] as usize].items(), b.tree().nodes[nodes[1] as usize].items()];
-                for i in items_a {
-                    if items_b.clone().any(|j| visit(i, j)) {
-                        return true;
-                    }
+                let [mut items_a, items_b] = pairs.items(nodes);
+                if items_a.any(|i| items_b.clone().any(|j| visit(i, j))) {
+                    return true;
                 }
             }
         }

@@ -94,70 +94,68 @@ where
     B: Items,
     A::Item: Compare<B::Item>,
 {
+    let limit = if below > 0.0 { below * below } else { return None };
     let pairs = NodePairs::new(a, b, place);
-    let mut limit = if below > 0.0 { below * below } else { return None };
-    let mut best = None;
-    // From the best pair's first point to the second one: nearly the direction of the gap between other close pairs.
-    let mut across = Vector::zeros();
-    let mut open = BinaryHeap::new();
-    let visit = |open: &mut BinaryHeap<Candidate>, nodes, limit| {
-        let bound = pairs.distance_squared(nodes);
-        if bound < limit {
-            open.push(Candidate { bound, nodes });
-        }
-    };
-    visit(&mut open, [0, 0], limit);
-    while let Some(Candidate { bound, nodes }) = open.pop() {
-        if bound >= limit {
+    let mut search = Search { pairs, open: BinaryHeap::new(), limit, best: None, across: Vector::zeros() };
+    search.put([0, 0]);
+    while let Some(Candidate { bound, nodes }) = search.open.pop() {
+        if bound >= search.limit {
             break;
         }
-        match pairs.larger(nodes) {
-            Some(Side::A(children)) => {
-                children.into_iter().for_each(|child| visit(&mut open, [child, nodes[1]], limit))
-            }
-            Some(Side::B(children)) => {
-                children.into_iter().for_each(|child| visit(&mut open, [nodes[0], child], limit))
-            }
-            None => {
-                if let Some(found) = closest_in_leaves(a, b, nodes, place, limit, &across) {
-                    (limit, best) = (found.2, Some(found));
-                    across = (found.1 - found.0).try_normalize(0.0).unwrap_or_default();
-                }
-            }
+        match search.pairs.larger(nodes) {
+            Some(Side::A(children)) => children.into_iter().for_each(|child| search.put([child, nodes[1]])),
+            Some(Side::B(children)) => children.into_iter().for_each(|child| search.put([nodes[0], child])),
+            None => search.compare_leaves(nodes),
         }
     }
-    best
+    search.best
 }
 
-/// The closest pair of the things in two leaves, where the square of its distance is below `limit`.
-fn closest_in_leaves<A, B>(
-    a: &A,
-    b: &B,
-    leaves: [u32; 2],
-    place: &Transform,
-    mut limit: f64,
-    across: &Vector,
-) -> Option<Pair>
+/// The state of a descent.
+struct Search<'a, A, B> {
+    pairs: NodePairs<'a, A, B>,
+    open: BinaryHeap<Candidate>,
+    /// Square of the distance that a pair must be nearer than.
+    limit: f64,
+    best: Option<Pair>,
+    /// The direction from the best pair's first point to the second one: nearly that of the gap between other close pairs.
+    across: Vector,
+}
+
+impl<A, B> Search<'_, A, B>
 where
     A: Items,
     B: Items,
     A::Item: Compare<B::Item>,
 {
-    let [items_a, items_b] = [a.tree().nodes[leaves[0] as usize].items(), b.tree().nodes[leaves[1] as usize].items()];
-    let mut best = None;
-    for j in items_b {
-        let other = A::Item::moved(&b.item(j), place);
-        for i in items_a.clone() {
-            let item = a.item(i);
-            let gap = item.gap_along(&other, across);
-            if gap > 0.0 && gap * gap >= limit {
-                continue;
-            }
-            let found = item.closest(&other);
-            if found.2 < limit {
-                (limit, best) = (found.2, Some(found));
+    fn put(&mut self, nodes: [u32; 2]) {
+        let bound = self.pairs.distance_squared(nodes);
+        if bound < self.limit {
+            self.open.push(Candidate { bound, nodes });
+        }
+    }
+
+    /// Looks at all pairs of the things in two leaves.
+    fn compare_leaves(&mut self, leaves: [u32; 2]) {
+        let NodePairs { a, b, place, .. } = self.pairs;
+        let [items_a, items_b] = self.pairs.items(leaves);
+        let across = self.across;
+        for j in items_b {
+            let other = A::Item::moved(&b.item(j), &place);
+            for i in items_a.clone() {
+                let item = a.item(i);
+                let gap = item.gap_along(&other, &across);
+                if gap <= 0.0 || gap * gap < self.limit {
+                    self.offer(item.closest(&other));
+                }
             }
         }
     }
-    best
+
+    fn offer(&mut self, pair: Pair) {
+        if pair.2 < self.limit {
+            (self.limit, self.best) = (pair.2, Some(pair));
+            self.across = (pair.1 - pair.0).try_normalize(0.0).unwrap_or_default();
+        }
+    }
 }

@@ -1,5 +1,7 @@
 //! Nodes of two trees whose frames are turned against each other.
 
+use std::ops::Range;
+
 use nalgebra::Matrix3;
 
 use crate::items::Items;
@@ -13,9 +15,9 @@ const ROUNDING: f64 = 4e-15;
 
 /// Two trees, the second one in a frame at a place in the first one's frame.
 pub(crate) struct NodePairs<'a, A, B> {
-    a: &'a A,
-    b: &'a B,
-    place: Transform,
+    pub a: &'a A,
+    pub b: &'a B,
+    pub place: Transform,
     /// Boxes touch below this square of a gap (m²), which rounding may make of nothing.
     rounding: f64,
 }
@@ -31,6 +33,11 @@ impl<'a, A: Items, B: Items> NodePairs<'a, A, B> {
         let largest = |tree: &Tree| Vector::from(tree.bounds().min).amax().max(Vector::from(tree.bounds().max).amax());
         let rounding = ROUNDING * (largest(a.tree()) + largest(b.tree()) + place.translation.amax());
         Self { a, b, place: *place, rounding: rounding * rounding }
+    }
+
+    /// The places of the things in two leaves.
+    pub fn items(&self, leaves: [u32; 2]) -> [Range<usize>; 2] {
+        self.nodes(leaves).map(Node::items)
     }
 
     fn nodes(&self, nodes: [u32; 2]) -> [&'a Node; 2] {

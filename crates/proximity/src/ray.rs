@@ -175,41 +175,41 @@ fn descend(
     any: bool,
     mut meet: impl FnMut(usize, f64) -> Option<Found>,
 ) -> Option<Found> {
-    let mut best: Option<Found> = None;
-    let mut limit = to;
+    let (mut best, mut limit) = (None, to);
     let mut waiting = [(0.0, 0); STACK];
-    let mut depth = 0;
-    let mut next = (ray.entry(&tree.nodes[0].bounds, from, limit), 0);
-    loop {
-        if next.0 <= limit && next.0 < f64::INFINITY {
-            let node = &tree.nodes[next.1 as usize];
-            if !node.is_leaf() {
-                let [near, far] = tree
-                    .children(node)
-                    .map(|child| (ray.entry(&tree.nodes[child as usize].bounds, from, limit), child));
-                let (near, far) = if far.0 < near.0 { (far, near) } else { (near, far) };
-                if far.0 < f64::INFINITY {
-                    waiting[depth] = far;
-                    depth += 1;
-                }
-                next = near;
-                continue;
-            }
+    let mut depth = 1;
+    waiting[0] = (ray.entry(&tree.nodes[0].bounds, from, limit), 0);
+    while depth > 0 {
+        depth -= 1;
+        let (entry, node) = waiting[depth];
+        if entry > limit || entry == f64::INFINITY {
+            continue;
+        }
+        let node = &tree.nodes[node as usize];
+        if node.is_leaf() {
             for i in node.items() {
-                if let Some(found) = meet(i, limit)
-                    && best.is_none_or(|best| found.0 < best.0)
-                {
-                    (limit, best) = (found.0, Some(found));
-                }
+                best = nearer(best, meet(i, limit));
+                limit = best.map_or(limit, |(distance, _)| distance);
             }
             if any && best.is_some() {
                 return best;
             }
+            continue;
         }
-        if depth == 0 {
-            return best;
-        }
-        depth -= 1;
-        next = waiting[depth];
+        let [a, b] =
+            tree.children(node).map(|child| (ray.entry(&tree.nodes[child as usize].bounds, from, limit), child));
+        // The nearer one is on top.
+        (waiting[depth], waiting[depth + 1]) = if a.0 <= b.0 { (b, a) } else { (a, b) };
+        depth += 2;
+    }
+    best
+}
+
+/// The nearer hit, the first one where both are equally near.
+fn nearer(best: Option<Found>, other: Option<Found>) -> Option<Found> {
+    match (best, other) {
+        (Some(best), Some(other)) if other.0 < best.0 => Some(other),
+        (Some(best), _) => Some(best),
+        (None, other) => other,
     }
 }

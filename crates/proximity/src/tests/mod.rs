@@ -4,6 +4,7 @@ mod bounds_tree;
 mod brute_force;
 mod closed_forms;
 mod random;
+mod voxels;
 
 use geometry::primitive::tessellate;
 use geometry::{Pose, PrimitiveKind};
