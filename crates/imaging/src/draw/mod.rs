@@ -1,0 +1,121 @@
+//! Drawing on matrices: lines, polygons, circles, ellipses, text. What lies outside of the image is left out.
+//!
+//! Pixel centres have whole coordinates, x to the right and y to later rows. Thin lines are Bresenham's; thick and antialiased ones
+//! are the pixels near the ideal line.
+
+mod circle;
+mod line;
+mod mask;
+mod polygon;
+mod text;
+
+pub use line::clip_line;
+pub use text::{FontFace, Text, TextSize, text_size};
+
+use crate::matrix::{Matrix, MatrixError, MatrixResult};
+
+/// A place, in pixels.
+pub type Place = [f64; 2];
+
+/// How the pixels of a line touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LineType {
+    /// Over sides only.
+    FourConnected,
+    /// Over sides and corners.
+    EightConnected,
+    Antialiased,
+}
+
+/// What to draw with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pen {
+    /// A value for each channel, in the order they are stored.
+    pub colour: [f64; 4],
+    pub line_type: LineType,
+}
+
+/// The width of an outline, in pixels, or the inside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stroke {
+    Outline(u32),
+    Fill,
+}
+
+impl Stroke {
+    const THICKEST: i64 = 32_767;
+
+    /// Negative numbers fill.
+    ///
+    /// # Errors
+    /// When the outline is too thick.
+    pub fn from_thickness(thickness: i64) -> MatrixResult<Self> {
+        match thickness {
+            ..0 => Ok(Self::Fill),
+            0..=Self::THICKEST => Ok(Self::Outline(thickness.max(1) as u32)),
+            _ => Err(MatrixError::Range("the thickness")),
+        }
+    }
+}
+
+impl Matrix {
+    /// Mixes the colour of a pen into a pixel, if it is inside.
+    fn paint(&mut self, [x, y]: [i64; 2], pen: &Pen, coverage: f64) {
+        let [width, height] = self.size();
+        if x < 0 || y < 0 || x >= width as i64 || y >= height as i64 {
+            return;
+        }
+        let channels = self.format().channels;
+        let first = (y as usize * width + x as usize) * channels;
+        for (channel, new) in pen.colour.iter().enumerate().take(channels) {
+            let old = if coverage < 1.0 { self.value(first + channel).unwrap_or_default() } else { 0.0 };
+            self.set_value(first + channel, old + (new - old) * coverage);
+        }
+    }
+
+    /// Paints the pixels of a row between two columns, both included.
+    fn paint_span(&mut self, row: i64, from: f64, to: f64, pen: &Pen) {
+        let last = self.size()[0] as f64 - 1.0;
+        if row < 0 || row >= self.size()[1] as i64 || from > last || to < 0.0 {
+            return;
+        }
+        for column in from.max(0.0) as i64..=to.min(last) as i64 {
+            self.paint([column, row], pen, 1.0);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::matrix::{Depth, Format};
+
+    pub(super) const WHITE: Pen = Pen { colour: [255.0; 4], line_type: LineType::EightConnected };
+
+    pub(super) fn blank(width: usize, height: usize) -> Matrix {
+        Matrix::new([width, height], Format::new(Depth::Byte, 1), 0.0).unwrap()
+    }
+
+    /// The image as text, a line for each row.
+    pub(super) fn shown(image: &Matrix) -> Vec<String> {
+        let rows = image.bytes().unwrap().chunks(image.size()[0]);
+        rows.map(|row| row.iter().map(|byte| match byte { 0 => '.', 255 => '#', _ => '+' }).collect()).collect()
+    }
+
+    #[test]
+    fn colours_are_mixed_inside_only() {
+        let mut image = Matrix::from_bytes([1, 1], 3, vec![100, 0, 0]).unwrap();
+        let pen = Pen { colour: [200.0, 50.0, 1e9, 7.0], line_type: LineType::Antialiased };
+        image.paint([0, 0], &pen, 0.5);
+        image.paint([1, 0], &pen, 1.0);
+        image.paint([0, i64::MIN], &pen, 1.0);
+        assert_eq!(image.bytes(), Some(&[150, 25, 255][..]));
+    }
+
+    #[test]
+    fn thickness_has_limits() {
+        assert_eq!(Stroke::from_thickness(-1), Ok(Stroke::Fill));
+        assert_eq!(Stroke::from_thickness(0), Ok(Stroke::Outline(1)));
+        assert!(Stroke::from_thickness(i64::MAX).is_err());
+    }
+}
