@@ -2,5 +2,6 @@
 //! ([`matrix`]), drawing on them ([`draw`]), and square markers ([`markers`]).
 
 pub mod draw;
+pub mod markers;
 pub mod matrix;
 pub mod rgb;

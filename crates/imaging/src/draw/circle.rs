@@ -79,11 +79,13 @@ fn arc_places(centre: Place, radii: Place, angle: f64, arc: [f64; 2]) -> Vec<Pla
     let (first, span) = (arc[0].min(arc[1]).rem_euclid(360.0), (arc[1] - arc[0]).abs().min(360.0));
     let (sin, cos) = angle.rem_euclid(360.0).to_radians().sin_cos();
     let steps = span.ceil().max(1.0);
-    (0..=steps as usize).map(|n| {
-        let (y, x) = (first + span * n as f64 / steps).to_radians().sin_cos();
-        let (x, y) = (x * radii[0], y * radii[1]);
-        [centre[0] + x * cos - y * sin, centre[1] + x * sin + y * cos]
-    }).collect()
+    (0..=steps as usize)
+        .map(|n| {
+            let (y, x) = (first + span * n as f64 / steps).to_radians().sin_cos();
+            let (x, y) = (x * radii[0], y * radii[1]);
+            [centre[0] + x * cos - y * sin, centre[1] + x * sin + y * cos]
+        })
+        .collect()
 }
 
 #[cfg(test)]

@@ -43,7 +43,11 @@ impl Mask {
             let [left, right] = columns_near(from, direction, y, reach);
             self.add_row(row, left, right, |x| {
                 let [dx, dy] = [x - from[0], y - from[1]];
-                let part = if squared > 0.0 { ((dx * direction[0] + dy * direction[1]) / squared).clamp(0.0, 1.0) } else { 0.0 };
+                let part = if squared > 0.0 {
+                    ((dx * direction[0] + dy * direction[1]) / squared).clamp(0.0, 1.0)
+                } else {
+                    0.0
+                };
                 let distance = (dx - part * direction[0]).hypot(dy - part * direction[1]);
                 coverage(radius - distance, line_type)
             });
@@ -73,7 +77,7 @@ impl Mask {
     fn add_row(&mut self, row: usize, left: f64, right: f64, coverage: impl Fn(f64) -> f64) {
         let first = (left - self.corner[0] as f64).floor().max(0.0);
         let last = (right - self.corner[0] as f64).ceil().min(self.width as f64 - 1.0);
-        if !(first <= last) {
+        if first.is_nan() || last.is_nan() || first > last {
             return;
         }
         let pixels = &mut self.coverage[row * self.width..][..self.width];

@@ -99,7 +99,16 @@ mod tests {
     /// The image as text, a line for each row.
     pub(super) fn shown(image: &Matrix) -> Vec<String> {
         let rows = image.bytes().unwrap().chunks(image.size()[0]);
-        rows.map(|row| row.iter().map(|byte| match byte { 0 => '.', 255 => '#', _ => '+' }).collect()).collect()
+        rows.map(|row| {
+            row.iter()
+                .map(|byte| match byte {
+                    0 => '.',
+                    255 => '#',
+                    _ => '+',
+                })
+                .collect()
+        })
+        .collect()
     }
 
     #[test]

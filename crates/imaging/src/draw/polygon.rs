@@ -49,9 +49,10 @@ impl Matrix {
             for (at, from) in polygon.iter().enumerate() {
                 let to = polygon[(at + 1) % polygon.len()];
                 let (low, high) = if from[1] <= to[1] { (*from, to) } else { (to, *from) };
-                for row in row_from(low[1])..row_from(high[1]) {
+                let (first, end) = (row_from(low[1]), row_from(high[1]));
+                for (row, crossings) in rows.iter_mut().enumerate().take(end).skip(first) {
                     let part = (place(row) - low[1]) / (high[1] - low[1]);
-                    rows[row].push(low[0] + part * (high[0] - low[0]));
+                    crossings.push(low[0] + part * (high[0] - low[0]));
                 }
             }
         }
@@ -92,7 +93,10 @@ mod tests {
     #[test]
     fn what_is_far_away_costs_nothing() {
         let mut image = blank(4, 4);
-        image.fill_polygons(&[vec![[-1e18, -1e18], [1e18, -1e18], [1e18, 1e18], [-1e18, 1e18]], vec![], vec![[9.0, 9.0]]], &WHITE);
+        image.fill_polygons(
+            &[vec![[-1e18, -1e18], [1e18, -1e18], [1e18, 1e18], [-1e18, 1e18]], vec![], vec![[9.0, 9.0]]],
+            &WHITE,
+        );
         assert_eq!(shown(&image), ["####"; 4]);
     }
 }

@@ -170,7 +170,8 @@ mod tests {
         let (first, last, count) = rows(&Text { thickness: 5, ..PLAIN }, &WHITE);
         let (_, _, thin) = rows(&PLAIN, &WHITE);
         assert!(count > 2 * thin && first <= 18 && last >= 41, "{first} {last} {count} {thin}");
-        let (_, _, italic) = rows(&Text { is_italic: true, ..PLAIN }, &Pen { line_type: LineType::Antialiased, ..WHITE });
+        let (_, _, italic) =
+            rows(&Text { is_italic: true, ..PLAIN }, &Pen { line_type: LineType::Antialiased, ..WHITE });
         assert!(italic > 0);
     }
 

@@ -96,7 +96,9 @@ impl Matrix {
     pub fn bitwise_not(&self) -> Self {
         self.with(match &self.values {
             Values::Bytes(values) => Values::Bytes(values.iter().map(|value| !value).collect()),
-            Values::Floats(values) => Values::Floats(values.iter().map(|value| f32::from_bits(!value.to_bits())).collect()),
+            Values::Floats(values) => {
+                Values::Floats(values.iter().map(|value| f32::from_bits(!value.to_bits())).collect())
+            }
         })
     }
 
@@ -148,7 +150,9 @@ impl Matrix {
         let number = |at: usize| numbers.get(at).copied().unwrap_or_default();
         fn all<T: Value>(values: &[T], channels: usize, operation: impl Fn(usize, f64) -> f64) -> Vec<T> {
             let pixels = values.chunks_exact(channels);
-            pixels.flat_map(|pixel| pixel.iter().enumerate().map(|(i, v)| T::from_f64(operation(i, v.to_f64())))).collect()
+            pixels
+                .flat_map(|pixel| pixel.iter().enumerate().map(|(i, v)| T::from_f64(operation(i, v.to_f64()))))
+                .collect()
         }
         let values = with_values!(self, values => all(values, self.channels, |i, value| operation(value, number(i))));
         Ok(self.with(values))
@@ -255,7 +259,10 @@ mod tests {
         assert_eq!(image.add_numbers(&[10.0, 10.0, 10.0]).unwrap(), bytes([1, 1], 3, &[10, 10, 255]));
         assert_eq!(image.add_numbers(&[1e9, -5.0]).unwrap(), bytes([1, 1], 3, &[255, 0, 255]));
         assert_eq!(image.divide_numbers(&[9.0, 9.0, 510.0]).unwrap(), bytes([1, 1], 3, &[0, 0, 2]));
-        assert_eq!(image.compare_numbers(&[0.0, 1.0, 300.0], Comparison::Less).unwrap(), bytes([1, 1], 3, &[0, 255, 255]));
+        assert_eq!(
+            image.compare_numbers(&[0.0, 1.0, 300.0], Comparison::Less).unwrap(),
+            bytes([1, 1], 3, &[0, 255, 255])
+        );
         assert_eq!(image.constant(&[f64::NAN, 2.0]).unwrap(), bytes([1, 1], 3, &[0, 2, 0]));
         assert!(bytes([1, 1], 5, &[0; 5]).add_numbers(&[]).is_err());
     }

@@ -9,7 +9,8 @@ impl Matrix {
     }
 
     fn channel(&self, channel: usize) -> Self {
-        let values = with_values!(self, values => values.iter().skip(channel).step_by(self.channels).copied().collect());
+        let values =
+            with_values!(self, values => values.iter().skip(channel).step_by(self.channels).copied().collect());
         Self { channels: 1, values, ..self.shape() }
     }
 
@@ -114,9 +115,9 @@ mod tests {
     fn channels_are_mixed() {
         let image = bytes([1, 1], 3, &[1, 2, 3]);
         let mut outputs = [bytes([1, 1], 1, &[0]), bytes([1, 1], 2, &[9, 9])];
-        Matrix::mix_channels(&[image.clone()], &mut outputs, &[[2, 0], [0, 2], [-1, 1]]).unwrap();
+        Matrix::mix_channels(std::slice::from_ref(&image), &mut outputs, &[[2, 0], [0, 2], [-1, 1]]).unwrap();
         assert_eq!(outputs, [bytes([1, 1], 1, &[3]), bytes([1, 1], 2, &[0, 1])]);
-        assert!(Matrix::mix_channels(&[image.clone()], &mut outputs, &[[3, 0]]).is_err());
+        assert!(Matrix::mix_channels(std::slice::from_ref(&image), &mut outputs, &[[3, 0]]).is_err());
         assert!(Matrix::mix_channels(&[image], &mut outputs, &[[0, i64::MIN]]).is_err());
     }
 }

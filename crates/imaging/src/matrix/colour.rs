@@ -18,6 +18,17 @@ impl Matrix {
         Ok(Self { channels: 1, values, ..self.shape() })
     }
 
+    /// The first and the third channel exchanged: red, green, blue from blue, green, red.
+    pub fn swapped(&self) -> MatrixResult<Self> {
+        self.require(self.channels >= 3, "an exchange of channels")?;
+        let mut swapped = self.clone();
+        match &mut swapped.values {
+            Values::Bytes(values) => values.chunks_exact_mut(self.channels).for_each(|pixel| pixel.swap(0, 2)),
+            Values::Floats(values) => values.chunks_exact_mut(self.channels).for_each(|pixel| pixel.swap(0, 2)),
+        }
+        Ok(swapped)
+    }
+
     pub fn rgb_from_grey(&self) -> MatrixResult<Self> {
         self.require(self.channels == 1, "conversion from grey")?;
         let values = match &self.values {
@@ -167,7 +178,10 @@ mod tests {
     #[test]
     fn hues_of_bytes_are_half_degrees() {
         let image = bytes([4, 1], 3, &[0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 0, 1]);
-        assert_eq!(image.hsv_from_rgb().unwrap(), bytes([4, 1], 3, &[120, 255, 255, 60, 255, 255, 0, 255, 255, 0, 255, 255]));
+        assert_eq!(
+            image.hsv_from_rgb().unwrap(),
+            bytes([4, 1], 3, &[120, 255, 255, 60, 255, 255, 0, 255, 255, 0, 255, 255])
+        );
         let image = bytes([1, 1], 3, &[0, 0, 255]);
         assert_eq!(image.hls_from_rgb().unwrap(), bytes([1, 1], 3, &[120, 128, 255]));
     }

@@ -90,13 +90,15 @@ fn envelope(f: &[f64]) -> Vec<f64> {
         lowest.push((q, from));
     }
     let mut at = 0;
-    (0..f.len()).map(|p| {
-        while lowest.get(at + 1).is_some_and(|&(_, from)| from < p as f64) {
-            at += 1;
-        }
-        let q = lowest[at].0;
-        f[q] + ((p.abs_diff(q)) * (p.abs_diff(q))) as f64
-    }).collect()
+    (0..f.len())
+        .map(|p| {
+            while lowest.get(at + 1).is_some_and(|&(_, from)| from < p as f64) {
+                at += 1;
+            }
+            let q = lowest[at].0;
+            f[q] + ((p.abs_diff(q)) * (p.abs_diff(q))) as f64
+        })
+        .collect()
 }
 
 /// The lengths are those of Borgefors, "Distance transformations in digital images", 1986.

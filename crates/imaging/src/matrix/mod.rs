@@ -218,7 +218,7 @@ impl Matrix {
         Self { width: self.width, height: self.height, channels: self.channels, values: Values::Bytes(Vec::new()) }
     }
 
-    fn require(&self, possible: bool, operation: &'static str) -> MatrixResult<()> {
+    pub(crate) fn require(&self, possible: bool, operation: &'static str) -> MatrixResult<()> {
         if possible { Ok(()) } else { Err(MatrixError::Format(operation)) }
     }
 }

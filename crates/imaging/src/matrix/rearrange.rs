@@ -70,8 +70,12 @@ impl Matrix {
             let first = ((from[1] + row) * source.width + from[0]) * self.channels;
             let target = ((to[1] + row) * self.width + to[0]) * self.channels;
             match (&mut self.values, &source.values) {
-                (Values::Bytes(a), Values::Bytes(b)) => a[target..target + length].copy_from_slice(&b[first..first + length]),
-                (Values::Floats(a), Values::Floats(b)) => a[target..target + length].copy_from_slice(&b[first..first + length]),
+                (Values::Bytes(a), Values::Bytes(b)) => {
+                    a[target..target + length].copy_from_slice(&b[first..first + length])
+                }
+                (Values::Floats(a), Values::Floats(b)) => {
+                    a[target..target + length].copy_from_slice(&b[first..first + length])
+                }
                 _ => return Err(MatrixError::Mismatch),
             }
         }
@@ -143,7 +147,12 @@ mod tests {
         let mut image = bytes([2, 2], 1, &[0; 4]);
         image.copy_from(&source, [1, 0], [0, 1], [2, 1]).unwrap();
         assert_eq!(image, bytes([2, 2], 1, &[0, 0, 2, 3]));
-        for (from, to, size) in [([2, 0], [0, 0], [2, 1]), ([0, 0], [0, 2], [1, 1]), ([-1, 0], [0, 0], [1, 1]), ([0, 0], [0, 0], [i64::MAX, 1])] {
+        for (from, to, size) in [
+            ([2, 0], [0, 0], [2, 1]),
+            ([0, 0], [0, 2], [1, 1]),
+            ([-1, 0], [0, 0], [1, 1]),
+            ([0, 0], [0, 0], [i64::MAX, 1]),
+        ] {
             assert_eq!(image.copy_from(&source, from, to, size), Err(MatrixError::Region));
         }
         assert_eq!(image.copy_from(&floats([1, 1], 1, &[0.0]), [0, 0], [0, 0], [1, 1]), Err(MatrixError::Mismatch));

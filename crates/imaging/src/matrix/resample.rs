@@ -31,7 +31,8 @@ impl Matrix {
             let from = |at: usize, old: usize, new: usize| at * old / new;
             return Ok(self.rearranged(size, |x, y| [from(x, self.width, size[0]), from(y, self.height, size[1])]));
         }
-        let [columns, rows] = [sources(self.width, size[0], interpolation), sources(self.height, size[1], interpolation)];
+        let [columns, rows] =
+            [sources(self.width, size[0], interpolation), sources(self.height, size[1], interpolation)];
         let values = with_values!(self, values => self.weighted(values, &columns, &rows));
         Ok(Self { width: size[0], height: size[1], channels: self.channels, values })
     }
@@ -44,7 +45,8 @@ impl Matrix {
             for source in columns {
                 for channel in 0..channels {
                     let weighted = source.weights.iter().enumerate();
-                    let value = |(n, weight): (usize, &f64)| row[(source.first + n) * channels + channel].to_f64() * weight;
+                    let value =
+                        |(n, weight): (usize, &f64)| row[(source.first + n) * channels + channel].to_f64() * weight;
                     narrow.push(weighted.map(value).sum::<f64>());
                 }
             }
@@ -64,10 +66,12 @@ impl Matrix {
 
 fn sources(old: usize, new: usize, interpolation: Interpolation) -> Vec<Sources> {
     let scale = old as f64 / new as f64;
-    (0..new).map(|at| match interpolation {
-        Interpolation::Area => covered(at as f64 * scale, (at + 1) as f64 * scale, old),
-        _ => around((at as f64 + 0.5) * scale - 0.5, old, interpolation),
-    }).collect()
+    (0..new)
+        .map(|at| match interpolation {
+            Interpolation::Area => covered(at as f64 * scale, (at + 1) as f64 * scale, old),
+            _ => around((at as f64 + 0.5) * scale - 0.5, old, interpolation),
+        })
+        .collect()
 }
 
 /// The pixels between two places, by how much of each.
@@ -121,8 +125,13 @@ mod tests {
     use super::super::tests::{bytes, floats};
     use super::*;
 
-    const ALL: [Interpolation; 5] =
-        [Interpolation::Nearest, Interpolation::Linear, Interpolation::Area, Interpolation::Cubic, Interpolation::Lanczos];
+    const ALL: [Interpolation; 5] = [
+        Interpolation::Nearest,
+        Interpolation::Linear,
+        Interpolation::Area,
+        Interpolation::Cubic,
+        Interpolation::Lanczos,
+    ];
 
     #[test]
     fn even_images_stay_even() {

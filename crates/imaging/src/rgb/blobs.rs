@@ -215,7 +215,9 @@ mod tests {
     fn a_diagonal_strip_has_a_box_along_it() {
         let places: Vec<_> = (0..20).flat_map(|k| [(k, k), (k + 1, k)]).collect();
         let blobs = white_at([32, 32], &places).detect_blobs(0.5, 0.0, false);
-        assert!((blobs[0].orientation.rem_euclid(std::f64::consts::FRAC_PI_2) - std::f64::consts::FRAC_PI_4).abs() < 0.05);
+        assert!(
+            (blobs[0].orientation.rem_euclid(std::f64::consts::FRAC_PI_2) - std::f64::consts::FRAC_PI_4).abs() < 0.05
+        );
         assert!(blobs[0].extent[0].min(blobs[0].extent[1]) < 2.0, "{blobs:?}");
     }
 

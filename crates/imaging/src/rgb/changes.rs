@@ -24,7 +24,8 @@ impl RgbImage {
             let (now, before) = (mean(*pixel), mean(*old));
             let difference = now - before;
             let base = if before == 0.0 { OF_BLACK } else { before };
-            if !(difference.abs() / base >= threshold) {
+            let is_changed = difference.abs() / base >= threshold;
+            if !is_changed {
                 *pixel = [0.5; 3];
                 continue;
             }

@@ -40,7 +40,11 @@ impl RgbImage {
     pub fn from_bytes([width, height]: [usize; 2], bytes: &[u8]) -> Option<Self> {
         let (pixels, rest) = bytes.as_chunks::<3>();
         let fits = pixels.len() == width * height && rest.is_empty();
-        fits.then(|| Self { width, height, pixels: pixels.iter().map(|p| p.map(|byte| f64::from(byte) / 255.0)).collect() })
+        fits.then(|| Self {
+            width,
+            height,
+            pixels: pixels.iter().map(|p| p.map(|byte| f64::from(byte) / 255.0)).collect(),
+        })
     }
 
     /// A grey image of one value per pixel. None unless there are as many as the resolution asks for.

@@ -48,12 +48,21 @@ impl RgbImage {
         let width = self.width;
         let white = || {
             let is_white = |(_, pixel): &(usize, &Rgb)| pixel[0] == 1.0;
-            self.pixels.iter().enumerate().filter(is_white).map(move |(at, _)| [(at % width) as f64, (at / width) as f64])
+            self.pixels
+                .iter()
+                .enumerate()
+                .filter(is_white)
+                .map(move |(at, _)| [(at % width) as f64, (at / width) as f64])
         };
         let [count, x, y] = white().fold([0.0; 3], |[n, sx, sy], [x, y]| [n + 1.0, sx + x, sy + y]);
         let size = [self.width as f64, self.height as f64];
         if count == 0.0 {
-            return Moments { proportion: 0.0, centre: size.map(|pixels| 0.5 / pixels), orientation: 0.0, roundness: 1.0 };
+            return Moments {
+                proportion: 0.0,
+                centre: size.map(|pixels| 0.5 / pixels),
+                orientation: 0.0,
+                roundness: 1.0,
+            };
         }
         let middle = [x / count, y / count];
         let second = white().fold([0.0; 3], |[xx, xy, yy], [x, y]| {
@@ -78,14 +87,18 @@ impl RgbImage {
     /// Draws a line between pixels, as far as it is inside.
     pub fn draw_line(&mut self, from: [f64; 2], to: [f64; 2], colour: Rgb) {
         let span = (to[0] - from[0]).abs().max((to[1] - from[1]).abs());
-        if !(span <= (self.width + self.height) as f64 * 2.0) {
+        let is_near = span <= (self.width + self.height) as f64 * 2.0;
+        if !is_near {
             return;
         }
         let steps = span.round().max(1.0);
         for step in 0..=steps as usize {
             let part = step as f64 / steps;
             let [x, y] = [0, 1].map(|i| (from[i] + (to[i] - from[i]) * part).round());
-            if x >= 0.0 && y >= 0.0 && let Some(at) = self.index(x as usize, y as usize) {
+            if x >= 0.0
+                && y >= 0.0
+                && let Some(at) = self.index(x as usize, y as usize)
+            {
                 self.pixels[at] = colour;
             }
         }

@@ -128,8 +128,7 @@ fn pixel_at(image: &RgbImage, [x, y]: [f64; 2]) -> usize {
 mod tests {
     use super::*;
 
-    const OPTICS: Optics =
-        Optics { near: 0.1, far: 10.0, opening: Opening::Perspective(std::f64::consts::FRAC_PI_3) };
+    const OPTICS: Optics = Optics { near: 0.1, far: 10.0, opening: Opening::Perspective(std::f64::consts::FRAC_PI_3) };
 
     fn is_near(point: &Point, [x, y, z, d]: [f64; 4]) -> bool {
         let found = [point.position[0], point.position[1], point.position[2], point.distance];

@@ -38,7 +38,8 @@ impl Palette {
 
     fn first_near(&mut self, colour: Rgb) -> Rgb {
         // Nothing is near a colour that is not finite, and nothing is nearer than 0.
-        if !colour.iter().all(|value| value.is_finite()) || !(self.distance * self.distance > 0.0) {
+        let can_match = self.distance * self.distance > 0.0 && colour.iter().all(|value| value.is_finite());
+        if !can_match {
             return colour;
         }
         let found = match self.colours.len() {
@@ -63,7 +64,8 @@ impl Palette {
     }
 
     fn find_in_grid(&self, colour: Rgb) -> Option<usize> {
-        let cells = (0..27).filter_map(|n: i8| self.cells.get(&self.cell(colour, [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1])));
+        let cells =
+            (0..27).filter_map(|n: i8| self.cells.get(&self.cell(colour, [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1])));
         cells.flatten().copied().filter(|&at| self.is_near(at, colour)).min()
     }
 
@@ -81,16 +83,27 @@ mod tests {
     /// The definition, without a grid.
     fn by_definition(image: &RgbImage, distance: f64) -> Vec<Rgb> {
         let mut palette: Vec<Rgb> = Vec::new();
-        let near = |a: &Rgb, b: &Rgb| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() < distance * distance;
-        image.pixels().iter().map(|pixel| match palette.iter().find(|colour| near(colour, pixel)) {
-            Some(colour) => *colour,
-            None => { palette.push(*pixel); *pixel }
-        }).collect()
+        let near =
+            |a: &Rgb, b: &Rgb| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() < distance * distance;
+        image
+            .pixels()
+            .iter()
+            .map(|pixel| match palette.iter().find(|colour| near(colour, pixel)) {
+                Some(colour) => *colour,
+                None => {
+                    palette.push(*pixel);
+                    *pixel
+                }
+            })
+            .collect()
     }
 
     fn noise(size: [usize; 2]) -> RgbImage {
         let mut state = 1u32;
-        let mut next = || { state = state.wrapping_mul(1664525).wrapping_add(1013904223); f64::from(state >> 24) / 255.0 };
+        let mut next = || {
+            state = state.wrapping_mul(1664525).wrapping_add(1013904223);
+            f64::from(state >> 24) / 255.0
+        };
         let mut image = RgbImage::uniform(size, [0.0; 3]);
         image.pixels_mut().iter_mut().for_each(|pixel| *pixel = [next(), next(), next()]);
         image

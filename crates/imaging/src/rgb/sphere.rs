@@ -22,7 +22,8 @@ pub struct Source {
 /// The sources of all pixels of a picture of `size`, which spans `angles`, from square pictures of `resolution`.
 pub fn sources(size: [usize; 2], angles: [f64; 2], resolution: usize) -> Vec<Source> {
     let angles = [0, 1].map(|i| angles[i].max(SMALLEST).min(LARGEST[i]));
-    let angle = |at: usize, i: usize| -angles[i] / 2.0 + at as f64 * angles[i] / size[i].saturating_sub(1).max(1) as f64;
+    let angle =
+        |at: usize, i: usize| -angles[i] / 2.0 + at as f64 * angles[i] / size[i].saturating_sub(1).max(1) as f64;
     let places = (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| (column, row)));
     places.map(|(column, row)| source(angle(column, 0), angle(row, 1), resolution)).collect()
 }
