@@ -8,7 +8,9 @@ mod mime;
 pub(crate) mod remote;
 mod sim_convex;
 mod sim_geom;
+mod sim_im;
 mod sim_subprocess;
+mod sim_vision;
 mod sim_ws;
 pub(crate) mod sim_zmq;
 mod socket;
@@ -34,7 +36,9 @@ pub(crate) static ALL: &[&Module] = &[
     &cbor::SIM_CBOR,
     &sim_convex::MODULE,
     &sim_geom::MODULE,
+    &sim_im::MODULE,
     &sim_subprocess::MODULE,
+    &sim_vision::MODULE,
     &sim_ws::MODULE,
     &sim_zmq::MODULE,
     &socket::CORE,

@@ -15,6 +15,7 @@ pub const LAYERS: &[&[&str]] = &[
 
 /// Who may name what comes from outside of a package: a line for each dependency, several where several folders need it.
 pub const OWNERS: &[(&str, &str)] = &[
+    ("ab_glyph", "crates/imaging"),
     ("api_macro", "src/api"),
     ("api_macro", "src/modules"),
     ("articulation", "src/dynamics"),
@@ -30,6 +31,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("clap_complete", "src/cli"),
     ("csv", "src/testing/batch/store.rs"),
     ("ctrlc", "src/cli"),
+    ("dejavu", "crates/imaging"),
     ("dejavu", "src/testing/golden/plot.rs"),
     ("directories", "src/script/files/app_storage"),
     ("dns_lookup", "src/io/socket"),
@@ -49,6 +51,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("geometry", "src/script/property"),
     ("httparse", "src/io/ws"),
     ("image", "src/format/picture.rs"),
+    ("imaging", "src/modules"),
     ("indicatif", "src/cli"),
     ("libc", "src/io/signals.rs"),
     ("libm", "src/perception"),

@@ -76,6 +76,7 @@ pub const READS: &[Route] = &[
     half("sim.loadScene, a folder", "return require('sim').loadScene(FOLDER) == 1"),
     route("sim.loadModel", "return require('sim').loadModel(FOLDER .. '/model.ttm') >= 0"),
     route("sim.loadImage", "return #require('sim').loadImage(0, FOLDER .. '/picture.png') == 12"),
+    route("simIM.read", "local simIM = require 'simIM' return simIM.size(simIM.read(FOLDER .. '/picture.png'))[1] == 2"),
     route("sim.createTexture", "return require('sim').createTexture(FOLDER .. '/picture.png', 0) >= 0"),
 ];
 
@@ -111,6 +112,10 @@ pub const WRITES: &[Route] = &[
         local dummy = sim.createDummy(0.1)
         sim.setModelProperty(dummy, 0)
         return sim.saveModel(dummy, FOLDER .. '/new.ttm') == 1",
+    ),
+    route(
+        "simIM.write",
+        "local simIM = require 'simIM' simIM.write(simIM.create(2, 2), FOLDER .. '/new.png') return true",
     ),
     route("sim.saveImage", "require('sim').saveImage(('a'):rep(12), {2, 2}, 0, FOLDER .. '/new.png') return true"),
     route(

@@ -107,7 +107,8 @@ struct Parameter {
 
 impl Parameter {
     fn is_required(&self) -> bool {
-        self.default.is_none() && !self.variadic && !is_named(&self.ty, "Option")
+        let words_its_absence = is_named(&self.ty, "Checked") || is_named(&self.ty, "SensorArgument");
+        self.default.is_none() && !self.variadic && !is_named(&self.ty, "Option") && !words_its_absence
     }
 
     fn row(&self) -> Tokens {
