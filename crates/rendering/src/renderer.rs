@@ -9,6 +9,9 @@ use crate::shading::strip::{Pixels, Strip};
 use crate::shading::visible::Shading;
 use crate::{Camera, Channels, Picture, World};
 
+/// Rows of a strip, at most. The fragments of a strip are in memory at the same time.
+const STRIP_ROWS: usize = 512;
+
 /// Draws pictures. It keeps its memory between them.
 #[derive(Debug, Default)]
 pub struct Renderer {
@@ -64,7 +67,7 @@ impl Renderer {
 /// Draws and shades all rows.
 fn fill(shading: &Shading, threads: usize, strips: &mut Vec<Strip>, picture: &mut Picture) {
     let [width, height] = picture.resolution.map(|side| side as usize);
-    let rows = height.div_ceil(if threads == 1 { 1 } else { 4 * threads });
+    let rows = height.div_ceil(if threads == 1 { 1 } else { 4 * threads }).min(STRIP_ROWS);
     strips.resize_with(height.div_ceil(rows), Strip::default);
     let mut colour = picture.colour.chunks_mut(3 * width * rows);
     let mut depth = picture.depth.chunks_mut(width * rows);

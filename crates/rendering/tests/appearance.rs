@@ -286,3 +286,12 @@ fn shadows_lie_where_light_does_not_reach() {
     let moved = dark(sun, &white, true).0;
     assert!((550..=675).contains(&moved), "{moved}");
 }
+
+#[test]
+fn many_transparent_layers_take_their_time_but_not_its_square() {
+    let (wall, glass) = (wall(), Material { opacity: 0.01, ..Material::unlit([1.0; 3]) });
+    let instances: Vec<_> = (0..3000).map(|i| at(instance(&wall, &glass, 1), 0.0, 0.0, f64::from(i) * 1e-3)).collect();
+    assert_eq!(middle(&World { instances: &instances, ..World::EMPTY }), [255; 3]);
+    // The lower half of them only: 1 - 0.99^150.
+    assert_eq!(middle(&World { instances: &instances[..150], ..World::EMPTY }), [199; 3]);
+}

@@ -8,6 +8,9 @@ use crate::projection::owner::Pass;
 use crate::shading::row::Row;
 use crate::shading::visible::Shading;
 
+/// Fragments whose memory is used again; that of more is freed, since each strip has its own.
+const KEPT_FRAGMENTS: usize = 1 << 16;
+
 /// The memory for some rows.
 #[derive(Debug, Default)]
 pub struct Strip {
@@ -33,6 +36,9 @@ impl Strip {
         self.band.clear(shading.view.resolution, rows.clone(), shading.view.far_closeness() as f32);
         self.draw(shading);
         self.shade(shading, pixels);
+        if self.fragments.len() > KEPT_FRAGMENTS {
+            self.fragments = Vec::new();
+        }
     }
 
     fn draw(&mut self, shading: &Shading) {
@@ -92,12 +98,12 @@ impl Strip {
 
     /// Blends the fragments of a row over its opaque faces: first the farthest of each pixel, then the next ones.
     fn blend(&mut self, shading: &Shading, at: usize, fragments: Range<usize>) {
-        let visible = visible(shading, &self.fragments[fragments]);
-        let deepest = visible.iter().map(|(layer, _)| layer + 1).max().unwrap_or(0);
-        for layer in 0..deepest {
+        let mut visible = visible(shading, &self.fragments[fragments]);
+        visible.sort_by_key(|(layer, _)| *layer);
+        for layer in visible.chunk_by(|a, b| a.0 == b.0) {
             self.layer.clear();
             self.layer.resize(self.band.row(at).len(), NO_FACE);
-            for (_, fragment) in visible.iter().filter(|(other, _)| *other == layer) {
+            for (_, fragment) in layer {
                 self.layer[fragment.column as usize] = fragment.face();
             }
             self.layer_row.shade(shading, self.band.rows.start + at, &self.layer);
