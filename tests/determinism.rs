@@ -3,13 +3,14 @@
 
 use std::cell::RefCell;
 use std::fs;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::rc::Rc;
 
 use geometry::pose::pose_to_array;
 
-use swanilda::{Console, LogLine, Options, ScriptKind, Simulator};
+use swanilda::{Channels, Console, LogLine, Options, Picture, ScriptKind, Simulator};
 
 /// Steps after which a scene that does not end by itself is stopped.
 const LONGEST: u64 = 400;
@@ -49,6 +50,26 @@ fn twice_in_processes_of_their_own() {
         };
         assert_same(&run(), &run(), &scene);
     }
+}
+
+/// Colours, depths and objects do not depend on how many threads draw.
+#[test]
+fn pictures_with_any_number_of_threads() {
+    for name in ["camera", "line_follower"] {
+        let pictures = [1, 2, 7].map(|threads| on_a_large_stack(picture, (name, threads)));
+        assert!(pictures[0].depth.iter().any(|depth| *depth < 1.0), "{name}: something is seen");
+        assert!(pictures.iter().all(|picture| *picture == pictures[0]), "{name}");
+    }
+}
+
+fn picture((name, threads): (&'static str, usize)) -> Picture {
+    let options = Options { render_threads: NonZero::new(threads), ..Options::default() };
+    let mut sim = Simulator::new(options);
+    sim.scene_mut().add_default_objects().expect("there is room");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.lua"));
+    let code = fs::read(scene).expect("the scene is readable");
+    sim.add_script(ScriptKind::Customization, "scene", &code).expect("the scene loads");
+    sim.picture(None, Some([211, 157]), Channels::ALL).expect("there is a view")
 }
 
 /// The hashes of `long_run.lua`: of two processes at once, and of two shorter runs of one simulator.
@@ -96,8 +117,8 @@ fn assert_same(first: &str, second: &str, scene: &Path) {
     assert!(!first.is_empty(), "{} says nothing", scene.display());
 }
 
-fn on_a_large_stack(run: fn(PathBuf) -> String, scene: PathBuf) -> String {
-    let thread = std::thread::Builder::new().stack_size(Simulator::STACK_SIZE).spawn(move || run(scene));
+fn on_a_large_stack<T: Send + 'static, R: Send + 'static>(run: fn(T) -> R, input: T) -> R {
+    let thread = std::thread::Builder::new().stack_size(Simulator::STACK_SIZE).spawn(move || run(input));
     thread.expect("a thread can be made").join().expect("a simulator does not panic")
 }
 

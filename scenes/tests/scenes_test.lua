@@ -38,6 +38,21 @@ describe('the scene', function()
         assert.equal('180 of 180 beams ended; the nearest after 0.92 m, at 206 degrees.', lastLine())
     end)
 
+    it('line_follower stays on its line', function()
+        runToEnd('line_follower.lua', 40)
+        local worst = tonumber(lastLine():match('One lap in [%d.]+ s, never further than ([%d.]+) cm'))
+        assert.is_true(worst < 2)
+    end)
+
+    it('camera sees everything from all sides', function()
+        t.load('../camera.lua')
+        t.image('/Camera', {name = 'still life'})
+        t.run_to_end(1)
+        local lines = t.prints()
+        assert.equal(4, #lines)
+        for i, line in ipairs(lines) do assert.equal('picture ' .. i .. ': nearest point at 1.32 m, 7 objects seen', line) end
+    end)
+
     it('inverted_pendulum keeps the pole up', function()
         runToEnd('inverted_pendulum.lua', 12)
         assert.equal('The pole stands.', lastLine())

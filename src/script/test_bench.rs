@@ -71,12 +71,31 @@ impl Default for Tolerances {
     }
 }
 
-/// A trace to compare with the one recorded under that name.
+/// A picture, and how much it may differ from a recorded one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// Width and height, pixels.
+    pub resolution: [u32; 2],
+    /// Red, green, blue of each pixel, the top row first.
+    pub pixels: Vec<u8>,
+    /// How far a colour may be off, of 255.
+    pub tolerance: u8,
+    /// Which share of the pixels may be off by more.
+    pub share: f64,
+}
+
+/// Something to compare with what was recorded under that name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Golden {
     pub name: String,
-    pub trace: Trace,
-    pub tolerances: Tolerances,
+    pub content: GoldenContent,
+}
+
+/// What was recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub enum GoldenContent {
+    Trace { trace: Trace, tolerances: Tolerances },
+    Image(Snapshot),
 }
 
 /// A scene to run in a separate simulator.

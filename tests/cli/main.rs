@@ -5,6 +5,7 @@ mod commands;
 #[cfg(unix)]
 mod interrupts;
 mod messages;
+mod render;
 
 use std::fs;
 use std::path::PathBuf;

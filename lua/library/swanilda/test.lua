@@ -47,6 +47,7 @@ Faults, from the seed of the run
 Recordings
     t.golden(name, quantities, tolerances)      records quantities at each step from now on; at the end of the test they are compared with
                                                 the file beside the test. See docs/TESTING.md
+    t.image(sensor, options)                    compares what a vision sensor or camera sees with the picture beside the test
 ]]
 
 local _, native = ...
@@ -382,6 +383,17 @@ function t.golden(name, quantities, options)
     recordings[#recordings + 1] = recording
     if sim.getSimulationState() ~= sim.simulation_stopped then recording:sample() end
     return recording
+end
+
+local IMAGE_OPTIONS <const> = { name = 'string', tolerance = 'number', share = 'number' }
+
+function t.image(sensor, options)
+    options = options or {}
+    for option, value in pairs(options) do
+        if type(value) ~= IMAGE_OPTIONS[option] then error('t.image: wrong option ' .. tostring(option) .. '.', 2) end
+    end
+    local handle = type(sensor) == 'string' and sim.getObject(sensor) or sensor
+    native.image(options.name or 'image', handle, options.tolerance or 2, options.share or 0)
 end
 
 -- Called by the runner when the test is over.

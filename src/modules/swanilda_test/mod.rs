@@ -7,12 +7,12 @@ use std::rc::Rc;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::scene::{Data, Key};
-use crate::script::test_bench::{ConsoleLine, Golden, TestBench, Tolerances, Trace};
+use crate::scene::{Data, Handle, Key};
+use crate::script::test_bench::{ConsoleLine, Golden, GoldenContent, Snapshot, TestBench, Tolerances, Trace};
 
 pub(super) static MODULE: Module = Module { inner: &[FUNCTIONS, run::FUNCTIONS], ..Module::new("swanilda.test") };
 
-const FUNCTIONS: &[ApiFn] = functions![is_test, iterate, errors, lines, kill, file, time_limit, golden];
+const FUNCTIONS: &[ApiFn] = functions![is_test, iterate, errors, lines, kill, file, time_limit, golden, image];
 
 fn bench(cx: &Cx) -> Result<Rc<TestBench>> {
     let bench = cx.test_bench().cloned();
@@ -107,8 +107,25 @@ fn time_limit(cx: &Cx) -> Result<f64> {
 #[api("swanilda.test.golden")]
 fn golden(cx: &mut Cx, name: String, columns: Data, rows: Data, tolerances: Data) -> Result<()> {
     let trace = Trace { columns: names_of(&columns)?, rows: rows_of(&rows)? };
-    let golden = Golden { name, trace, tolerances: tolerances_of(&tolerances) };
+    let content = GoldenContent::Trace { trace, tolerances: tolerances_of(&tolerances) };
+    let golden = Golden { name, content };
     bench(cx)?.goldens.borrow_mut().push(golden);
+    Ok(())
+}
+
+/// Leaves what a camera or a vision sensor sees, to be compared with the recorded picture when the test is over.
+///
+/// @param name the recording
+/// @param sensor a vision sensor, whose last picture counts if there is one; or a camera
+/// @param tolerance how far a colour may be off, of 255
+/// @param share which share of the pixels may be off by more, 0 to 1
+#[api("swanilda.test.image")]
+fn image(cx: &mut Cx, name: String, sensor: Handle, tolerance: f64, share: f64) -> Result<()> {
+    let (resolution, mut pixels) = cx.seen_image(sensor)?;
+    let rows: Vec<Vec<u8>> = pixels.chunks_exact(3 * resolution[0] as usize).map(<[u8]>::to_vec).rev().collect();
+    pixels = rows.concat();
+    let snapshot = Snapshot { resolution, pixels, tolerance: tolerance as u8, share };
+    bench(cx)?.goldens.borrow_mut().push(Golden { name, content: GoldenContent::Image(snapshot) });
     Ok(())
 }
 

@@ -1,27 +1,44 @@
-//! Golden traces: a recording compared with an earlier one.
+//! Golden recordings, traces and pictures: each is compared with an earlier one.
 
 mod claims;
 mod compare;
 mod file;
+mod image;
 mod plot;
 
 use std::path::{Path, PathBuf};
 
 pub(super) use claims::Claims;
 pub use compare::{Difference, Divergence};
+pub use image::ImageDifference;
 
 use super::case::{Outcome, Status, TestCase};
-use crate::script::test_bench::{Golden, Trace};
+use crate::script::test_bench::{Golden, GoldenContent, Snapshot, Tolerances, Trace};
 
-/// A trace of a test and its golden file.
+const WRONG_NAME: &str = "a name is made of letters, digits, '_', '-' and blanks.";
+const IF_RIGHT: &str = "If that is right, record it with --update-golden.";
+
+/// A recording of a test and its golden file.
 #[derive(Debug, Clone)]
 pub struct Comparison {
     pub name: String,
     pub path: PathBuf,
-    pub actual: Trace,
-    /// The content of the file.
-    pub expected: Option<Trace>,
+    pub recordings: Recordings,
     pub result: ComparisonResult,
+}
+
+/// What a test recorded, and the content of the file.
+#[derive(Debug, Clone)]
+pub enum Recordings {
+    Traces {
+        actual: Trace,
+        expected: Option<Trace>,
+    },
+    /// Width and height, and red, green, blue of each pixel from the top.
+    Images {
+        actual: Snapshot,
+        expected: Option<([u32; 2], Vec<u8>)>,
+    },
 }
 
 /// The result of a comparison.
@@ -29,6 +46,7 @@ pub struct Comparison {
 pub enum ComparisonResult {
     Equal,
     Different(Difference),
+    DifferentImage(ImageDifference),
     /// There is no file.
     Missing,
     /// The file or the trace cannot be used, for this reason.
@@ -36,18 +54,39 @@ pub enum ComparisonResult {
 }
 
 impl Comparison {
-    /// Compares a trace with its file.
+    /// Compares a recording with its file.
     pub(super) fn new(test: &TestCase, golden: Golden) -> Self {
-        let path = path_of(&test.file, &golden.name);
-        let (expected, result) = match read(&path, &golden) {
+        match golden.content {
+            GoldenContent::Trace { trace, tolerances } => Self::of_trace(test, golden.name, trace, &tolerances),
+            GoldenContent::Image(snapshot) => Self::of_image(test, golden.name, snapshot),
+        }
+    }
+
+    fn of_trace(test: &TestCase, name: String, actual: Trace, tolerances: &Tolerances) -> Self {
+        let path = path_of(&test.file, &name, "golden");
+        let (expected, result) = match read(&path, &name, &actual) {
             Ok(Some(expected)) => {
-                let result = compare::compare(&expected, &golden.trace, &golden.tolerances);
+                let result = compare::compare(&expected, &actual, tolerances);
                 (Some(expected), result.map_or(ComparisonResult::Equal, ComparisonResult::Different))
             }
             Ok(None) => (None, ComparisonResult::Missing),
             Err(reason) => (None, ComparisonResult::Unusable(reason)),
         };
-        Self { name: golden.name, path, actual: golden.trace, expected, result }
+        Self { name, path, recordings: Recordings::Traces { actual, expected }, result }
+    }
+
+    fn of_image(test: &TestCase, name: String, actual: Snapshot) -> Self {
+        let path = path_of(&test.file, &name, "png");
+        let recorded = if is_name(&name) { image::read(&path) } else { Err(WRONG_NAME.into()) };
+        let (expected, result) = match recorded {
+            Ok(Some(expected)) => {
+                let result = image::compare(&expected, &actual);
+                (Some(expected), result.map_or(ComparisonResult::Equal, ComparisonResult::DifferentImage))
+            }
+            Ok(None) => (None, ComparisonResult::Missing),
+            Err(reason) => (None, ComparisonResult::Unusable(reason)),
+        };
+        Self { name, path, recordings: Recordings::Images { actual, expected }, result }
     }
 
     /// Whether it makes the test fail.
@@ -64,20 +103,23 @@ impl Comparison {
                 Some(format!("{about}: there is no such file. Record it with --update-golden."))
             }
             ComparisonResult::Unusable(reason) => Some(format!("{about}: {reason}")),
-            ComparisonResult::Different(difference) => {
-                Some(format!("{about}: {difference}\nIf that is right, record it with --update-golden."))
-            }
+            ComparisonResult::Different(difference) => Some(format!("{about}: {difference}\n{IF_RIGHT}")),
+            ComparisonResult::DifferentImage(difference) => Some(format!("{about}: {difference}\n{IF_RIGHT}")),
         }
     }
 
-    /// A picture of what was expected and what came, for those quantities that differ; None when there is nothing to compare.
+    /// A plot of what was expected and what came, for those quantities that differ; None when there is nothing to compare, and for
+    /// pictures.
     pub fn svg(&self) -> Option<String> {
         plot::svg(self)
     }
 
-    /// The same picture as PNG.
+    /// The same picture as PNG. Of pictures: both of them, and where they differ; only if they do.
     pub fn png(&self) -> Option<Vec<u8>> {
-        plot::png(self)
+        match &self.recordings {
+            Recordings::Traces { .. } => plot::png(self),
+            Recordings::Images { actual, expected } => image::png(expected.as_ref()?, actual).filter(|_| self.is_bad()),
+        }
     }
 
     /// Records the trace, unless the file is right as it is.
@@ -85,16 +127,19 @@ impl Comparison {
         if matches!(self.result, ComparisonResult::Equal) || !is_name(&self.name) {
             return Ok(());
         }
-        file::write(&self.path, &self.actual)?;
+        match &self.recordings {
+            Recordings::Traces { actual, .. } => file::write(&self.path, actual)?,
+            Recordings::Images { actual, .. } => image::write(&self.path, actual)?,
+        }
         self.result = ComparisonResult::Equal;
         Ok(())
     }
 }
 
 /// `drive_test.lua` and `lap` make `drive_test.lap.golden`, beside the test.
-fn path_of(test: &Path, name: &str) -> PathBuf {
+fn path_of(test: &Path, name: &str, extension: &str) -> PathBuf {
     let stem = test.file_stem().unwrap_or_default().to_string_lossy();
-    test.with_file_name(format!("{stem}.{name}.golden"))
+    test.with_file_name(format!("{stem}.{name}.{extension}"))
 }
 
 fn is_name(name: &str) -> bool {
@@ -103,17 +148,17 @@ fn is_name(name: &str) -> bool {
     !name.is_empty() && name.len() <= 100 && name.chars().all(fits)
 }
 
-fn read(path: &Path, golden: &Golden) -> Result<Option<Trace>, String> {
-    if !is_name(&golden.name) {
-        return Err("a name is made of letters, digits, '_', '-' and blanks.".into());
+fn read(path: &Path, name: &str, actual: &Trace) -> Result<Option<Trace>, String> {
+    if !is_name(name) {
+        return Err(WRONG_NAME.into());
     }
-    if golden.trace.rows.is_empty() {
+    if actual.rows.is_empty() {
         return Err("nothing was recorded: the test made no step after t.golden.".into());
     }
     file::read(path)
 }
 
-/// Compares the traces a test has left. One that is wrong fails the test; with `update` it is left for [`record`].
+/// Compares the recordings a test has left. One that is wrong fails the test; with `update` it is left for [`record`].
 pub(super) fn judge(outcome: &mut Outcome, update: bool) {
     let goldens = std::mem::take(&mut outcome.goldens);
     outcome.comparisons = goldens.into_iter().map(|golden| Comparison::new(&outcome.test, golden)).collect();
@@ -137,7 +182,7 @@ pub(super) fn record(outcome: &mut Outcome) {
     }
 }
 
-/// Writes plots of differing traces into `folder`; the message has their paths.
+/// Writes pictures of differing recordings into `folder`; the message has their paths.
 pub(super) fn draw(outcome: &mut Outcome, folder: &Path) {
     let mut notes = String::new();
     for comparison in outcome.comparisons.iter().filter(|comparison| comparison.is_bad()) {

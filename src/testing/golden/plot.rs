@@ -8,7 +8,7 @@ use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
 
 use super::compare::Difference;
-use super::{Comparison, ComparisonResult};
+use super::{Comparison, ComparisonResult, Recordings};
 use crate::format::picture::{Layout, Picture};
 use crate::script::test_bench::Trace;
 
@@ -25,43 +25,45 @@ type Drawn<T> = Result<T, Box<dyn Error>>;
 
 /// The picture as SVG; None when there is nothing to compare.
 pub(super) fn svg(comparison: &Comparison) -> Option<String> {
-    let (expected, columns) = shown(comparison)?;
+    let shown = shown(comparison)?;
     let mut text = String::new();
-    let size = (WIDTH, HEIGHT * columns.len() as u32);
-    let drawn = draw(SVGBackend::with_string(&mut text, size).into_drawing_area(), comparison, expected, &columns);
+    let size = (WIDTH, HEIGHT * shown.columns.len() as u32);
+    let drawn = draw(SVGBackend::with_string(&mut text, size).into_drawing_area(), &shown);
     drawn.is_ok().then_some(text)
 }
 
 /// The picture as PNG; None when there is nothing to compare.
 pub(super) fn png(comparison: &Comparison) -> Option<Vec<u8>> {
-    let (expected, columns) = shown(comparison)?;
-    let (width, height) = (WIDTH, HEIGHT * columns.len() as u32);
+    let shown = shown(comparison)?;
+    let (width, height) = (WIDTH, HEIGHT * shown.columns.len() as u32);
     let mut pixels = vec![0; (width * height * 3) as usize];
     let area = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
-    draw(area, comparison, expected, &columns).ok()?;
+    draw(area, &shown).ok()?;
     let picture = Picture::new(pixels, [i64::from(width), i64::from(height)], Layout::Rgb).ok()?;
     picture.encode("png", 100).ok()
 }
 
+/// What is plotted: two traces, and the columns of both that belong together.
+struct Shown<'a> {
+    expected: &'a Trace,
+    actual: &'a Trace,
+    columns: Vec<(usize, usize)>,
+}
+
 /// The quantities that differ, as columns of both traces; all when they differ in length only.
-fn shown(comparison: &Comparison) -> Option<(&Trace, Vec<(usize, usize)>)> {
-    let expected = comparison.expected.as_ref()?;
+fn shown(comparison: &Comparison) -> Option<Shown<'_>> {
+    let Recordings::Traces { actual, expected: Some(expected) } = &comparison.recordings else { return None };
     let differs = |name: &String| match &comparison.result {
         ComparisonResult::Different(Difference::Values { columns, .. }) => columns.contains(name),
         _ => true,
     };
-    let place = |name: &String| comparison.actual.columns.iter().position(|other| other == name);
+    let place = |name: &String| actual.columns.iter().position(|other| other == name);
     let columns = expected.columns.iter().enumerate().filter(|(_, name)| differs(name));
     let columns: Vec<_> = columns.filter_map(|(i, name)| Some((i, place(name)?))).take(MOST).collect();
-    (!columns.is_empty()).then_some((expected, columns))
+    (!columns.is_empty()).then_some(Shown { expected, actual, columns })
 }
 
-fn draw<B>(
-    area: DrawingArea<B, Shift>,
-    comparison: &Comparison,
-    expected: &Trace,
-    columns: &[(usize, usize)],
-) -> Drawn<()>
+fn draw<B>(area: DrawingArea<B, Shift>, Shown { expected, actual, columns }: &Shown<'_>) -> Drawn<()>
 where
     B: DrawingBackend,
     B::ErrorType: 'static,
@@ -69,7 +71,7 @@ where
     load_font();
     area.fill(&WHITE)?;
     for (part, &(i, j)) in area.split_evenly((columns.len(), 1)).iter().zip(columns) {
-        let (was, is) = (points(expected, i), points(&comparison.actual, j));
+        let (was, is) = (points(expected, i), points(actual, j));
         draw_quantity(part, &expected.columns[i], &was, &is)?;
     }
     area.present()?;

@@ -9,7 +9,7 @@ use base64::engine::general_purpose::STANDARD as BASE64;
 
 use super::parts;
 use crate::script::test_bench::ConsoleLine;
-use crate::testing::{Comparison, Excerpt, Outcome, Status, Summary};
+use crate::testing::{Comparison, Excerpt, Outcome, Recordings, Status, Summary};
 
 const STYLE: &str = include_str!("html/page.css");
 const SCRIPT: &str = include_str!("html/page.js");
@@ -123,16 +123,24 @@ fn facts(outcome: &Outcome) -> String {
     format!("<p class=\"facts\">{}</p>\n", Quoted(&facts.join(", ")))
 }
 
-/// The plot of a golden trace. Its result is part of the test's message.
+/// The plot of a golden trace, or a golden picture that differs. The result is part of the test's message.
 fn plot(comparison: &Comparison) -> String {
-    let Some(svg) = comparison.svg() else { return String::new() };
+    let (kind, content) = match (comparison.svg(), &comparison.recordings) {
+        (Some(svg), _) => ("svg+xml", svg.into_bytes()),
+        (None, Recordings::Images { .. }) => match comparison.png() {
+            Some(png) => ("png", png),
+            None => return String::new(),
+        },
+        (None, Recordings::Traces { .. }) => return String::new(),
+    };
     let about = format!("golden '{}'{}", comparison.name, if comparison.is_bad() { " differs" } else { "" });
     let open = if comparison.is_bad() { " open" } else { "" };
     format!(
         "<details class=\"plot\"{open}>\n<summary>Plot of {0}</summary>\n\
-        <img alt=\"Expected and actual values: {0}\" src=\"data:image/svg+xml;base64,{1}\">\n</details>\n",
+        <img alt=\"Expected and actual values: {0}\" src=\"data:image/{2};base64,{1}\">\n</details>\n",
         Quoted(&about),
-        BASE64.encode(svg),
+        BASE64.encode(content),
+        kind,
     )
 }
 

@@ -3,6 +3,7 @@
 pub(super) mod cells;
 mod common;
 mod custom_data;
+mod filters;
 mod graph;
 mod joint;
 mod material;
@@ -117,7 +118,7 @@ impl SceneFile {
             file.contents.scripts.iter().zip(sources).filter_map(|(script, source)| {
                 Some(LoadedScript { source, ..script::attached(script, &context, &map)? })
             });
-        let filters = file.contents.objects.iter().zip(&objects).filter_map(|(o, handle)| script::filters(o, *handle));
+        let filters = file.contents.objects.iter().zip(&objects).filter_map(|(o, handle)| filters::script(o, *handle));
         let scripts: Vec<LoadedScript> = scripts.chain(filters).collect();
         Ok(Loaded { objects, root, scripts })
     }

@@ -28,33 +28,6 @@ const PARENT_IS_PROXY: u8 = 0x4;
 /// Since then an object says itself whether its scripts come first; where older files count from -1, it counts from 0.
 const OBJECT_PRIORITY: u16 = 40400;
 
-/// Replacements of the image filters of 3.x: a script since 4.1.
-const FILTERS: &str = "function sysCall_vision(inData)
-    error('the image filters of V-REP 3 are not implemented in Swanilda')
-end
-";
-
-/// The filters that take the sensor's image and hand it on: alone they change nothing, and no script is written for them.
-const PASS_ON: [i32; 2] = [1, 4];
-
-/// The script that replaces the image filters of a vision sensor.
-pub(super) fn filters(object: &FileObject, handle: Handle) -> Option<LoadedScript> {
-    let Class::VisionSensor(sensor) = &object.class else { return None };
-    let filters = &sensor.filter.as_ref()?.filters;
-    if filters.iter().all(|filter| filter.kind.is_none_or(|[kind, ..]| PASS_ON.contains(&kind))) {
-        return None;
-    }
-    Some(LoadedScript {
-        script_type: ScriptType::Customization,
-        owner: Some(handle),
-        code: FILTERS.as_bytes().to_vec(),
-        source: None,
-        language: "lua".to_owned(),
-        disabled: false,
-        exec_order: 0,
-    })
-}
-
 /// A script in the tree.
 pub(super) fn object(chunk: &ObjectChunk, context: &Context<'_>) -> ScriptObject {
     let none = Chunk::default();

@@ -1,6 +1,7 @@
 //! Vision sensors: their pictures, and the scripts that look at them. Read a picture with `Cx::scene` and the methods of `VisionSensor`.
 
 use super::Cx;
+use crate::perception::vision::Channels;
 use crate::scene::sensor::{Entity, VisionReading, VisionSensor};
 use crate::scene::{Field, Handle, SceneError};
 use crate::script::error::{ApiError, ApiResult};
@@ -24,6 +25,23 @@ impl Cx<'_> {
         entity: Entity,
     ) -> ApiResult<(VisionReading, VisionSensor)> {
         self.sim.check_vision_sensor(sensor, entity).map_err(ApiError::Scene)
+    }
+
+    /// Width, height, and red, green, blue of each pixel (the lowest row first) of the last picture of a vision sensor; without one, and for
+    /// a camera, of what it sees now.
+    ///
+    /// # Errors
+    /// When `from` is neither a camera nor a vision sensor.
+    pub(crate) fn seen_image(&self, from: Handle) -> ApiResult<([u32; 2], Vec<u8>)> {
+        let scene = self.scene();
+        if let Ok(sensor) = scene.object(from)?.vision_sensor()
+            && !sensor.image.is_empty()
+        {
+            return Ok((sensor.view.resolution, sensor.image.clone()));
+        }
+        let mut perception = self.sim.perception.borrow_mut();
+        let picture = perception.vision.view(&scene, Some(from), None, Channels::COLOUR)?;
+        Ok((picture.resolution, picture.colour))
     }
 
     /// Whether the scripts of a sensor are looking at its picture now (`sysCall_vision`).
