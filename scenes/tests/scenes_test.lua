@@ -46,7 +46,7 @@ describe('the scene', function()
 
     it('camera sees everything from all sides', function()
         t.load('../camera.lua')
-        t.image('/Camera', {name = 'still life'})
+        t.image('/Camera', {name = 'still_life'})
         t.run_to_end(1)
         local lines = t.prints()
         assert.equal(4, #lines)

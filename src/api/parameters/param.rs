@@ -143,6 +143,11 @@ fn get_bool_param(cx: &Cx, parameter: Number) -> Result<bool> {
     })
 }
 
+/// Whether sensors are handled at all: `parameter` is one of sim.boolparam_*_sensor_handling_enabled.
+pub(in crate::api) fn sensors_are_handled(cx: &Cx, parameter: i64) -> bool {
+    cx.app().idle_params.bools.get(&parameter).copied().unwrap_or(true)
+}
+
 /// Turns a switch on or off.
 ///
 /// @param parameter sim.boolparam_*

@@ -2,6 +2,7 @@
 
 use api_macro::api;
 
+use crate::api::parameters::param::sensors_are_handled;
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::sensor::{Area, Entity, VisionSensor};
 use crate::scene::{Data, Handle, Kind, Object, SceneError, special};
@@ -19,6 +20,9 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_vision_sensor_res,
 ];
 
+/// `sim.boolparam_vision_sensor_handling_enabled`.
+const HANDLING_ENABLED: i64 = 10;
+
 /// Bits of the options of pictures.
 mod option {
     pub const GREY: i64 = 1;
@@ -35,7 +39,9 @@ mod option {
 #[api("sim.handleVisionSensor")]
 fn handle_vision_sensor(cx: &mut Cx, sensor_handle: Number) -> Result<Results> {
     let (mut count, mut packets) = (0, Vec::new());
-    for sensor in sensors(cx, sensor_handle)? {
+    let handled = sensors(cx, sensor_handle)?;
+    let handled = if sensors_are_handled(cx, HANDLING_ENABLED) { handled } else { Vec::new() };
+    for sensor in handled {
         // The scripts of another sensor may have removed it.
         if let Ok(reading) = cx.handle_vision_sensor(sensor) {
             count += i64::from(reading.triggered);

@@ -1,6 +1,7 @@
 //! Pictures of the scene: which objects are seen, what they look like, and what lights them. The drawing itself is in the crate
 //! `rendering`.
 
+mod drawings;
 mod lighting;
 mod models;
 mod palette;
@@ -8,6 +9,8 @@ mod projection;
 mod sensors;
 mod subjects;
 mod surfaces;
+#[cfg(test)]
+mod tests;
 mod views;
 mod voxels;
 
@@ -81,12 +84,16 @@ impl Vision {
 
     fn draw(&mut self, scene: &Scene, shot: &Shot, objects: &[Handle], channels: Channels) -> Picture {
         self.models.prepare(scene, objects);
+        // They are no objects of the scene: where only these count, they hide none.
+        let only_ids = channels == Channels::IDS;
+        let drawings = if only_ids { Vec::new() } else { drawings::visible(scene, shot) };
         let mut stage = Stage::default();
         for &handle in objects {
             if let (Some(model), Ok(pose)) = (self.models.get(handle), scene.world_pose(handle)) {
                 stage.add(model, handle.0, pose, shot.look);
             }
         }
+        drawings.iter().for_each(|drawing| stage.add(&drawing.model, drawing.id, drawing.pose, shot.look));
         let lights = lighting::lights(scene, shot);
         let (points, lines) = (&stage.points[..], &stage.lines[..]);
         let world = World {

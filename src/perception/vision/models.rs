@@ -105,6 +105,12 @@ impl Models {
         self.by_object.get(&handle)
     }
 
+    /// How many meshes are prepared for drawing.
+    #[cfg(test)]
+    pub(super) fn prepared_meshes(&self) -> usize {
+        self.surfaces.prepared_meshes()
+    }
+
     fn model(&mut self, scene: &Scene, object: &Object) -> Model {
         match &object.kind {
             Kind::Shape(shape) => Model {

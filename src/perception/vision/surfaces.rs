@@ -73,6 +73,11 @@ impl Surfaces {
         self.images.retain(|_, (_, image)| Arc::strong_count(image) > 1);
     }
 
+    #[cfg(test)]
+    pub(super) fn prepared_meshes(&self) -> usize {
+        self.meshes.len()
+    }
+
     fn mesh(&mut self, part: &Part) -> Option<Rc<Mesh>> {
         let prepared = self.meshes.entry(MeshKey::of(part)).or_insert_with(|| Prepared {
             mesh: prepared_mesh(part).map(Rc::new),

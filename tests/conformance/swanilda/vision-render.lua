@@ -91,6 +91,11 @@ e(sim.handleVisionSensor, m) e(sim.handleVisionSensor, 4711) e(sim.handleVisionS
 print((sim.readVisionSensor(m))) print(sim.handleVisionSensor(sim.handle_all_except_explicit)) print((sim.readVisionSensor(m)), (sim.readVisionSensor(o)))
 print(sim.handleVisionSensor(sim.handle_all)) print((sim.readVisionSensor(q)))
 
+-- Handling can be switched off.
+sim.resetVisionSensor(sim.handle_all) sim.setBoolParam(sim.boolparam_vision_sensor_handling_enabled, false)
+print(sim.handleVisionSensor(q), (sim.readVisionSensor(q)))
+sim.setBoolParam(sim.boolparam_vision_sensor_handling_enabled, true) print((sim.handleVisionSensor(q)), (sim.readVisionSensor(q)))
+
 -- A picture can trigger.
 local script = sim.createScript(sim.scripttype_customization, [[sim = require 'sim'
 function sysCall_vision(d) return {trigger = true, packedPackets = {sim.packFloatTable{7}}} end]], 0, 'lua')
@@ -105,3 +110,22 @@ for _, f in ipairs {{0, 10, 1}, {-1, 10, 1}, {10, 1, 1}, {1, 1, 1}, {0.01, 10, 0
     local x = sensor(EXPLICIT + PERSPECTIVE, 4, 4, f[1], f[2], f[3]) e(sim.handleVisionSensor, x)
     local y = sensor(EXPLICIT, 4, 4, f[1], f[2], f[3]) e(sim.handleVisionSensor, y) sim.removeObjects({x, y})
 end
+
+-- Drawing objects: those that are tagged as paint. They cover what is behind them, and are no objects.
+sim.removeObjects({wall})
+local w = sensor(EXPLICIT + PERSPECTIVE + OWN_BACKGROUND, 9, 9, 0.01, 10, math.rad(60), {0, 0, 0})
+local FACING <const> = 0x20000
+local function drawn(kind, flags, item)
+    local drawing = sim.addDrawingObject(kind + flags, 0.6, 0, -1, 10, {0, 0, 0}, nil, nil, {0, 1, 0})
+    sim.addDrawingObjectItem(drawing, item)
+    sim.handleVisionSensor(w)
+    local colour, z = pixel(w, 4, 4), depth(w, 1, {4, 4}, {1, 1})[1]
+    sim.removeDrawingObject(drawing)
+    return colour, string.format('%.2f', z)
+end
+for _, kind in ipairs {'spherepts', 'cubepts', 'discpts', 'quadpts', 'trianglepts'} do
+    print(kind, drawn(sim['drawing_' .. kind], sim.drawing_painttag + FACING, {0, 0, 1}))
+end
+print('triangles', drawn(sim.drawing_triangles, sim.drawing_painttag, {-1, -1, 1, 1, -1, 1, 0, 1, 1}))
+print('not tagged', drawn(sim.drawing_spherepts, 0, {0, 0, 1}))
+sim.setObjectInt32Param(w, sim.visionintparam_render_mode, 2) print('as handles', drawn(sim.drawing_spherepts, sim.drawing_painttag, {0, 0, 1}))

@@ -10,7 +10,7 @@ use crate::format::ttt::chunks::{Script as Chunk, ScriptObject as ObjectChunk};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{ScriptText, Text};
 use crate::scene::object::script_object::{ExecutionPriority, ScriptObject, ScriptType};
-use crate::scene::{Field, Handle, Scene, SceneResult};
+use crate::scene::{Field, Scene, SceneResult};
 
 const THREADED: u8 = 0x1;
 const DISABLED: u8 = 0x2;
