@@ -26,7 +26,7 @@ pub use case::{Outcome, Status, TestCase};
 pub use coverage::{Coverage, Record};
 pub use discover::find_files;
 pub use excerpt::Excerpt;
-pub use golden::{Comparison, ComparisonResult, Difference, Divergence, ImageDifference, Recordings};
+pub use golden::{Comparison, ComparisonResult, Difference, Divergence, ImageDifference, RecordedImage, Recordings};
 
 use crate::permissions::Permissions;
 use crate::script::coverage::LineCounts;

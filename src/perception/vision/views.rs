@@ -6,7 +6,7 @@ use rendering::{Channels, Picture};
 use super::sensors::sensor_shot;
 use super::{Backdrop, Look, Shot, Subjects, Vision};
 use crate::scene::sensor::{Camera, View};
-use crate::scene::{Handle, Kind, ObjectFlags, Pose, Scene, SceneError, SceneResult};
+use crate::scene::{Handle, Kind, Object, ObjectFlags, Pose, Scene, SceneError, SceneResult};
 
 /// From where a scene without a camera is seen: towards the middle of what is visible.
 const USUAL_DIRECTION: [f64; 3] = [-1.0, -1.5, 1.2];
@@ -83,18 +83,29 @@ fn overview(scene: &Scene) -> Pose {
 fn extent(scene: &Scene) -> (Point3<f64>, f64) {
     let mut corners: Vec<Point3<f64>> = Vec::new();
     for subject in Subjects::Visible.objects(scene) {
-        let Ok(object) = scene.object(subject.handle) else { continue };
-        let Ok(pose) = scene.world_pose(subject.handle) else { continue };
+        let (Ok(object), Ok(pose)) = (scene.object(subject.handle), scene.world_pose(subject.handle)) else { continue };
         if object.object_property.contains(ObjectFlags::IGNORE_VIEW_FITTING) {
             continue;
         }
-        let bounds = object.bounding_box();
-        let half = Vector3::from(bounds.size) / 2.0;
-        let signs = (0..8).map(|bits| Vector3::from([0, 1, 2].map(|i| if bits >> i & 1 == 0 { -1.0 } else { 1.0 })));
-        let placed = signs.map(|sign| pose * bounds.pose * Point3::from(half.component_mul(&sign)));
+        let placed = outline(object).into_iter().map(|corner| pose * corner);
         corners.extend(placed.filter(|corner| corner.coords.iter().all(|c| c.is_finite())));
     }
     let Some(first) = corners.first() else { return (Point3::origin(), EMPTY_RADIUS) };
     let (low, high) = corners.iter().fold((*first, *first), |(low, high), corner| (low.inf(corner), high.sup(corner)));
     (nalgebra::center(&low, &high), (nalgebra::distance(&low, &high) / 2.0).max(1e-3))
+}
+
+/// Points around what can be seen of an object, in its frame.
+fn outline(object: &Object) -> Vec<Point3<f64>> {
+    match &object.kind {
+        Kind::OcTree(octree) => octree.voxels().map(|(centre, _)| centre.into()).collect(),
+        Kind::PointCloud(cloud) => cloud.points.iter().map(|point| point.position.into()).collect(),
+        _ => {
+            let bounds = object.bounding_box();
+            let half = Vector3::from(bounds.size) / 2.0;
+            let sign = |corner: usize, axis: usize| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 };
+            let signs = (0..8).map(|corner| Vector3::from([0, 1, 2].map(|axis| sign(corner, axis))));
+            signs.map(|signs| bounds.pose * Point3::from(half.component_mul(&signs))).collect()
+        }
+    }
 }

@@ -17,6 +17,15 @@ const GAP_COLOUR: [u8; 3] = [255; 3];
 /// Where pixels differ too much.
 const DIFFERENT: [u8; 3] = [255, 0, 0];
 
+/// A picture that was recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordedImage {
+    /// Width and height, pixels.
+    pub resolution: [u32; 2],
+    /// Red, green, blue of each pixel, the top row first.
+    pub pixels: Vec<u8>,
+}
+
 /// How a picture differs from the recorded one.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ImageDifference {
@@ -48,11 +57,11 @@ impl fmt::Display for ImageDifference {
     }
 }
 
-/// Reads a recorded picture: red, green, blue, the top row first; None when there is none.
+/// Reads a recorded picture; None when there is none.
 ///
 /// # Errors
 /// When it is no picture.
-pub(super) fn read(path: &Path) -> Result<Option<([u32; 2], Vec<u8>)>, String> {
+pub(super) fn read(path: &Path) -> Result<Option<RecordedImage>, String> {
     match std::fs::metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Ok(data) if data.len() > MAX_SIZE => return Err(format!("the file is larger than {MAX_SIZE} bytes.")),
@@ -61,7 +70,7 @@ pub(super) fn read(path: &Path) -> Result<Option<([u32; 2], Vec<u8>)>, String> {
     let bytes = read_bounded(path).map_err(|error| error.to_string())?;
     let picture = Picture::decode(&bytes, Layout::Rgb).map_err(|error| error.to_string())?;
     let resolution = picture.resolution().map(|side| side as u32);
-    Ok(Some((resolution, picture.into_bytes())))
+    Ok(Some(RecordedImage { resolution, pixels: picture.into_bytes() }))
 }
 
 /// Writes a picture, all of it or nothing.
@@ -79,11 +88,11 @@ fn encoded(pixels: Vec<u8>, resolution: [u32; 2]) -> Result<Vec<u8>, String> {
 }
 
 /// The difference between two pictures, where it is larger than allowed.
-pub(super) fn compare(expected: &([u32; 2], Vec<u8>), actual: &Snapshot) -> Option<ImageDifference> {
-    if expected.0 != actual.resolution {
-        return Some(ImageDifference::Size { expected: expected.0, actual: actual.resolution });
+pub(super) fn compare(expected: &RecordedImage, actual: &Snapshot) -> Option<ImageDifference> {
+    if expected.resolution != actual.resolution {
+        return Some(ImageDifference::Size { expected: expected.resolution, actual: actual.resolution });
     }
-    let differences: Vec<u8> = differences(&expected.1, &actual.pixels).collect();
+    let differences: Vec<u8> = differences(&expected.pixels, &actual.pixels).collect();
     let off = differences.iter().filter(|difference| **difference > actual.tolerance).count();
     if off as f64 <= actual.share * differences.len() as f64 {
         return None;
@@ -103,18 +112,19 @@ fn differences<'a>(expected: &'a [u8], actual: &'a [u8]) -> impl Iterator<Item =
 
 /// Expected picture, actual picture, and the actual one in pale grey with red where they differ, beside each other; None when they are
 /// not of the same size.
-pub(super) fn png(expected: &([u32; 2], Vec<u8>), actual: &Snapshot) -> Option<Vec<u8>> {
-    if expected.0 != actual.resolution {
+pub(super) fn png(expected: &RecordedImage, actual: &Snapshot) -> Option<Vec<u8>> {
+    if expected.resolution != actual.resolution {
         return None;
     }
-    let marked = differences(&expected.1, &actual.pixels).zip(actual.pixels.chunks_exact(3));
+    let marked = differences(&expected.pixels, &actual.pixels).zip(actual.pixels.chunks_exact(3));
     let marked: Vec<u8> = marked.flat_map(|(difference, pixel)| mark(difference, pixel, actual.tolerance)).collect();
     let (width, height) = (actual.resolution[0] as usize, actual.resolution[1] as usize);
     let gap = GAP_COLOUR.repeat(GAP);
     let mut pixels = Vec::new();
     for row in 0..height {
         let part = 3 * width * row..3 * width * (row + 1);
-        pixels.extend([&expected.1[part.clone()], &gap, &actual.pixels[part.clone()], &gap, &marked[part]].concat());
+        pixels
+            .extend([&expected.pixels[part.clone()], &gap, &actual.pixels[part.clone()], &gap, &marked[part]].concat());
     }
     encoded(pixels, [(3 * width + 2 * GAP) as u32, height as u32]).ok()
 }
@@ -134,21 +144,23 @@ mod tests {
 
     #[test]
     fn few_or_small_differences_are_allowed() {
-        let expected = ([2, 1], vec![10, 20, 30, 40, 50, 60]);
+        let expected = RecordedImage { resolution: [2, 1], pixels: vec![10, 20, 30, 40, 50, 60] };
         let actual = [10, 20, 32, 40, 59, 60];
         let compared = |tolerance, share| compare(&expected, &snapshot(&actual, tolerance, share));
         let worst = ImageDifference::Pixels { off: 1, of: 2, worst: 9, at: [1, 0], tolerance: 2 };
         assert_eq!(compared(2, 0.0), Some(worst));
         assert_eq!((compared(9, 0.0), compared(2, 0.5)), (None, None));
         assert!(compared(1, 0.5).is_some());
-        let larger = ([1, 2], expected.1.clone());
+        let larger = RecordedImage { resolution: [1, 2], ..expected.clone() };
         let size = ImageDifference::Size { expected: [1, 2], actual: [2, 1] };
         assert_eq!(compare(&larger, &snapshot(&actual, 0, 1.0)), Some(size));
     }
 
     #[test]
     fn the_picture_of_a_difference_has_three_parts() {
-        let file = png(&([2, 1], vec![0; 6]), &snapshot(&[0, 0, 0, 9, 0, 0], 3, 0.0)).unwrap();
+        let file =
+            png(&RecordedImage { resolution: [2, 1], pixels: vec![0; 6] }, &snapshot(&[0, 0, 0, 9, 0, 0], 3, 0.0))
+                .unwrap();
         let picture = Picture::decode(&file, Layout::Rgb).unwrap();
         assert_eq!(picture.resolution(), [14, 1]);
         assert_eq!(picture.into_bytes()[36..], [192, 192, 192, 255, 0, 0]);

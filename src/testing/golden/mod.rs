@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 pub(super) use claims::Claims;
 pub use compare::{Difference, Divergence};
-pub use image::ImageDifference;
+pub use image::{ImageDifference, RecordedImage};
 
 use super::case::{Outcome, Status, TestCase};
 use crate::script::test_bench::{Golden, GoldenContent, Snapshot, Tolerances, Trace};
@@ -30,15 +30,9 @@ pub struct Comparison {
 /// What a test recorded, and the content of the file.
 #[derive(Debug, Clone)]
 pub enum Recordings {
-    Traces {
-        actual: Trace,
-        expected: Option<Trace>,
-    },
-    /// Width and height, and red, green, blue of each pixel from the top.
-    Images {
-        actual: Snapshot,
-        expected: Option<([u32; 2], Vec<u8>)>,
-    },
+    Traces { actual: Trace, expected: Option<Trace> },
+
+    Images { actual: Snapshot, expected: Option<RecordedImage> },
 }
 
 /// The result of a comparison.
