@@ -3,14 +3,14 @@
 mod claims;
 mod compare;
 mod file;
-mod image;
 mod plot;
+mod snapshot;
 
 use std::path::{Path, PathBuf};
 
 pub(super) use claims::Claims;
 pub use compare::{Difference, Divergence};
-pub use image::{ImageDifference, RecordedImage};
+pub use snapshot::{ImageDifference, RecordedImage};
 
 use super::case::{Outcome, Status, TestCase};
 use crate::script::test_bench::{Golden, GoldenContent, Snapshot, Tolerances, Trace};
@@ -71,10 +71,10 @@ impl Comparison {
 
     fn of_image(test: &TestCase, name: String, actual: Snapshot) -> Self {
         let path = path_of(&test.file, &name, "png");
-        let recorded = if is_name(&name) { image::read(&path) } else { Err(WRONG_NAME.into()) };
+        let recorded = if is_name(&name) { snapshot::read(&path) } else { Err(WRONG_NAME.into()) };
         let (expected, result) = match recorded {
             Ok(Some(expected)) => {
-                let result = image::compare(&expected, &actual);
+                let result = snapshot::compare(&expected, &actual);
                 (Some(expected), result.map_or(ComparisonResult::Equal, ComparisonResult::DifferentImage))
             }
             Ok(None) => (None, ComparisonResult::Missing),
@@ -112,7 +112,9 @@ impl Comparison {
     pub fn png(&self) -> Option<Vec<u8>> {
         match &self.recordings {
             Recordings::Traces { .. } => plot::png(self),
-            Recordings::Images { actual, expected } => image::png(expected.as_ref()?, actual).filter(|_| self.is_bad()),
+            Recordings::Images { actual, expected } => {
+                snapshot::png(expected.as_ref()?, actual).filter(|_| self.is_bad())
+            }
         }
     }
 
@@ -123,7 +125,7 @@ impl Comparison {
         }
         match &self.recordings {
             Recordings::Traces { actual, .. } => file::write(&self.path, actual)?,
-            Recordings::Images { actual, .. } => image::write(&self.path, actual)?,
+            Recordings::Images { actual, .. } => snapshot::write(&self.path, actual)?,
         }
         self.result = ComparisonResult::Equal;
         Ok(())
