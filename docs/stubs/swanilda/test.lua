@@ -50,6 +50,7 @@
 --- Recordings
 ---     t.golden(name, quantities, tolerances)      records quantities at each step from now on; at the end of the test they are compared with
 ---                                                 the file beside the test. See docs/TESTING.md
+---     t.image(sensor, options)                    compares what a vision sensor or camera sees with the picture beside the test
 local t = {}
 
 function t.allow_script_errors(allowed) end
@@ -66,6 +67,8 @@ function t.file(name) end
 function t.gauss() end
 
 function t.golden(name, quantities, options) end
+
+function t.image(sensor, options) end
 
 --- Captured prints and log lines.
 ---@param first? integer lines to leave out
