@@ -6,6 +6,10 @@ use wide::{f32x8, u32x8};
 
 use crate::coverage::face::{Block, Face};
 
+/// Faces that differ by a smaller part of their closeness lie in one plane: the one drawn first is seen. Their closeness is rounded, so
+/// that a plain comparison would show parts of both.
+const COPLANAR: f32 = 1.0 / (1 << 20) as f32;
+
 /// The number where no face is.
 pub const NO_FACE: u32 = u32::MAX;
 
@@ -63,7 +67,7 @@ impl Band {
         face.cover(self.rows.clone(), |block| {
             let (at, closeness) = (self.place(block), face.closeness_of_eight(self.ray(block)));
             let (old_closeness, old_faces) = (eight(&mut self.closeness, at), eight(&mut self.faces, at));
-            let mask = closeness.simd_gt(f32x8::from(*old_closeness)) & block.mask;
+            let mask = closeness.simd_gt(in_front_of(*old_closeness)) & block.mask;
             if mask.to_bitmask() != 0 {
                 *old_closeness = mask.select(closeness, f32x8::from(*old_closeness)).to_array();
                 let mask: u32x8 = bytemuck::cast(mask);
@@ -76,7 +80,7 @@ impl Band {
     pub fn collect(&mut self, face: &Face, number: u32, is_overlay: bool, fragments: &mut Vec<Fragment>) {
         face.cover(self.rows.clone(), |block| {
             let (at, closeness) = (self.place(block), face.closeness_of_eight(self.ray(block)));
-            let limit = if is_overlay { f32x8::splat(-1.0) } else { f32x8::from(*eight(&mut self.closeness, at)) };
+            let limit = if is_overlay { f32x8::splat(-1.0) } else { in_front_of(*eight(&mut self.closeness, at)) };
             let mask = (closeness.simd_gt(limit) & block.mask).to_bitmask();
             for lane in (0..8).filter(|lane| mask >> lane & 1 == 1 && block.x + lane < self.width) {
                 let order = closeness.to_array()[lane].to_bits() | u32::from(is_overlay) << 31;
@@ -93,6 +97,11 @@ impl Band {
     fn ray(&self, block: Block) -> [f64; 2] {
         [block.x as f64 + 0.5 - self.centre[0], block.y as f64 + 0.5 - self.centre[1]]
     }
+}
+
+/// The least closeness that is in front of what is there. Closeness is not negative.
+fn in_front_of(closeness: [f32; 8]) -> f32x8 {
+    f32x8::from(closeness) * f32x8::splat(1.0 + COPLANAR)
 }
 
 fn eight<T>(pixels: &mut [T], at: usize) -> &mut [T; 8] {
