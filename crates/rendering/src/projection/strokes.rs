@@ -30,6 +30,8 @@ struct Stroke {
     back: bool,
     /// What is added to its closeness.
     lift: f64,
+    /// The closeness on the surface it lies in.
+    plane: Option<Plane>,
 }
 
 /// A colour as the detail of a face.
@@ -95,8 +97,10 @@ pub fn add_edges(faces: &mut Vec<Face>, view: &View, placed: &Placed<Mesh>, edge
 pub fn add_wire_frame(faces: &mut Vec<Face>, view: &View, surface: &Surface, triangle: usize) {
     let corners = surface.corners(triangle);
     let [a, b, c] = corners.map(|corner| view.homogeneous(corner));
-    let stroke =
-        Stroke { owner: surface.owner, detail: triangle as u32, back: a.cross(&b).dot(&c) < 0.0, ..Stroke::default() };
+    // As of the surface, so that a frame in the plane of another surface is seen or hidden as a whole.
+    let plane = Some(view.closeness_on_plane(&corners)).filter(Plane::is_finite);
+    let (detail, back) = (triangle as u32, a.cross(&b).dot(&c) < 0.0);
+    let stroke = Stroke { owner: surface.owner, detail, back, plane, ..Stroke::default() };
     for side in 0..3 {
         add_line(faces, view, [corners[side], corners[(side + 1) % 3]], &stroke);
     }
@@ -127,7 +131,7 @@ fn add_line(faces: &mut Vec<Face>, view: &View, ends: [Vector3<f64>; 2], stroke:
     let mut across = [half_width(stroke.width); 2];
     across[main] = 0;
     let range = ends.map(|end| view.closeness(end.z) + stroke.lift);
-    let closeness = (closeness_along(view, main, [p, q], range), range);
+    let closeness = (stroke.plane.unwrap_or_else(|| closeness_along(view, main, [p, q], range)), range);
     let [low, high] = [-1, 1].map(|side| move |end: [i32; 2]| [end[0] + side * across[0], end[1] + side * across[1]]);
     add_quad(faces, view, [low(p), low(q), high(q), high(p)], closeness, stroke);
 }
@@ -190,6 +194,6 @@ fn half_width(pixels: f32) -> i32 {
 
 impl Default for Stroke {
     fn default() -> Self {
-        Self { width: 1.0, owner: 0, detail: 0, back: false, lift: 0.0 }
+        Self { width: 1.0, owner: 0, detail: 0, back: false, lift: 0.0, plane: None }
     }
 }
