@@ -155,7 +155,7 @@ function sysCall_init()
     sim.setObjectParent(sim.createScript(sim.scripttype_simulation, CONTROLLER), body, false)
     sim.setObjectPosition(body, {radius(0), 0, 0.06})
     sim.setObjectOrientation(body, {0, 0, math.pi / 2})
-    turned, last, worst = 0, 0, 0
+    turned, last, worst, quarters = 0, 0, 0, 0
 end
 
 -- How far it has come around the middle, and how far it was from the line.
@@ -166,6 +166,10 @@ function sysCall_sensing()
     local step = angle - last
     turned, last = turned + math.atan(math.sin(step), math.cos(step)), angle
     worst = math.max(worst, math.abs(math.sqrt(p[1] ^ 2 + p[2] ^ 2) - radius(angle)))
+    if turned >= (quarters + 1) * math.pi / 2 and quarters < 3 then
+        quarters = quarters + 1
+        print(string.format('%d of 4 quarters after %.1f s', quarters, sim.getSimulationTime()))
+    end
     finished = turned >= 2 * math.pi or sim.getSimulationTime() >= 60
     if turned >= 2 * math.pi then
         print(string.format('One lap in %.1f s, never further than %.1f cm from the line.', sim.getSimulationTime(), 100 * worst))
