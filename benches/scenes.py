@@ -43,7 +43,7 @@ def record(binary, slug, folder):
         "YARD_WALL": str(PATIENCE - 10),
         "YARD_TRACK": str(SCENES / "reference" / slug / "track.txt"),
     }
-    command = [binary, "serve", "--no-remote-api", "--addon", SCENES / "recorder.lua"]
+    command = [binary, "serve", "--original-errors", "--no-remote-api", "--addon", SCENES / "recorder.lua"]
     with open(out / "console.raw", "wb") as console:
         try:
             subprocess.run(command, env=os.environ | settings, stdout=console, stderr=console, timeout=PATIENCE)
