@@ -1,0 +1,163 @@
+// Properties of the selected object: grouped, live, editable where a script could write them.
+import { copyText, el, iconButton, setText } from '../dom.js';
+import { Sparkline } from './curves.js';
+import { editorOf, formatted } from './values.js';
+
+const GETTERS = {
+  bool: 'getBoolProperty', int: 'getIntProperty', long: 'getLongProperty', float: 'getFloatProperty', string: 'getStringProperty', buffer: 'getBufferProperty', color: 'getColorProperty',
+  vector2: 'getVector2Property', vector3: 'getVector3Property', quaternion: 'getQuaternionProperty', pose: 'getPoseProperty', handle: 'getHandleProperty',
+};
+const CALLS = { jointPosition: 'getJointPosition', alias: 'getObjectAlias', mass: 'getShapeMass', position: 'getObjectPosition', absolutePosition: 'getObjectPosition', pose: 'getObjectPose', parent: 'getObjectParent' };
+const TARGETS = { [-13]: 'sim.handle_app', [-12]: 'sim.handle_scene' };
+const FOLDED = new Set(['data', 'engines']); // groups that are closed at first
+
+/** Lua that reads a property. */
+export function luaOf(row, handle, path) {
+  const target = TARGETS[handle] ?? `sim.getObject(${JSON.stringify(path).replaceAll('"', "'")})`;
+  if (CALLS[row.name] && handle >= 0) return `sim.${CALLS[row.name]}(${target})`;
+  return `sim.${GETTERS[row.type] ?? 'getProperty'}(${target}, '${row.name}')`;
+}
+
+export class InspectorPane {
+  constructor(pane, page) {
+    Object.assign(this, { page, store: page.store });
+    this.handle = null;
+    this.rows = new Map();
+    this.folded = new Map();
+    this.title = el('h3', { class: 'inspected' });
+    this.tools = el('div', { class: 'inspected-tools' });
+    this.search = el('input', { type: 'search', placeholder: 'Search properties', 'aria-label': 'Search properties', oninput: () => this._filter() });
+    this.list = el('div', { class: 'properties' });
+    this.hint = el('p', { class: 'hint' });
+    this.picture = el('canvas', { class: 'sensor-image', hidden: true, role: 'img', 'aria-label': 'Image of the vision sensor' });
+    this.sparkline = new Sparkline();
+    pane.append(el('div', { class: 'inspected-head' }, this.title, this.tools), this.picture, el('div', { class: 'pane-tools' }, this.search), this.hint, this.list, this.sparkline.element);
+    this.store.on('selection', () => this._selected());
+    this.store.on('objects', (changed) => changed.has(this.handle) && this._head());
+    this.store.on('properties', () => this._values());
+    this.store.on('image', () => this._image());
+    this.store.on('connection', () => this._selected());
+  }
+
+  /** The last selected object, or the scene. */
+  async _selected() {
+    if (!['open'].includes(this.store.connection.state)) return;
+    const handle = this.store.selection.at(-1) ?? -12;
+    if (handle === this.handle && this.rows.size) return;
+    this.handle = handle;
+    this._head();
+    this._watch();
+    const rows = await this.page.source.request('inspect', { handle }).catch((error) => this._fail(error));
+    if (handle === this.handle && rows) this._show(rows);
+  }
+
+  _fail(error) {
+    this.list.replaceChildren();
+    this.rows.clear();
+    setText(this.hint, error.message);
+    this.hint.hidden = false;
+  }
+
+  _head() {
+    const object = this.store.objects.get(this.handle);
+    const names = { [-12]: 'Scene', [-13]: 'Application' };
+    setText(this.title, object ? object.alias : names[this.handle] ?? 'Nothing selected');
+    this.title.title = object ? `${this.store.path(this.handle)} (${object.objectType}, handle ${this.handle})` : '';
+    const tools = [];
+    if (object?.objectType === 'script') tools.push(iconButton('script', 'Read the script', () => this.page.openScript(this.handle)));
+    if (object && object.objectType !== 'script') tools.push(iconButton('follow', 'Follow with the camera', () => this.page.follow(object.handle)), iconButton('fit', 'Look at it (F)', () => this.page.fit([object.handle])));
+    if (object?.objectType === 'graph') tools.push(iconButton('curve', 'Show the curves', () => this.page.showGraph(this.handle)));
+    this.tools.replaceChildren(...tools);
+  }
+
+  _watch() {
+    const isSensor = this.store.objects.get(this.handle)?.objectType === 'visionSensor';
+    this.picture.hidden = true;
+    this.page.source.request('watch', { handles: isSensor ? [this.handle] : [] }).catch(() => {});
+  }
+
+  _image() {
+    const image = this.store.images.get(this.handle);
+    if (!image || image.rgb.length < 3 * image.width * image.height) return;
+    const { width, height, rgb } = image;
+    Object.assign(this.picture, { width, height, hidden: false });
+    const pixels = new ImageData(width, height);
+    for (let i = 0, n = width * height; i < n; i++) {
+      for (let k = 0; k < 3; k++) pixels.data[4 * i + k] = rgb[3 * i + k];
+      pixels.data[4 * i + 3] = 255;
+    }
+    this.picture.getContext('2d').putImageData(pixels, 0, 0);
+  }
+
+  _show(rows) {
+    this.rows.clear();
+    const groups = new Map();
+    for (const row of rows) {
+      const name = row.group || 'other';
+      if (!groups.has(name)) groups.set(name, []);
+      groups.get(name).push(row);
+    }
+    this.list.replaceChildren(...[...groups].map(([name, members]) => this._group(name, members)));
+    this.hint.hidden = rows.length > 0;
+    setText(this.hint, rows.length ? '' : 'It has no properties.');
+    this._filter();
+  }
+
+  _group(name, rows) {
+    const open = this.folded.get(name) ?? !FOLDED.has(name);
+    const group = el('details', { class: 'group', open }, el('summary', {}, name), ...rows.map((row) => this._row(row)));
+    group.addEventListener('toggle', () => this.folded.set(name, group.open));
+    return group;
+  }
+
+  _row(row) {
+    const writable = row.writable && this.page.canWrite;
+    const label = row.label || row.name;
+    const editor = writable ? editorOf(row, label, (value) => this._set(row, value)) : null;
+    const shown = editor?.element ?? el('output', { class: 'value', 'aria-label': label }, formatted(row));
+    const copy = iconButton('copy', `Copy as Lua: ${luaOf(row, this.handle, this.store.path(this.handle))}`, () => copyText(luaOf(row, this.handle, this.store.path(this.handle))), { class: 'icon-button copy' });
+    copy.setAttribute('aria-label', `Copy ${label} as Lua`);
+    const element = el('div', { class: 'property', 'data-name': row.name }, el('span', { class: 'label', title: row.name }, label), shown, el('span', { class: 'unit' }, row.unit ?? ''), copy);
+    const entry = { row, editor, shown, element, history: [] };
+    if (typeof row.value === 'number') this._watchHistory(element, entry);
+    this.rows.set(row.name, entry);
+    return element;
+  }
+
+  _watchHistory(element, entry) {
+    element.addEventListener('pointerenter', () => this.sparkline.show(element, entry));
+    element.addEventListener('pointerleave', () => this.sparkline.hide());
+    if (!this.page.source.live) element.append(iconButton('curve', 'Curve over the recording', () => this.page.showCurve(this.handle, entry.row), { class: 'icon-button copy' }));
+  }
+
+  _set(row, value) {
+    this.page.ask('set', { handle: this.handle, name: row.name, value }).then(null, () => this.rows.get(row.name)?.editor?.show(row.value));
+  }
+
+  _values() {
+    const { handle, values } = this.store.properties;
+    if (handle !== this.handle) return;
+    const time = this.store.scene.time ?? 0;
+    for (const fresh of values) {
+      const entry = this.rows.get(fresh.name);
+      if (!entry) continue;
+      Object.assign(entry.row, fresh);
+      if (entry.editor) entry.editor.show(fresh.value);
+      else setText(entry.shown, formatted(entry.row));
+      if (typeof fresh.value === 'number') remember(entry.history, time, fresh.value);
+    }
+    this.sparkline.update();
+  }
+
+  _filter() {
+    const text = this.search.value.trim().toLowerCase();
+    for (const { row, element } of this.rows.values()) element.hidden = !!text && !`${row.name} ${row.label}`.toLowerCase().includes(text);
+    for (const group of this.list.children) group.hidden = [...group.querySelectorAll('.property')].every((row) => row.hidden);
+  }
+}
+
+function remember(history, time, value) {
+  if (history.length && history.at(-1)[0] > time) history.length = 0; // the simulation began again
+  history.push([time, value]);
+  if (history.length > 300) history.shift();
+}

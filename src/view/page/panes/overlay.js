@@ -1,0 +1,80 @@
+// What lies over the scene: notices, the name of what the pointer rests on, the directions of the axes, the size of the grid.
+import { el, setText, svg } from '../dom.js';
+
+const SIZE = 76;
+const AXES = [['X', [1, 0, 0], 'axis-x'], ['Y', [0, 1, 0], 'axis-y'], ['Z', [0, 0, 1], 'axis-z']];
+const SHORT = 3000; // milliseconds
+
+export class Overlay {
+  constructor(page) {
+    Object.assign(this, { page, store: page.store });
+    this.notice = document.getElementById('notice');
+    this.tip = el('div', { class: 'tip', role: 'tooltip', hidden: true });
+    this.grid = el('span', { class: 'grid-size' });
+    this.lines = AXES.map(([name, , kind]) => ({ line: svg('line', { class: kind }), label: svg('text', { class: kind, 'text-anchor': 'middle', dy: '0.35em' }, name) }));
+    this.axes = svg('svg', { class: 'axes', viewBox: `${-SIZE / 2} ${-SIZE / 2} ${SIZE} ${SIZE}`, role: 'img', 'aria-label': 'Directions of the axes' }, ...this.lines.flatMap(({ line, label }) => [line, label]));
+    document.getElementById('overlay').append(this.axes, this.grid, this.tip);
+    for (const topic of ['connection', 'scene', 'objects']) this.store.on(topic, () => this._notice());
+    this._notice();
+  }
+
+  /** One sentence about what to do, or nothing. */
+  _notice() {
+    const { connection, scene, objects } = this.store;
+    const sentences = {
+      connecting: 'Connecting to the simulator…',
+      closed: 'The simulator has gone. Reconnecting…',
+      ended: `The simulator has ended${connection.reason ? `: ${connection.reason}` : ''}. Start it again to see more.`,
+    };
+    const empty = !objects.size ? 'The scene is empty.' : null;
+    const stopped = scene.state === 'stopped' && this.page.canWrite && !scene.steps ? 'The simulation is stopped. Press Space to start.' : null;
+    const text = this.page.failure ?? sentences[connection.state] ?? this.said ?? empty ?? stopped ?? '';
+    setText(this.notice, text);
+    this.notice.hidden = !text;
+    this.notice.classList.toggle('urgent', !!(this.page.failure ?? sentences[connection.state]));
+  }
+
+  /** Shows a sentence for a while. */
+  say(sentence) {
+    this.said = sentence;
+    this._notice();
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => ((this.said = null), this._notice()), SHORT);
+  }
+
+  /** @param {{handle: number} | null} hit */
+  hover(hit, x, y) {
+    const object = hit && this.store.objects.get(hit.handle);
+    const { renderer } = this.page;
+    const hovered = object ? hit.handle : -1;
+    if (renderer.hovered !== hovered) Object.assign(renderer, { hovered, stale: true });
+    this.tip.hidden = !object;
+    if (!object) return;
+    this.tip.replaceChildren(el('strong', {}, object.alias), ` ${object.objectType}`);
+    this.tip.style.left = `${Math.min(x + 14, renderer.canvas.clientWidth - 160)}px`;
+    this.tip.style.top = `${y + 16}px`;
+  }
+
+  /** After each picture. */
+  frame() {
+    const { matrices, spacing, options } = this.page.renderer;
+    if (!matrices || matrices === this.drawn) return;
+    this.drawn = matrices;
+    const { right, up, forward } = matrices;
+    const arm = SIZE / 2 - 12;
+    AXES.forEach(([, axis], i) => {
+      const along = (direction) => axis.reduce((sum, x, k) => sum + x * direction[k], 0);
+      const [x, y, away] = [along(right) * arm, -along(up) * arm, along(forward)];
+      const { line, label } = this.lines[i];
+      set(line, { x1: 0, y1: 0, x2: x, y2: y, opacity: away > 0.2 ? 0.45 : 1 });
+      set(label, { x: x * 1.24, y: y * 1.24, opacity: away > 0.2 ? 0.45 : 1 });
+    });
+    setText(this.grid, options.grid && spacing ? `Grid ${size(spacing)}` : '');
+  }
+}
+
+function set(element, members) {
+  for (const [name, value] of Object.entries(members)) element.setAttribute(name, typeof value === 'number' ? value.toFixed(2) : value);
+}
+
+const size = (metres) => (metres >= 1 ? `${metres} m` : metres >= 0.01 ? `${+(metres * 100).toPrecision(3)} cm` : `${+(metres * 1000).toPrecision(3)} mm`);
