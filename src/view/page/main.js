@@ -180,7 +180,8 @@ class Page {
   openScriptOf(handle) {
     const own = [...this.store.objects.values()].find((object) => object.objectType === 'script' && (object.handle === handle || object.parent === handle));
     if (own) this.openScript(own.handle);
-    else this.showPanel('script');
+    else if (document.getElementById('script').hidden) this.overlay.say('Select a script, or an object that has one.');
+    else this.showPanel('script', false);
   }
 
   /** @param {string} name @param {boolean} [shown] the other way round if left out */

@@ -11,8 +11,8 @@ export class Bar {
     this.step = iconButton('step', 'One step (.)', () => this.page.ask('step', { count: 1 }));
     this.stop = iconButton('stop', 'Stop (Shift+Space)', () => this.page.ask('stop'));
     const speeds = SPEEDS.map((factor) => el('option', { value: factor }, `${factor}×`));
-    if (this.source.live) speeds.push(el('option', { value: 0 }, 'as fast as possible'));
-    this.speed = el('select', { 'aria-label': 'Speed', title: 'Speed', onchange: () => this.page.ask('speed', { factor: Number(this.speed.value) }) }, ...speeds);
+    if (this.source.live) speeds.push(el('option', { value: 0 }, 'max'));
+    this.speed = el('select', { 'aria-label': 'Speed', title: 'Speed; max is as fast as possible', onchange: () => this.page.ask('speed', { factor: Number(this.speed.value) }) }, ...speeds);
     this.speed.value = '1';
     this.time = el('output', { class: 'time-now', 'aria-label': 'Simulation time' }, '0.000 s');
     this.state = el('span', { class: 'state', role: 'status' });

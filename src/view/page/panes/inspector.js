@@ -117,7 +117,8 @@ export class InspectorPane {
     const shown = editor?.element ?? el('output', { class: 'value', 'aria-label': label }, formatted(row));
     const copy = iconButton('copy', `Copy as Lua: ${luaOf(row, this.handle, this.store.path(this.handle))}`, () => copyText(luaOf(row, this.handle, this.store.path(this.handle))), { class: 'icon-button copy' });
     copy.setAttribute('aria-label', `Copy ${label} as Lua`);
-    const element = el('div', { class: 'property', 'data-name': row.name }, el('span', { class: 'label', title: row.name }, label), shown, el('span', { class: 'unit' }, row.unit ?? ''), copy);
+    const wide = Array.isArray(row.value) && row.value.length > 2 && row.type !== 'color';
+    const element = el('div', { class: wide ? 'property wide' : 'property', 'data-name': row.name }, el('span', { class: 'label', title: row.name }, label), shown, el('span', { class: 'unit' }, row.unit ?? ''), copy);
     const entry = { row, editor, shown, element, history: [] };
     if (typeof row.value === 'number') this._watchHistory(element, entry);
     this.rows.set(row.name, entry);

@@ -4,19 +4,28 @@ import { remember, setting } from '../settings.js';
 import { container } from './widgets.js';
 
 const MARGIN = 12;
+const NARROW = 640; // pixels; there windows are folded at first, so that the scene is seen
 
 /** One window, kept up to date. */
 class Frame {
   constructor(pane, window) {
     Object.assign(this, { pane, id: window.id });
     this.title = el('h2', { id: `window-${window.id}` });
-    this.bar = el('header', {}, this.title, window.closeable && iconButton('close', 'Close', () => this._send({ type: 'close' })));
+    this.fold = iconButton('fold', 'Fold', () => this._setFolded(!this.folded), { class: 'icon-button window-fold' });
+    this.bar = el('header', {}, this.title, this.fold, window.closeable && iconButton('close', 'Close', () => this._send({ type: 'close' })));
     this.body = el('div', { class: 'window-body' });
     this.element = el('section', { class: 'window', role: 'dialog', 'aria-labelledby': this.title.id, 'data-window': window.id }, this.bar, this.body);
     this.element.addEventListener('pointerdown', () => pane.raise(this));
     this.element.addEventListener('keydown', (event) => this._key(event));
     this.bar.addEventListener('pointerdown', (event) => this._drag(event));
     this.update(window);
+    this._setFolded(innerWidth < NARROW);
+  }
+
+  _setFolded(folded) {
+    this.folded = folded;
+    this.element.classList.toggle('folded', folded);
+    this.fold.setAttribute('aria-expanded', String(!folded));
   }
 
   update(window) {

@@ -12,9 +12,13 @@ import { CopySet, LineSet, PointSet } from './gpu/sets.js';
 import { SHADERS } from './gpu/shaders.js';
 import { KEY_DIRECTION, Shadows } from './shadows.js';
 import { Slots } from './gpu/slots.js';
+import { Surroundings } from './surroundings.js';
 import { THEMES } from './themes.js';
 
 const LIGHT = { key_direction: KEY_DIRECTION, key_color: [1.55, 1.5, 1.42], sky_color: [0.5, 0.54, 0.6], ground_color: [0.25, 0.235, 0.22] };
+
+/** Whether two parts are drawn with the same state. */
+const sameLook = (a, b) => a.texture === b.texture && a.decal === b.decal && a.culling === b.culling && a.order === b.order;
 
 export class Renderer {
   /** @param {HTMLCanvasElement} canvas @param {import('../store.js').Store} store @param {any} source */
@@ -30,8 +34,9 @@ export class Renderer {
     this.batches = new Batches(gl, this.slots);
     this.resources = new Resources(gl, source);
     this.view = new SceneView(gl, store, this.slots, this.batches, this.resources);
+    this.surroundings = new Surroundings(this.view);
     this.drawings = new Drawings(gl, store, this.slots, this.resources, this.view);
-    this.shadows = new Shadows(gl, this.programs.depth, this.quality.software ? 1024 : 2048);
+    this.shadows = new Shadows(gl, this.programs.depth);
     this.picker = new Picker(gl);
     this.theme = THEMES.light;
     this.options = { shadows: true, edges: true, grid: true };
@@ -72,6 +77,7 @@ export class Renderer {
   frame(seconds) {
     if (this.gl.isContextLost()) return;
     const moved = this.camera.advance(seconds);
+    if (this.surroundings.outdated(performance.now())) this.stale = true;
     if (this.quality.update(seconds, moved || this.stale)) this.stale = true;
     this.resize();
     if (!moved && !this.stale) return;
@@ -81,8 +87,8 @@ export class Renderer {
 
   _draw() {
     const { gl, view, drawings } = this;
-    const bounds = view.contentBounds();
-    this.sphere = bounds.empty ? { centre: [0, 0, 0], radius: 1 } : { centre: bounds.centre, radius: Math.max(bounds.radius, 0.05) };
+    this.surroundings.update(performance.now());
+    const { sphere } = this.surroundings;
     const reach = this._reach();
     this.matrices = this.camera.matrices(this.aspect, reach * 2);
     view.prepareLines();
@@ -90,7 +96,7 @@ export class Renderer {
     this._constants();
     this.slots.bind(0);
     this.withShadows = this.options.shadows && this.quality.shadows;
-    if (this.withShadows) this.shadows.update(this.batches, this.sphere.centre, this.sphere.radius * 1.15, view.version);
+    if (this.withShadows) this.shadows.update(this.batches, sphere.centre, sphere.radius * 1.15, view.version);
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
     this._sky();
     this._solid();
@@ -102,7 +108,7 @@ export class Renderer {
   }
 
   _reach() {
-    const { centre, radius } = this.sphere;
+    const { centre, radius } = this.surroundings.sphere;
     return Math.hypot(...this.camera.eye.map((x, i) => x - centre[i])) + radius * 4 + 10;
   }
 
@@ -146,6 +152,7 @@ export class Renderer {
     surface.use(this._surfaceUniforms());
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1, 1);
+    this.looksLike = null;
     this.batches.drawOpaque(({ look }) => this._look(surface, look));
     surface.use({ textured: 0 });
     gl.disable(gl.CULL_FACE);
@@ -156,8 +163,11 @@ export class Renderer {
   }
 
   /** Of meshes of a shape in the same plane the first is seen. */
-  _look(program, { texture, decal, culling, order }) {
+  _look(program, look) {
+    const { texture, decal, culling, order } = look;
     const { gl } = this;
+    if (this.looksLike && sameLook(this.looksLike, look)) return;
+    this.looksLike = look;
     const behind = 1 + Math.min(order, 4);
     gl.polygonOffset(behind, behind * 2);
     if (culling) gl.enable(gl.CULL_FACE);
@@ -179,16 +189,16 @@ export class Renderer {
     const { gl, theme, camera } = this;
     const height = Math.max(Math.abs(camera.eye[2]), camera.distance * 0.4);
     this.spacing = 10 ** Math.floor(Math.log10(Math.max(height, 0.02) * 0.6));
-    const floor = this.view.hasFloor();
+    const { floor, sphere } = this.surroundings;
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.disable(gl.CULL_FACE);
     gl.depthMask(false);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(floor ? 1 : 0, floor ? 2 : 0);
-    const extent = Math.min(reach * 2, Math.max(height * 25, this.sphere.radius * 6));
+    const extent = Math.min(reach * 2, Math.max(height * 25, sphere.radius * 6));
     const shadow = this.withShadows ? { shadows: 1, shadow_matrix: this.shadows.matrix } : { shadows: 0 };
-    this.programs.grid.use({ view_projection: this.matrices.matrix, shadow_map: 1, centre: [...camera.focus.slice(0, 2), 0], reach: extent, spacing: this.spacing, catches: floor ? 0 : 1, ...theme.grid, ...shadow });
+    this.programs.grid.use({ view_projection: this.matrices.matrix, shadow_map: 1, centre: [...camera.focus.slice(0, 2), 0], reach: extent, spacing: this.spacing, catches: floor ? 0 : 1, ...theme.grid, strength: theme.grid.strength * (floor ? 0.45 : 1), ...shadow });
     gl.bindVertexArray(null);
     gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
     gl.disable(gl.POLYGON_OFFSET_FILL);
@@ -225,6 +235,7 @@ export class Renderer {
     gl.enable(gl.BLEND);
     gl.depthMask(false);
     surface.use(this._surfaceUniforms());
+    this.looksLike = null;
     this.batches.drawTransparent(this.camera.eye, ({ look }) => this._look(surface, look));
     gl.depthMask(true);
     this._constants();

@@ -1,5 +1,6 @@
 // Parts that are drawn by one call: the same mesh, texture and way of drawing, each with its slot.
 import { PLACES } from './gl.js';
+import { MergedBatch } from './merged.js';
 
 /**
  * @typedef {Object} Part
@@ -75,16 +76,27 @@ export class Batches {
   add(part) {
     if (part.transparent) return void this.transparent.add(part);
     const { texture, decal, culling, wireframe, edgeColor, order } = part.look;
-    const key = [part.mesh.number, texture?.number, decal, culling, wireframe, edgeColor, order, part.symbol].join();
-    if (!this.batches.has(key)) this.batches.set(key, new Batch(this.gl, part));
-    part.batch = this.batches.get(key);
+    const look = [texture?.number, decal, culling, wireframe, edgeColor, order, part.symbol].join();
+    part.merged = !!part.mesh.copy && !part.mesh.merged && !wireframe;
+    if (part.merged) part.mesh.merged = true; // its further copies are instances
+    part.key = part.merged ? this._mergedKey(part, look) : `${look},${part.mesh.number}`;
+    if (!this.batches.has(part.key)) this.batches.set(part.key, part.merged ? new MergedBatch(this.gl, part) : new Batch(this.gl, part));
+    part.batch = this.batches.get(part.key);
     part.batch.add(part);
-    part.key = key;
+  }
+
+  /** The first joined buffer of this look that has room. */
+  _mergedKey(part, look) {
+    for (let i = 0; ; i++) {
+      const key = `${look},${part.mesh.uvs ? 'uvs' : ''},joined ${i}`;
+      if (!this.batches.get(key)?.full) return key;
+    }
   }
 
   remove(part) {
     if (part.transparent) return void this.transparent.delete(part);
     part.batch.remove(part);
+    if (part.merged) part.mesh.merged = false;
     if (part.batch.parts.length) return;
     part.batch.free();
     this.batches.delete(part.key);
@@ -101,7 +113,7 @@ export class Batches {
   /** @param {function(number[]): void} setInk */
   drawEdges(setInk) {
     for (const batch of this.batches.values()) {
-      if (!batch.edgeBindings) continue;
+      if (!batch.edgeBindings) continue; // known after `prepare`
       setInk(batch.look.edgeColor);
       batch.drawEdges();
     }

@@ -84,6 +84,8 @@ class Weld {
   }
 }
 
+const SMALL = 2000; // triangles of a mesh that is joined with others when it is there once
+
 let meshes = 0;
 
 export class Mesh {
@@ -94,11 +96,12 @@ export class Mesh {
     const weld = new Weld(data);
     this.count = weld.indices.length;
     this.triangles = this.count / 3;
-    this.vertices = buffer(gl, weld.interleaved(data.indices));
-    this.uvs = data.uvs && buffer(gl, weld.weldedUvs());
+    const [vertices, uvs, edges] = [weld.interleaved(data.indices), data.uvs && weld.weldedUvs(), weld.edges(data.edges)];
+    this.copy = this.triangles <= SMALL ? { vertices, uvs, indices: weld.indices, edges } : null;
+    this.vertices = buffer(gl, vertices);
+    this.uvs = uvs && buffer(gl, uvs);
     gl.bindVertexArray(null);
     this.indices = buffer(gl, weld.indices, gl.ELEMENT_ARRAY_BUFFER);
-    const edges = weld.edges(data.edges);
     this.edgeCount = edges.length;
     this.edges = edges.length ? buffer(gl, edges, gl.ELEMENT_ARRAY_BUFFER) : null;
     this.welded = weld.indices;
