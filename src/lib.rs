@@ -20,5 +20,5 @@ pub use format::scene_file::SceneFile;
 pub use mlua;
 pub use perception::vision::{Channels, Picture};
 pub use permissions::{Denied, HostRule, Permissions};
-pub use script::{Console, Limits, LogLine, Options, Silent, SimulationState};
+pub use script::{Console, Limits, LogLine, Options, Silent, SimulationState, VideoFailure, VideoOptions, VideoView};
 pub use simulator::{Builder, Error, Onlooker, RunLimits, RunTotals, ScriptKind, ScriptRef, Simulator};

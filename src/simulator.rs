@@ -378,6 +378,7 @@ impl Drop for Simulator {
     /// The end of the application: add-ons and the sandbox clean up.
     fn drop(&mut self) {
         self.sim.end_detached();
+        self.sim.end_video_of_scripts();
         self.sim.close_all();
         self.sim.save_app_storage();
     }

@@ -7,9 +7,11 @@ use super::interrupt::Interrupt;
 use super::progress::Progress;
 use super::run::Kind;
 use super::setup::{Setup, seconds};
+use super::video::picture_size;
 use super::{refuse, say};
 use crate::format::picture::{self, Layout, PictureError};
 use crate::format::scene_file::write_whole;
+use crate::perception::vision::first_camera;
 use crate::scene::{Handle, Kind as ObjectKind};
 use crate::{Channels, Picture, RunLimits, Simulator};
 
@@ -30,7 +32,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "PATH")]
     camera: Option<String>,
     /// Width and height in pixels [default: those of the vision sensor, or 640x480]
-    #[arg(long, value_name = "WxH", value_parser = size)]
+    #[arg(long, value_name = "WxH", value_parser = picture_size)]
     size: Option<[u32; 2]>,
     /// Simulate so long before
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = seconds, allow_negative_numbers = true)]
@@ -73,13 +75,6 @@ pub(super) fn render(args: &Args) -> ExitCode {
         Ok(()) if sim.errors() > 0 => ExitCode::from(SCRIPT_ERROR),
         Ok(()) => ExitCode::SUCCESS,
     }
-}
-
-/// Width and height: two whole numbers with an x between them.
-fn size(text: &str) -> Result<[u32; 2], String> {
-    let side = |text: &str| text.parse().ok().filter(|side| (1..=4096).contains(side));
-    let sides = text.split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]));
-    sides.ok_or_else(|| "width and height are needed, such as 640x480, each from 1 to 4096".to_owned())
 }
 
 impl Args {
@@ -125,8 +120,7 @@ impl Args {
             if self.is_model() {
                 return Ok(None);
             }
-            let first = scene.objects().find(|object| matches!(object.kind, ObjectKind::Camera(_)));
-            return Ok(first.map(crate::scene::Object::handle));
+            return Ok(first_camera(&scene));
         };
         let by_handle = name.parse().ok().and_then(Handle::from_raw).filter(|handle| scene.exists(*handle));
         let path = if name.starts_with('/') { name.clone() } else { format!("/{name}") };
@@ -200,14 +194,6 @@ fn distinct_colour(number: usize) -> [u8; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn sizes_are_two_sides() {
-        assert_eq!(size("640x480"), Ok([640, 480]));
-        for wrong in ["", "640", "640x", "x480", "0x1", "1x4097", "-1x5", "1x2x3", "1.5x2"] {
-            assert!(size(wrong).is_err(), "{wrong}");
-        }
-    }
 
     #[test]
     fn neighbours_differ() {

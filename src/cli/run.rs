@@ -8,10 +8,11 @@ use std::time::Instant;
 
 use super::interrupt::Interrupt;
 use super::progress::Progress;
-use super::refuse;
 use super::remote::Remote;
 use super::session::{Reminder, Session};
 use super::setup::{Setup, seconds};
+use super::video::VideoArgs;
+use super::{USAGE, complain, refuse};
 use crate::{RunLimits, RunTotals, ScriptKind, Simulator};
 
 /// Exit code when a script raised an error.
@@ -37,6 +38,8 @@ pub(super) struct Args {
     /// Loop iterations before exiting with --no-start, or before a paused simulation is stopped
     #[arg(long, value_name = "L", default_value_t = 20, value_parser = count, allow_negative_numbers = true)]
     loops: u64,
+    #[command(flatten)]
+    video: VideoArgs,
     #[command(flatten)]
     remote: Remote,
     #[command(flatten)]
@@ -82,6 +85,7 @@ pub(super) fn run(args: &Args) -> ExitCode {
     if let Err(reason) = args.remote.serve(zmq, &args.setup, &mut sim, &output, &interrupt) {
         return refuse(&reason);
     }
+    args.video.start(&mut sim, &args.scene);
     let failed_to_load = sim.errors() > 0;
     // Remote clients and --no-start end a run their own way.
     let reminder = Reminder::new(args.has_end() || args.no_start || zmq || args.setup.json);
@@ -96,6 +100,7 @@ pub(super) fn run(args: &Args) -> ExitCode {
         sim.run(args.limits(), &mut session)
     };
     session.progress.finish();
+    let video = args.video.finish(&mut sim);
     if interrupt.is_requested() {
         sim.request_stop();
         // Scripts that outlive a run clean up when their scene is closed.
@@ -103,10 +108,14 @@ pub(super) fn run(args: &Args) -> ExitCode {
     }
     let errors = sim.errors();
     drop(sim);
-    let code = match (interrupt.is_requested(), errors) {
-        (true, _) => interrupt.exit_code(),
-        (false, 0) => 0,
-        (false, _) => SCRIPT_ERROR,
+    if let Err(reason) = &video {
+        complain(reason);
+    }
+    let code = match (interrupt.is_requested(), video, errors) {
+        (true, ..) => interrupt.exit_code(),
+        (_, Err(_), _) => USAGE,
+        (_, _, 0) => 0,
+        _ => SCRIPT_ERROR,
     };
     output.summary(totals, begun.elapsed(), errors, code);
     ExitCode::from(code)

@@ -8,4 +8,5 @@ pub(crate) mod scene_input;
 pub(crate) mod scene_outline;
 pub(crate) mod script_file;
 pub mod ttt;
+pub(crate) mod video;
 pub(crate) mod xml;

@@ -18,6 +18,7 @@ mod runtime;
 mod sim;
 pub(crate) mod step;
 pub mod test_bench;
+pub(in crate::script) mod video;
 
 pub use binding::args::{
     Args, Bytes, FromScript, Handles, LuaNumber, LuaString, Number, ObjectRef, Rest, ScriptFunction, Table,
@@ -41,6 +42,7 @@ pub use runtime::FunctionRef;
 pub use sim::{Limits, Options};
 pub use step::clock::SimulationState;
 pub use test_bench::TestBench;
+pub use video::{VideoFailure, VideoOptions, VideoView};
 
 pub(crate) use binding::by_handle::ByHandle;
 pub(crate) use binding::data::{push_buffer, read_buffer};

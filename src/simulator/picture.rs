@@ -1,10 +1,10 @@
-//! Pictures of the scene for Rust programs.
+//! Pictures and videos of the scene for Rust programs.
 
 use super::{Error, Simulator};
 use crate::perception::vision::{Channels, Picture, projection};
 use crate::scene::Handle;
 use crate::scene::sensor::View;
-use crate::script::ApiError;
+use crate::script::{ApiError, VideoFailure, VideoOptions};
 
 impl Simulator {
     /// What a camera or a vision sensor sees now; without one the scene from a place where all of it can be seen. `resolution` (width and
@@ -29,5 +29,23 @@ impl Simulator {
     /// When `from` is neither a camera nor a vision sensor.
     pub fn projection(&self, from: Option<Handle>) -> Result<View, Error> {
         Ok(projection(&self.sim.scene.borrow(), from).map_err(ApiError::from)?)
+    }
+
+    /// Takes a video of the simulation from its next step on, also of one that is started later.
+    pub fn start_video(&mut self, options: VideoOptions) {
+        self.sim.start_video(options);
+    }
+
+    /// Why the video ended before [`finish_video`](Self::finish_video).
+    pub fn video_failure(&self) -> Option<VideoFailure> {
+        self.sim.video_failure()
+    }
+
+    /// Completes the video. Without a step there is no file.
+    ///
+    /// # Errors
+    /// When it could not be written, or the camera is not there. There is a file all the same if there was a picture before.
+    pub fn finish_video(&mut self) -> Result<(), VideoFailure> {
+        self.sim.finish_video()
     }
 }

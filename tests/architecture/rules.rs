@@ -49,8 +49,10 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("geometry", "src/perception"),
     ("geometry", "src/scene"),
     ("geometry", "src/script/property"),
+    ("gif", "src/format/video"),
     ("httparse", "src/io/ws"),
     ("image", "src/format/picture.rs"),
+    ("image_webp", "src/format/video"),
     ("imaging", "src/modules"),
     ("indicatif", "src/cli"),
     ("libc", "src/io/signals.rs"),
@@ -168,6 +170,7 @@ const FORMAT: Rooms = &[
     ("ttt", &[]),
     ("xml", &["picture", "ttt"]),
     ("scene_file", &["ttt", "xml"]),
+    ("video", &["picture", "scene_file"]),
     ("scene_folder", &["scene_file", "ttt"]),
     ("scene_outline", &["scene_file", "ttt"]),
     ("script_file", &[]),
@@ -207,7 +210,7 @@ const SCRIPT: Rooms = &[
     ("events", &["calls", "error", "lifecycle", "log", "property", "sim", "step"]),
     ("files", &["calls", "error", "lifecycle", "log", "sim", "step"]),
     ("lifecycle", &["binding", "calls", "coverage", "error", "events", "log", "runtime", "sim"]),
-    ("property", &["binding", "error", "events", "files", "lifecycle", "log", "sim"]),
+    ("property", &["binding", "error", "events", "files", "lifecycle", "log", "sim", "video"]),
     (
         "sim",
         &[
@@ -228,6 +231,7 @@ const SCRIPT: Rooms = &[
     ),
     ("step", &["calls", "error", "lifecycle", "log", "sim"]),
     ("test_bench", &["coverage", "error", "log"]),
+    ("video", &["log", "sim", "step"]),
 ];
 
 /// The rooms of `script` that know Lua; the others only know that scripts have a language.

@@ -6,6 +6,7 @@ mod commands;
 mod interrupts;
 mod messages;
 mod render;
+mod video;
 
 use std::fs;
 use std::path::PathBuf;

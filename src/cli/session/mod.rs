@@ -5,6 +5,7 @@ pub(super) mod output;
 pub(super) mod permissions;
 pub(super) mod progress;
 pub(super) mod setup;
+pub(super) mod video;
 
 use std::time::{Duration, Instant};
 
@@ -49,8 +50,8 @@ impl Reminder {
 }
 
 impl Onlooker for Session<'_> {
-    fn wants_end(&self, _: &Simulator) -> bool {
-        self.interrupt.is_requested()
+    fn wants_end(&self, sim: &Simulator) -> bool {
+        self.interrupt.is_requested() || sim.video_failure().is_some()
     }
 
     fn iterated(&mut self, sim: &Simulator, stepped: bool) {

@@ -19,7 +19,7 @@ pub(crate) use migrate::old_names;
 pub use migrate::with_compat;
 pub use read::{is_scene, read_file, read_path};
 pub use write::write_whole;
-pub(crate) use write::{is_special, link_target};
+pub(crate) use write::{WholeFile, is_special, link_target, part_of};
 
 use crate::format::ttt::{FileResult, container};
 use crate::scene::object::script_object::ScriptType;

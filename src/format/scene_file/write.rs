@@ -1,11 +1,12 @@
 //! Atomic writing of files.
 
 use std::fs::{DirEntry, File};
-use std::io::Write;
+use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use fs4::FileExt;
+use tempfile::{NamedTempFile, TempPath};
 
 /// The names of temporary files begin and end so.
 const PREFIX: &str = ".swanilda-";
@@ -24,14 +25,67 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
         return std::fs::write(path, bytes);
     }
     let path = link_target(path);
-    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-    remove_abandoned(folder, TIME_TO_LOCK);
-    let mut file = new_file().tempfile_in(folder)?;
-    // Where files cannot be locked, this one may be taken for abandoned if writing lasts longer than a minute.
-    let _ = FileExt::try_lock(file.as_file());
+    let mut file = part_of(&path)?;
     file.write_all(bytes)?;
     file.persist(path)?;
     Ok(())
+}
+
+/// A file that is written piece by piece, and appears under its name when it is complete. Pipes and devices are written directly.
+pub(crate) struct WholeFile {
+    file: File,
+    /// None for pipes and devices.
+    part: Option<(TempPath, PathBuf)>,
+}
+
+impl WholeFile {
+    /// # Errors
+    /// When the folder is not there or cannot be written.
+    pub(crate) fn create(path: &Path) -> std::io::Result<Self> {
+        if is_special(path) {
+            return Ok(Self { file: File::create(path)?, part: None });
+        }
+        let path = link_target(path);
+        let (file, part) = part_of(&path)?.into_parts();
+        Ok(Self { file, part: Some((part, path)) })
+    }
+
+    /// Gives the file its name.
+    ///
+    /// # Errors
+    /// When it cannot be renamed.
+    pub(crate) fn finish(self) -> std::io::Result<()> {
+        self.part.map_or(Ok(()), |(part, path)| Ok(part.persist(path)?))
+    }
+}
+
+impl Write for WholeFile {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Seek for WholeFile {
+    fn seek(&mut self, place: SeekFrom) -> std::io::Result<u64> {
+        self.file.seek(place)
+    }
+}
+
+/// A temporary file beside `path`, locked, to be renamed to it.
+///
+/// # Errors
+/// When the folder is not there or cannot be written.
+pub(crate) fn part_of(path: &Path) -> std::io::Result<NamedTempFile> {
+    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    remove_abandoned(folder, TIME_TO_LOCK);
+    let file = new_file().tempfile_in(folder)?;
+    // Where files cannot be locked, this one may be taken for abandoned if writing lasts longer than a minute.
+    let _ = FileExt::try_lock(file.as_file());
+    Ok(file)
 }
 
 /// Whether this is a pipe or a device.

@@ -26,7 +26,7 @@ use models::{Model, Models};
 pub(crate) use lighting::Backdrop;
 pub use rendering::{Channels, Picture};
 pub(crate) use subjects::Subjects;
-pub(crate) use views::projection;
+pub(crate) use views::{Viewpoint, first_camera, projection};
 
 /// What draws pictures of a scene, with what it has prepared of the objects.
 #[derive(Default)]

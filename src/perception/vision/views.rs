@@ -44,6 +44,49 @@ pub(crate) fn projection(scene: &Scene, from: Option<Handle>) -> SceneResult<Vie
     Ok(shot(scene, from)?.view)
 }
 
+/// From where a series of pictures is taken.
+pub(crate) enum Viewpoint {
+    /// A camera or vision sensor, wherever it is.
+    Object(Handle),
+    /// A place from which the whole scene could be seen at first.
+    Place(Box<Shot>),
+}
+
+impl Viewpoint {
+    /// A camera or vision sensor; without one a place from which the whole scene is seen now.
+    ///
+    /// # Errors
+    /// When `from` is neither a camera nor a vision sensor.
+    pub(crate) fn new(scene: &Scene, from: Option<Handle>) -> SceneResult<Self> {
+        let shot = shot(scene, from)?;
+        Ok(from.map_or_else(|| Self::Place(Box::new(shot)), Self::Object))
+    }
+
+    /// Width and height of a vision sensor.
+    pub(crate) fn resolution(&self, scene: &Scene) -> Option<[u32; 2]> {
+        let Self::Object(handle) = self else { return None };
+        Some(scene.object(*handle).ok()?.vision_sensor().ok()?.view.resolution)
+    }
+
+    /// What is seen from there now, in a picture of that width and height.
+    ///
+    /// # Errors
+    /// When the object is gone.
+    pub(crate) fn shot(&self, scene: &Scene, resolution: [u32; 2]) -> SceneResult<Shot> {
+        let mut shot = match self {
+            Self::Object(handle) => shot(scene, Some(*handle))?,
+            Self::Place(shot) => (**shot).clone(),
+        };
+        shot.view.set_resolution(resolution.map(i64::from));
+        Ok(shot)
+    }
+}
+
+/// The first camera of a scene.
+pub(crate) fn first_camera(scene: &Scene) -> Option<Handle> {
+    scene.objects().find(|object| matches!(object.kind, Kind::Camera(_))).map(Object::handle)
+}
+
 fn shot(scene: &Scene, from: Option<Handle>) -> SceneResult<Shot> {
     let Some(handle) = from else {
         let mut shot = camera_shot(overview(scene), Camera::default().view);

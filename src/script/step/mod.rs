@@ -45,6 +45,7 @@ impl Sim {
         } else if !self.main_script_is_vetoed() {
             self.simulation_step();
             self.advance();
+            self.film();
         }
     }
 

@@ -16,6 +16,7 @@ use crate::script::lifecycle::random::Random;
 use crate::script::log::auxiliary_consoles::AuxiliaryConsoles;
 use crate::script::log::verbosity;
 use crate::script::sim::{Options, Sim};
+use crate::script::video::Videos;
 
 /// Data that scripts store in the application.
 #[derive(Default)]
@@ -40,6 +41,7 @@ pub(crate) struct AppData {
     /// Numbered switches, numbers and texts that have no effect here, as scripts set them.
     pub idle_params: IdleParams,
     pub consoles: AuxiliaryConsoles,
+    pub videos: Videos,
 }
 
 /// Parameters of the user interface and the like, by number.
