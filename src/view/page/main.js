@@ -204,8 +204,8 @@ class Page {
   }
 
   async showGraph(handle) {
-    const { curves = [] } = await this.ask('graph', { handle });
-    for (const { name, x, y } of curves) this.curves.add({ name, x, y });
+    const { curves = [], xyCurves = [] } = await this.ask('graph', { handle });
+    for (const { name, x, y } of [...curves, ...xyCurves]) this.curves.add({ name, x, y });
   }
 
   /** A value over the whole recording. */

@@ -85,7 +85,7 @@ export class ReplaySource {
     if (!goesOn) Object.assign(shown, { chunk: n, next: 0 });
     for (; shown.next < messages.length && messages[shown.next].time <= this.time + 1e-9; shown.next++) {
       const { kind, data } = messages[shown.next];
-      if (kind === 'text') store.receive(data);
+      if (kind === 'text') store.receive(this.hasSelected ? { ...data, selection: store.selection } : data);
       else store.receiveBinary(data);
     }
     shown.time = this.time;
@@ -112,14 +112,14 @@ export class ReplaySource {
   }
 
   /** The same requests as of a live source, as far as a recording has answers. */
-  async request(action, { handle, factor, count, handles } = /** @type {any} */ ({})) {
+  async request(action, { handle, factor, count } = /** @type {any} */ ({})) {
     const actions = {
       play: () => this.setPlaying(true),
       pause: () => this.setPlaying(false),
       stop: () => (this.setPlaying(false), this.seek(this.start_time)),
       step: () => (this.setPlaying(false), this.seek(this.time + (count ?? 1) * (this.index.timeStep ?? this.store.scene.timeStep ?? 0.05))),
       speed: () => ((this.speed = factor || 1), this._notify()),
-      select: () => this.store.receive({ type: 'update', selection: handles }),
+      select: () => void (this.hasSelected = true), // from then on not what was selected in the run
       inspect: () => ((this.inspected = handle), localRows(this.store, handle)),
       watch: () => null,
       show: () => null,

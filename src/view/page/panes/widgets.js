@@ -13,8 +13,9 @@ export function container(content, form) {
   const element = el('div', { class: `layout ${layout}` });
   element.style.padding = `${margins[1]}px ${margins[2]}px ${margins[3]}px ${margins[0]}px`;
   element.style.gap = `${spacing < 0 ? USUAL_SPACING : spacing}px`;
-  if (layout === 'grid') fillGrid(element, items, form);
-  else items.forEach((item) => element.append(placed(item, layout, form)));
+  const there = items.filter(Boolean);
+  if (layout === 'grid') fillGrid(element, there, form);
+  else there.forEach((item) => element.append(placed(item, layout, form)));
   return element;
 }
 

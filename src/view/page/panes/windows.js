@@ -87,7 +87,7 @@ class Frame {
   moveTo(x, y) {
     const stage = this.pane.layer.getBoundingClientRect();
     this.x = Math.min(Math.max(x, 0), Math.max(stage.width - this.element.offsetWidth, 0));
-    this.y = Math.min(Math.max(y, 0), Math.max(stage.height - 32, 0));
+    this.y = Math.min(Math.max(y, 0), Math.max(stage.height - this.element.offsetHeight, 0));
     this.element.style.left = `${this.x}px`;
     this.element.style.top = `${this.y}px`;
   }

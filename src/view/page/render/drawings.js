@@ -31,6 +31,7 @@ export class Drawings {
 
   _create(drawing) {
     const slot = this.slots.take(0);
+    this.slots.paint(slot, [1, 1, 1], 1 - (drawing.transparency ?? 0));
     return { slot, parent: drawing.parent, overlay: drawing.overlay, set: this._set(drawing, slot) };
   }
 
@@ -50,7 +51,7 @@ export class Drawings {
       return set;
     }
     const set = new CopySet(this.gl, slot, this.resources.primitive(COPIES[itemType] ?? 'ball'));
-    set.set(count, (i) => ({ position: position(i), size, color: color(i), turn: stride >= 7 ? items.slice(stride * i + 3, stride * i + 7) : undefined }));
+    set.set(count, (i) => ({ position: position(i), size: drawing.sizes?.[i] ?? size, color: color(i), turn: stride >= 7 ? items.slice(stride * i + 3, stride * i + 7) : undefined }));
     return set;
   }
 

@@ -156,7 +156,10 @@ export class Renderer {
     this.batches.drawOpaque(({ look }) => this._look(surface, look));
     surface.use({ textured: 0 });
     gl.disable(gl.CULL_FACE);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     for (const set of this._sets(CopySet, false)) set.draw();
+    gl.disable(gl.BLEND);
     gl.disable(gl.POLYGON_OFFSET_FILL);
     this._constants();
     if (this.options.edges && this.quality.edges) this._edges();

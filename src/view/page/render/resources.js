@@ -25,9 +25,10 @@ export class Resources {
     return this._use(`mesh ${hash}`, hash, (blob) => new Mesh(this.gl, parseMesh(blob)), (mesh) => mesh.free());
   }
 
-  texture(hash, interpolate) {
+  /** @param {{blob: string, interpolate: boolean, repeat?: boolean[]}} texture as in the protocol */
+  texture({ blob: hash, interpolate, repeat = [true, true] }) {
     const free = (texture) => this.gl.deleteTexture(texture.texture);
-    return this._use(`texture ${interpolate} ${hash}`, hash, (blob) => this._texture(blob, interpolate), free);
+    return this._use(`texture ${interpolate} ${repeat} ${hash}`, hash, (blob) => this._texture(blob, interpolate, repeat), free);
   }
 
   /** Calls back with points of an octree or a point cloud: count, positions, colours. */
@@ -78,7 +79,7 @@ export class Resources {
     return this.running > 0 || this.waiting.length > 0;
   }
 
-  _texture(blob, interpolate) {
+  _texture(blob, interpolate, repeat) {
     const { gl } = this;
     const [width, height] = new Uint32Array(blob, 4, 2);
     const texture = gl.createTexture();
@@ -87,6 +88,9 @@ export class Resources {
     gl.generateMipmap(gl.TEXTURE_2D);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, interpolate ? gl.LINEAR_MIPMAP_LINEAR : gl.NEAREST_MIPMAP_LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, interpolate ? gl.LINEAR : gl.NEAREST);
+    const wrap = (on) => (on ? gl.REPEAT : gl.CLAMP_TO_EDGE);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, wrap(repeat[0]));
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, wrap(repeat[1]));
     return { texture, number: (this.textures = (this.textures ?? 0) + 1) };
   }
 }

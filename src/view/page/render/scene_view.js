@@ -71,7 +71,7 @@ export class SceneView {
 
   async _addMesh(entry, { blob, color, transparency, texture, culling, wireframe, showEdges, edgeColor }, order) {
     const mesh = this.resources.mesh(blob);
-    const picture = texture && this.resources.texture(texture.blob, texture.interpolate);
+    const picture = texture && this.resources.texture(texture);
     entry.keys.push(mesh.key, ...(picture ? [picture.key] : []));
     try {
       const look = { order, culling, wireframe, decal: !!texture?.decal, edgeColor: showEdges ? edgeColor ?? [0, 0, 0] : null, texture: picture ? await picture.value : null };
@@ -103,12 +103,12 @@ export class SceneView {
     entry.lines = lines;
   }
 
-  async _addPoints(entry, { blob, objectType, size }) {
+  async _addPoints(entry, { blob, objectType, size, points: asPoints = objectType === 'pointCloud' }) {
     const points = await this.resources.points(blob).catch((error) => console.warn(error.message));
     if (!entry.current || !points) return;
     const position = (i) => points.positions.subarray(3 * i, 3 * i + 3);
     const color = (i) => Array.from(points.colors.subarray(4 * i, 4 * i + 3), (x) => x / 255);
-    if (objectType === 'octree') {
+    if (!asPoints) {
       const cubes = new CopySet(this.gl, entry.slot, this.resources.primitive('box'));
       cubes.set(points.count, (i) => ({ position: position(i), size, color: color(i) }));
       entry.sets.push(cubes);

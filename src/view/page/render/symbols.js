@@ -62,18 +62,18 @@ function frustum(object) {
 }
 
 function camera(object, chosen) {
-  const s = object.objectType === 'camera' ? 0.05 : Math.max(object.size ?? 0.02, 0.01);
+  const s = object.size ?? 0.05;
   const color = object.color ?? [0.45, 0.5, 0.58];
   const solids = [
     { mesh: 'box', scale: [s, s * 0.8, s * 1.6], pose: at(0, 0, -s * 0.8), color },
     { mesh: 'cone', scale: [s, s, s * 0.6], pose: [0, 0, s * 0.2, 1, 0, 0, 0], color: [0.2, 0.22, 0.26] },
   ];
-  const shown = chosen || object.objectType === 'visionSensor';
+  const shown = chosen || (object.showFrustum ?? object.objectType === 'visionSensor');
   return { solids, lines: shown ? [{ points: frustum(object), color: [...color, chosen ? 0.9 : 0.35] }] : [] };
 }
 
-function light({ lightType, diffuse = [1, 1, 1], enabled = true, spotAngle = 0.8 }) {
-  const r = 0.05;
+function light({ lightType, diffuse = [1, 1, 1], enabled = true, spotAngle = 0.8, size = 0.1 }) {
+  const r = size / 2;
   const bulb = { mesh: 'sphere', scale: [r, r, r], color: diffuse, emission: enabled ? diffuse.map((x) => x * 0.6) : [0, 0, 0] };
   const color = [0.85, 0.7, 0.2];
   if (lightType === 'omni') return { solids: [bulb], lines: [] };
@@ -85,9 +85,9 @@ function light({ lightType, diffuse = [1, 1, 1], enabled = true, spotAngle = 0.8
   return { solids: [bulb], lines: [{ points: [...rays, ...arc(width, 4 * r)], color }] };
 }
 
-function proximitySensor({ volume = [], color, detection }) {
-  const solids = [{ mesh: 'box', scale: [0.012, 0.012, 0.012], color: color ?? GREY }];
-  const lines = [{ points: volume, color: [...(color ?? [0.8, 0.2, 0.6]), 0.8] }];
+function proximitySensor({ volume = [], showVolume = true, size = 0.012, color, detection }) {
+  const solids = [{ mesh: 'box', scale: [size, size, size], color: color ?? GREY }];
+  const lines = !showVolume ? [] : [{ points: volume, color: [...(color ?? [0.8, 0.2, 0.6]), 0.8] }];
   if (detection?.point) {
     lines.push({ points: [0, 0, 0, ...detection.point], color: [1, 0.75, 0.05] });
     solids.push({ mesh: 'ball', scale: [0.02, 0.02, 0.02], pose: at(...detection.point), color: [1, 0.75, 0.05], emission: [0.4, 0.3, 0] });
