@@ -15,7 +15,9 @@ import { Slots } from './gpu/slots.js';
 import { Surroundings } from './surroundings.js';
 import { THEMES } from './themes.js';
 
-const LIGHT = { key_direction: KEY_DIRECTION, key_color: [1.55, 1.5, 1.42], sky_color: [0.5, 0.54, 0.6], ground_color: [0.25, 0.235, 0.22] };
+const LIGHT = { key_direction: KEY_DIRECTION, key_color: [1.36, 1.32, 1.25], sky_color: [0.5, 0.54, 0.6], ground_color: [0.25, 0.235, 0.22] };
+
+const LOADING = 120; // milliseconds between pictures while meshes arrive
 
 /** Whether two parts are drawn with the same state. */
 const sameLook = (a, b) => a.texture === b.texture && a.decal === b.decal && a.culling === b.culling && a.order === b.order;
@@ -56,7 +58,7 @@ export class Renderer {
     store.on('drawings', again((ids) => drawings.changed(ids)));
     store.on('selection', again(() => view.selectionChanged()));
     store.on('contacts', again(() => drawings.contactsChanged()));
-    this.resources.onready = () => (this.stale = true);
+    this.resources.onready = () => (this.loaded ??= performance.now());
   }
 
   /** Fits the drawing to its element. */
@@ -77,6 +79,7 @@ export class Renderer {
   frame(seconds) {
     if (this.gl.isContextLost()) return;
     const moved = this.camera.advance(seconds);
+    if (this.loaded && performance.now() - this.loaded > LOADING) Object.assign(this, { stale: true, loaded: undefined });
     if (this.surroundings.outdated(performance.now())) this.stale = true;
     if (this.quality.update(seconds, moved || this.stale)) this.stale = true;
     this.resize();
@@ -185,7 +188,9 @@ export class Renderer {
   _edges() {
     const { edges } = this.programs;
     edges.use({ slots: 0, view_projection: this.matrices.matrix, nearer: 2e-5 });
-    this.batches.drawEdges(([r, g, b]) => edges.set('ink', [0.12 + r * 0.88, 0.12 + g * 0.88, 0.13 + b * 0.87, 1]));
+    this.gl.enable(this.gl.BLEND);
+    this.batches.drawEdges((color) => edges.set('ink', [...color, 0.6]));
+    this.gl.disable(this.gl.BLEND);
   }
 
   _grid(reach) {
@@ -197,14 +202,11 @@ export class Renderer {
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.disable(gl.CULL_FACE);
     gl.depthMask(false);
-    gl.enable(gl.POLYGON_OFFSET_FILL);
-    gl.polygonOffset(floor ? 1 : 0, floor ? 2 : 0);
     const extent = Math.min(reach * 2, Math.max(height * 25, sphere.radius * 6));
     const shadow = this.withShadows ? { shadows: 1, shadow_matrix: this.shadows.matrix } : { shadows: 0 };
     this.programs.grid.use({ view_projection: this.matrices.matrix, shadow_map: 1, centre: [...camera.focus.slice(0, 2), 0], reach: extent, spacing: this.spacing, catches: floor ? 0 : 1, ...theme.grid, strength: theme.grid.strength * (floor ? 0.45 : 1), ...shadow });
     gl.bindVertexArray(null);
-    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
-    gl.disable(gl.POLYGON_OFFSET_FILL);
+    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4); // before surfaces in its plane, which are drawn a little farther away
     gl.depthMask(true);
   }
 

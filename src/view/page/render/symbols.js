@@ -6,7 +6,6 @@
  * @property {{points: number[], color: number[]}[]} lines
  */
 
-const IDENTITY = [0, 0, 0, 0, 0, 0, 1];
 const at = (x, y, z) => [x, y, z, 0, 0, 0, 1];
 const GREY = [0.6, 0.6, 0.62];
 
@@ -109,5 +108,3 @@ const KINDS = { joint, dummy, forceSensor, camera, visionSensor: camera, light, 
 export function symbolOf(object, chosen) {
   return KINDS[object.objectType]?.(object, chosen) ?? { solids: [], lines: [] };
 }
-
-export { IDENTITY };
