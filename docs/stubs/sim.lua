@@ -1140,7 +1140,7 @@ function sim.getModuleName(index) end
 --- Splits an old-style name at its `#`; without one the suffix is -1.
 ---@param name? string the name; nil for the suffix of the calling script
 ---@return integer suffixNumber -1 if there is none
----@return string nameWithoutSuffix the name before the `#`
+---@return string nameWithoutSuffix the name before the `#`; not returned without a name
 function sim.getNameSuffix(name) end
 
 --- Named parameter as a boolean.
@@ -1269,7 +1269,7 @@ function sim.getObjectInt32Parameter(objectHandle, parameterID) end
 ---@return number[] matrix upper 3 by 4 block, row by row
 function sim.getObjectMatrix(objectHandle, relativeToObjectHandle) end
 
---- Old-style name of an object: its alias, unless sim.setObjectName gave it another.
+--- Old-style name of an object.
 ---@deprecated sim.getObjectAlias
 ---@param objectHandle integer the object
 ---@return string objectName the name
@@ -3133,9 +3133,10 @@ function sim.setLongProperty(target, propertyName, propertyState, options) end
 ---@param property integer sim.modelproperty_* bits
 function sim.setModelProperty(objectHandle, property) end
 
---- Chooses the suffix old-style names are looked up with. Objects have no suffixes any more, so this does nothing.
----@param SuffixNumber integer
-function sim.setNameSuffix(SuffixNumber) end
+--- Chooses the number that old names without one take in this script.
+---@param suffixNumber integer -1: names are taken as they are
+---@return integer result 1
+function sim.setNameSuffix(suffixNumber) end
 
 --- Sets a named parameter from a boolean.
 ---@param name string of the parameter
@@ -3223,7 +3224,7 @@ function sim.setObjectInt32Parameter(objectHandle, parameterId, parameter) end
 ---@param relativeToObjectHandle? number[] the frame it is expressed in
 function sim.setObjectMatrix(objectHandle, matrix, relativeToObjectHandle) end
 
---- Sets the old-style name of an object; its alias stays.
+--- Sets the old-style name of an object, which must be new in the scene; its alias stays.
 ---@deprecated sim.setObjectAlias
 ---@param objectHandle integer the object
 ---@param objectName string the name

@@ -153,7 +153,8 @@ fn current_name(written: &str) -> Option<String> {
         };
         registry.members_of_sim().contains(&member).then(|| format!("sim.{member}"))
     };
-    let kept = registry.members_of_sim().of_old_name(written).map(|member| format!("sim.{member}"));
+    let kept = registry.members_of_sim().of_old_name(written);
+    let kept = kept.filter(|member| !member.starts_with('_')).map(|member| format!("sim.{member}"));
     kept.or_else(by_rule).or_else(|| old_names::current(written).map(str::to_owned))
 }
 

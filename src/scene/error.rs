@@ -7,6 +7,8 @@ pub enum SceneError {
     NoSuchObject,
     #[error("object does not exist, or alias/path is ill formatted.")]
     NoSuchPath,
+    #[error("illegal object name.")]
+    IllegalName,
     #[error("proxy object does not exist.")]
     NoSuchProxy,
     /// The object exists, but is of another type than the function needs, e.g. "joint".

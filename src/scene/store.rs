@@ -12,6 +12,7 @@ use super::object::{Kind, Object};
 use super::shape::mesh_owners::MeshOwners;
 use super::shape::{Part, Shape};
 use super::tree::collection::Collections;
+use super::tree::old_names::OldNames;
 use super::tree::references::Referrers;
 use super::tree::selection::Selection;
 use super::{Change, CustomData, Field, Handle, InertValues, Journal, SceneResult, Settings, Uid};
@@ -25,6 +26,7 @@ pub struct Scene {
     pub(super) objects: Objects,
     last_uid: Uid,
     mesh_owners: MeshOwners,
+    pub(super) old_names: OldNames,
     pub(super) roots: Vec<Handle>,
     pub(super) selection: Selection,
     pub(super) collections: Collections,
@@ -64,6 +66,7 @@ impl Scene {
         (object.handle, object.parent) = (handle, None);
         object.children.clear();
         self.identify(&mut object);
+        object.old_name = self.old_names.claim(&object.old_name, handle);
         self.referrers.note(&object);
         self.objects.insert(object);
         self.roots.push(handle);
@@ -189,6 +192,7 @@ impl Scene {
     /// Removes an object that no list contains any more.
     pub(super) fn erase(&mut self, handle: Handle) {
         let Some(object) = self.objects.remove(handle) else { return };
+        self.old_names.release(&object.old_name);
         if let Kind::Shape(shape) = &object.kind {
             self.mesh_owners.forget(shape);
             self.forget_unused_textures(&shape.texture_ids().collect::<Vec<_>>());

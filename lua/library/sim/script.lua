@@ -1,5 +1,5 @@
 --[[
-Calls to other scripts by name, lookup of objects, and information about the calling script.
+Calls to other scripts by name, lookup of objects by path, and information about the calling script.
 
 Does not resolve paths or pass values between states: that is native (sim._getObject, sim.callScriptFunction).
 ]]
@@ -15,31 +15,6 @@ local M = {}
 function M.getObject(path, options)
     -- Not a tail call: error texts of 4.10 carry the line of this wrapper, not of the caller.
     local handle = sim._getObject(path, options)
-    return handle
-end
-
---- Handle of the object at a path or with an old-style name.
--- @api int objectHandle = sim.getObjectHandle(string path, map options = {})
--- @param path as in sim.getObject, or an old name such as robot#0; sim.handle_self: the object of this script
--- @param options noError: -1 instead of an error
--- @return objectHandle the object
-function M.getObjectHandle(path, options)
-    if type(path) ~= 'string' or not path:find('^[/.:]') then
-        addLog(
-            sim.verbosity_scriptwarnings | sim.verbosity_once,
-            'sim.getObjectHandle is deprecated. Use sim.getObject instead.'
-        )
-    end
-    local handle = sim._getObjectHandle(path, options)
-    return handle
-end
-
---- Handle of an object by name, -1 if there is none.
--- @api int objectHandle = sim.getObjectHandle_noErrorNoSuffixAdjustment(string name)
--- @param name path or old-style name
--- @return objectHandle or -1
-function M.getObjectHandle_noErrorNoSuffixAdjustment(name)
-    local handle = sim._getObjectHandle(name, {noError = true})
     return handle
 end
 

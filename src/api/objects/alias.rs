@@ -2,20 +2,13 @@
 
 use api_macro::api;
 
+use super::old_name::OldName;
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::{Data, Handle, SceneError, special};
 use crate::script::{Bytes, Table};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![
-    get_object,
-    get_object_handle,
-    get_object_alias,
-    set_object_alias,
-    get_object_name,
-    set_object_name,
-    get_name_suffix,
-    set_name_suffix,
-];
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![get_object, get_object_handle, get_object_alias, set_object_alias, get_object_name, set_object_name,];
 
 /// Object at a path; the native part of `sim.getObject`.
 ///
@@ -35,10 +28,16 @@ fn get_object(cx: &Cx, path: Bytes, #[default(None)] options: Option<Table>) -> 
 ///
 /// @param path as in sim.getObject, or an old name
 /// @param options as in sim.getObject
+/// @param nameSuffix the number that the script adds to old names without one; -1: none
 /// @return objectHandle the object
 #[api("sim._getObjectHandle")]
-fn get_object_handle(cx: &Cx, path: Data, #[default(None)] options: Option<Table>) -> Result<i64> {
-    let options = Lookup::read(options.as_ref());
+fn get_object_handle(
+    cx: &Cx,
+    path: Data,
+    #[default(None)] options: Option<Table>,
+    #[default(-1)] name_suffix: i64,
+) -> Result<i64> {
+    let mut options = Lookup::read(options.as_ref());
     let path = match path {
         // Scripts of scenes before 4.2 get the object of their script in another way.
         Data::Int(special::SELF) => return Ok(own_object(cx)),
@@ -51,8 +50,26 @@ fn get_object_handle(cx: &Cx, path: Data, #[default(None)] options: Option<Table
         let found = cx.scene().find(&path, emitter, options.index);
         return options.answer(cx, &path, found);
     }
-    let found = cx.scene().find_old_name(&path);
-    options.answer(cx, &path, found)
+    let name = OldName::read(&path, name_suffix);
+    options.no_error |= name.no_error;
+    let found = name.find(&cx.scene());
+    match found {
+        Err(SceneError::NoSuchPath) if !options.no_error && !name.is_alternative => {
+            cx.note_missing_path(&path);
+            Err(ApiError::Other(not_found(&path)))
+        }
+        found => options.answer(cx, &path, found),
+    }
+}
+
+/// The error for an old name, with advice (spec: vrep-era 1.3).
+fn not_found(name: &str) -> String {
+    format!(
+        "{}\n\nSince version 4.3.0 objects are found by path and alias, for example \"./path/to/alias\", \":/path/to/alias\" or \
+         \"/path/to/alias\".\nHere another notation was used: \"{name}\" was not found.\nAn alias is not a name: names are deprecated and not \
+         shown. Prefer sim.getObject.\nSee https://manual.coppeliarobotics.com/en/accessingSceneObjects.htm",
+        SceneError::NoSuchPath
+    )
 }
 
 /// The object a script is attached to, the script itself where it is an object at the top.
@@ -140,7 +157,7 @@ fn set_object_alias(cx: &mut Cx, object_handle: Handle, object_alias: Bytes) -> 
     Ok(cx.scene_mut().set_alias(object_handle, &object_alias.0)?)
 }
 
-/// Old-style name of an object: its alias, unless sim.setObjectName gave it another.
+/// Old-style name of an object.
 ///
 /// @param objectHandle the object
 /// @return objectName the name
@@ -149,34 +166,13 @@ fn get_object_name(cx: &Cx, object_handle: Handle) -> Result<String> {
     Ok(cx.scene().object(object_handle)?.old_name().to_owned())
 }
 
-/// Sets the old-style name of an object; its alias stays.
+/// Sets the old-style name of an object, which must be new in the scene; its alias stays.
 ///
 /// @param objectHandle the object
 /// @param objectName the name
 /// @return result 1
 #[api("sim.setObjectName")]
 fn set_object_name(cx: &mut Cx, object_handle: Handle, object_name: String) -> Result<i64> {
-    cx.scene_mut().set_old_name(object_handle, &object_name)?;
+    cx.scene_mut().rename(object_handle, &object_name)?;
     Ok(1)
-}
-
-/// Splits an old-style name at its `#`; without one the suffix is -1.
-///
-/// @param name the name; nil for the suffix of the calling script
-/// @return suffixNumber -1 if there is none
-/// @return nameWithoutSuffix the name before the `#`
-#[api("sim.getNameSuffix")]
-fn get_name_suffix(_cx: &Cx, #[default(None)] name: Option<String>) -> Result<(i64, Option<String>)> {
-    let Some(name) = name else { return Ok((-1, None)) };
-    let split = name.rsplit_once('#').and_then(|(stem, suffix)| Some((suffix.parse().ok()?, stem.to_owned())));
-    let (suffix, stem) = split.unwrap_or((-1, name));
-    Ok((suffix, Some(stem)))
-}
-
-/// Chooses the suffix old-style names are looked up with. Objects have no suffixes any more, so this does nothing.
-///
-/// @param suffixNumber ignored
-#[api("sim.setNameSuffix")]
-fn set_name_suffix(_cx: &mut Cx, _suffix_number: i64) -> Result<()> {
-    Ok(())
 }

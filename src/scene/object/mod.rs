@@ -32,8 +32,8 @@ pub struct Object {
     pub(in crate::scene) handle: Handle,
     pub(in crate::scene) uid: Uid,
     pub(in crate::scene) alias: String,
-    /// The name only functions from before aliases see, where it was set apart from the alias.
-    pub(in crate::scene) old_name: Option<String>,
+    /// The name that functions from before aliases see, unique in the scene.
+    pub(in crate::scene) old_name: String,
     pub(in crate::scene) parent: Option<Handle>,
     pub(in crate::scene) children: Vec<Handle>,
     /// In the parent's full frame (its moving side, for joints and force sensors).
@@ -172,7 +172,7 @@ impl Object {
             handle,
             uid,
             alias: alias.to_owned(),
-            old_name: None,
+            old_name: alias.to_owned(),
             parent: None,
             children: Vec::new(),
             pose: Pose::identity(),
@@ -220,7 +220,7 @@ impl Object {
 
     /// The name functions from before aliases see.
     pub fn old_name(&self) -> &str {
-        self.old_name.as_deref().unwrap_or(&self.alias)
+        &self.old_name
     }
 
     pub fn parent(&self) -> Option<Handle> {

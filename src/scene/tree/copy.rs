@@ -84,6 +84,9 @@ impl Scene {
         for &copy in copies.values() {
             self.modify(copy, crate::scene::Field::Other, |object| redirect(object, &copies))?;
         }
+        let name = |(&original, &copy): (&Handle, &Handle)| Ok((copy, self.object(original)?.old_name().to_owned()));
+        let names = copies.iter().map(name).collect::<SceneResult<Vec<_>>>()?;
+        self.number_names(&names)?;
         Ok(copies)
     }
 

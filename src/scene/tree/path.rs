@@ -28,23 +28,11 @@ pub fn clean_alias(alias: &[u8]) -> String {
 }
 
 impl Scene {
-    /// Renames an object; illegal characters become underscores.
+    /// Renames an object; illegal characters become underscores. The old name becomes the same, or the next that is free.
     pub fn set_alias(&mut self, handle: Handle, alias: &[u8]) -> SceneResult<()> {
         let alias = clean_alias(alias);
-        self.modify(handle, Field::Alias, |object| {
-            object.alias = alias;
-            object.old_name = None;
-        })
-    }
-
-    /// Gives an object the name only old functions see.
-    pub fn set_old_name(&mut self, handle: Handle, name: &str) -> SceneResult<()> {
-        self.modify(handle, Field::Other, |object| object.old_name = Some(name.to_owned()))
-    }
-
-    /// The first object with that old-style name, in the order of creation.
-    pub fn find_old_name(&self, name: &str) -> SceneResult<Handle> {
-        self.objects().find(|object| object.old_name() == name).map(Object::handle).ok_or(SceneError::NoSuchPath)
+        let old_name = self.claim_old_name(handle, &alias)?;
+        self.modify(handle, Field::Alias, |object| (object.alias, object.old_name) = (alias, old_name))
     }
 
     /// The object at `path`, relative paths starting at `emitter`; `index` picks another match than the first.

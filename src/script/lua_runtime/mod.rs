@@ -2,6 +2,7 @@
 
 pub(in crate::script) mod coverage;
 pub(in crate::script) mod embedded;
+mod library_globals;
 mod old_calls;
 pub(in crate::script) mod reference_modules;
 mod shared_process;
@@ -163,6 +164,7 @@ impl Interpreter for LuaInterpreter {
         self.on_stack(|stack| {
             let base = stack.top();
             stack.load_text(CALL, "call")?;
+            library_globals::apply(stack, module);
             stack.push_bytes(module.as_bytes());
             stack.push_bytes(function.as_bytes());
             Ok(collect(stack, base, push_args(stack, args)? + 2)?)

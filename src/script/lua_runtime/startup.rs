@@ -7,10 +7,11 @@ use mlua::{Function, Lua, Table};
 
 use super::reference_modules::ReferenceModule;
 use super::user_modules::UserModule;
-use super::{coverage, shared_process, threads, user_modules};
+use super::{coverage, library_globals, shared_process, threads, user_modules};
 use crate::script::binding::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE};
 use crate::script::binding::registry::{Member, MissingId, Namespace};
 use crate::script::binding::{deprecation_notice, error_text, push_function};
+use crate::script::lifecycle::instance::Script;
 use crate::script::lua::{self, LuaError, Stack, State, Type, push_callback};
 use crate::script::sim::Sim;
 
@@ -30,6 +31,7 @@ pub(super) fn fill(sim: &Rc<Sim>, state: &State, user_modules: &[UserModule]) ->
     if is_restricted {
         lua::restrict_libraries(stack);
     }
+    library_globals::install(stack);
     user_modules::install(user_modules, sim, stack)?;
     install_package(sim, stack);
     install_globals(sim, stack);
@@ -37,6 +39,8 @@ pub(super) fn fill(sim: &Rc<Sim>, state: &State, user_modules: &[UserModule]) ->
     seed_random(state.lua(), sim.options.seed)?;
     stack.push_int(stack.owner().script.id);
     stack.set_global("sim_script_handle");
+    stack.push_int(name_suffix(sim, &stack.owner().script));
+    stack.set_global("sim_script_name_index");
     load_module(stack, sim, "base").and_then(|()| stack.protected_call(0, 0))?;
     if is_restricted {
         load_module(stack, sim, "restricted")?;
@@ -49,7 +53,15 @@ pub(super) fn fill(sim: &Rc<Sim>, state: &State, user_modules: &[UserModule]) ->
     if sim.options.limits.is_some() {
         shared_process::install(sim, stack)?;
     }
+    library_globals::take(sim, stack);
     Ok(())
+}
+
+/// The number in the old name of a script's object; -1 without one.
+fn name_suffix(sim: &Sim, script: &Script) -> i64 {
+    let scene = sim.scene.borrow();
+    let object = script.owner().or(script.object).and_then(|handle| scene.object(handle).ok());
+    object.map_or(-1, |object| crate::scene::name_suffix(object.old_name()).0)
 }
 
 /// `math.random` starts from the simulator's seed: Lua's own start is different in every state. From seeds that follow each other its generator
@@ -210,7 +222,11 @@ fn return_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 /// Pushes the chunk of an embedded module.
 pub(super) fn load_module(stack: Stack<'_>, sim: &Sim, name: &str) -> Result<(), LuaError> {
     match sim.modules.registry.files.get(name) {
-        Some(module) => stack.load_bytecode(module.bytecode(name), name),
+        Some(module) => {
+            stack.load_bytecode(module.bytecode(name), name)?;
+            library_globals::apply(stack, name);
+            Ok(())
+        }
         None => Err(LuaError { text: format!("no module '{name}' in Swanilda's library") }),
     }
 }
@@ -270,7 +286,7 @@ fn index_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 
 /// `pairs(sim)`: who iterates gets all names, used before or not.
 fn pairs_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    stack.push_global("next");
+    library_globals::push(stack, "next");
     stack.push_registry(SIM);
     for name in stack.owner().registry.members_of_sim().names() {
         let is_known = stack.raw_get_field(-1, name) != Type::Nil;

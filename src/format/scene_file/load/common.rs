@@ -24,6 +24,12 @@ pub(super) fn alias(common: &Common) -> String {
     clean_alias(alias.as_bytes())
 }
 
+/// The names of the file, with the objects that were made of them.
+pub(super) fn names(objects: &[FileObject], handles: &[Handle]) -> Vec<(Handle, String)> {
+    let pairs = handles.iter().zip(objects);
+    pairs.filter_map(|(handle, object)| Some((*handle, object.common.name.as_ref()?.decode()))).collect()
+}
+
 pub(super) fn fill(scene: &mut Scene, context: &Context<'_>, handle: Handle, object: &FileObject) -> SceneResult<()> {
     let common = &object.common;
     if let Some(pose) = common.pose.and_then(|pose| pose.pose()) {

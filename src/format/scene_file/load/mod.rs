@@ -97,6 +97,7 @@ impl SceneFile {
     /// # Errors
     /// When the scene is full.
     pub fn add_to(self, scene: &mut Scene, settings: bool) -> SceneResult<Loaded> {
+        let file_is_model = self.is_model();
         let Self { file, kinds, attached_sources } = self;
         let context = Context { header: &file.header, file: &file, meshes: Meshes::new(&file) };
         let textures = texture::add(scene, &file.contents.textures)?;
@@ -118,8 +119,13 @@ impl SceneFile {
             file.contents.scripts.iter().zip(sources).filter_map(|(script, source)| {
                 Some(LoadedScript { source, ..script::attached(script, &context, &map)? })
             });
+        let scripts: Vec<LoadedScript> = scripts.collect();
+        let is_attached = |script: &LoadedScript| script.owner.is_some();
+        if file_is_model && scripts.iter().any(is_attached) {
+            scene.number_names(&common::names(&file.contents.objects, &objects))?;
+        }
         let filters = file.contents.objects.iter().zip(&objects).filter_map(|(o, handle)| filters::script(o, *handle));
-        let scripts: Vec<LoadedScript> = scripts.chain(filters).collect();
+        let scripts: Vec<LoadedScript> = scripts.into_iter().chain(filters).collect();
         Ok(Loaded { objects, root, scripts })
     }
 }

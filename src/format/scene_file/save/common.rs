@@ -3,7 +3,7 @@
 use super::{Context, custom_data};
 use crate::format::ttt::chunks::{Common, UserParams};
 use crate::format::ttt::{Counted, OriginalReference, Text};
-use crate::scene::{Data, ForbiddenMovements, Handle, Object, SceneResult};
+use crate::scene::{Data, ForbiddenMovements, Handle, Object, SceneResult, alternative_name};
 
 /// Current programs mark every property with it.
 const WRITTEN_SINCE_2_5: i32 = 0x4;
@@ -54,17 +54,6 @@ pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Comm
 /// The place among the siblings of the same alias; -1 for an alias of one's own.
 fn namesake_order(context: &Context<'_>, object: &Object) -> SceneResult<i32> {
     Ok(context.scene.child_order(object.handle())?.map_or(-1, |order| order as i32))
-}
-
-/// The name of before 4.3 without its copy number sign and the like, which were no letters there.
-fn alternative_name(name: &str) -> String {
-    let signs = [('#', "_HASHMARK_"), ('-', "_MINUSMARK_"), ('(', "_OPARENTHESISMARK_"), (')', "_CPARENTHESISMARK_")];
-    let word = |c: char| match signs.iter().find(|(sign, _)| *sign == c) {
-        Some((_, word)) => (*word).to_owned(),
-        None if c.is_ascii_alphanumeric() => c.to_string(),
-        None => "_".to_owned(),
-    };
-    name.chars().map(word).collect()
 }
 
 /// Bits of what a hand may not do, moving and turning apart.

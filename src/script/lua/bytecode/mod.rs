@@ -62,6 +62,14 @@ impl Stack<'_> {
         self.load(&code.0, name, c"b")
     }
 
+    /// Pops a table and makes it the `_ENV` of the chunk below it.
+    pub(crate) fn set_environment(self) {
+        // SAFETY: the table is on top, the chunk below. `lua_setupvalue` pops the value unless there is no such upvalue.
+        if unsafe { ffi::lua_setupvalue(self.raw(), -2, 1) }.is_null() {
+            self.pop(1);
+        }
+    }
+
     fn load(self, code: &[u8], name: &str, mode: &CStr) -> Result<(), LuaError> {
         let name = CString::new(name.replace('\0', " ")).unwrap_or_default();
         let _room = self.room();

@@ -1,0 +1,228 @@
+//! Names from before aliases (spec: vrep-era 1): unique in a scene; a number after `#`, the suffix, distinguishes the copies of a model.
+
+use std::collections::BTreeMap;
+
+use crate::scene::{Field, Handle, Scene, SceneError, SceneResult};
+
+/// Longest name that a script may choose, bytes.
+const LONGEST: usize = 127;
+
+/// The names of a scene.
+#[derive(Debug, Default)]
+pub(in crate::scene) struct OldNames {
+    handles: BTreeMap<String, Handle>,
+    /// For names that end in a number, by what is before it: all smaller numbers are in use.
+    first_free: BTreeMap<String, u64>,
+}
+
+impl OldNames {
+    /// Reserves a name for an object: the wished one, or the next free number at its end.
+    pub(in crate::scene) fn claim(&mut self, wished: &str, handle: Handle) -> String {
+        let name = if self.handles.contains_key(wished) { self.next_free(wished) } else { wished.to_owned() };
+        self.handles.insert(name.clone(), handle);
+        name
+    }
+
+    /// Makes a name available again.
+    pub(in crate::scene) fn release(&mut self, name: &str) {
+        self.handles.remove(name);
+        let (stem, number) = split_number(name);
+        if let (Some(number), Some(first)) = (number, self.first_free.get_mut(stem)) {
+            *first = number.min(*first);
+        }
+    }
+
+    fn next_free(&mut self, taken: &str) -> String {
+        let (stem, own) = split_number(taken);
+        let known = self.first_free.get(stem).copied().unwrap_or(0);
+        let begin = own.map_or(0, |own| own.saturating_add(1)).max(known);
+        let is_free = |number: &u64| !self.handles.contains_key(&format!("{stem}{number}"));
+        let number = (begin..).find(is_free).expect("there are fewer objects than numbers");
+        if begin == known {
+            self.first_free.insert(stem.to_owned(), number + 1);
+        }
+        format!("{stem}{number}")
+    }
+
+    /// The largest suffix in use; -1 if there is none.
+    fn highest_suffix(&self) -> i64 {
+        self.handles.keys().map(|name| suffix(name).0).max().unwrap_or(-1)
+    }
+}
+
+/// A name without the number at its end, and that number.
+fn split_number(name: &str) -> (&str, Option<u64>) {
+    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    (stem, name[stem.len()..].parse().ok())
+}
+
+/// The number after the `#` of a name, -1 without one, and what is before it.
+pub fn suffix(name: &str) -> (i64, &str) {
+    let Some((stem, number)) = name.rsplit_once('#') else { return (-1, name) };
+    match number.parse::<u32>() {
+        Ok(number) => (number.into(), stem),
+        Err(_) if number.is_empty() => (-1, stem),
+        Err(_) => (-1, name),
+    }
+}
+
+fn with_suffix(name: &str, number: i64) -> String {
+    let stem = suffix(name).1;
+    if number < 0 { stem.to_owned() } else { format!("{stem}#{number}") }
+}
+
+/// Whether a script may choose this name.
+fn is_legal(name: &str) -> bool {
+    let (stem, number) = name.split_once('#').map_or((name, None), |(stem, number)| (stem, Some(number)));
+    let is_word = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '(' | ')');
+    let is_number = |text: &str| {
+        !text.is_empty() && text.bytes().all(|c| c.is_ascii_digit()) && (text == "0" || !text.starts_with('0'))
+    };
+    !stem.is_empty() && name.len() <= LONGEST && stem.chars().all(is_word) && number.is_none_or(is_number)
+}
+
+/// The name with words for all signs that were illegal before V-REP 2.3.
+pub fn alternative_name(name: &str) -> String {
+    let signs = [('#', "_HASHMARK_"), ('-', "_MINUSMARK_"), ('(', "_OPARENTHESISMARK_"), (')', "_CPARENTHESISMARK_")];
+    let word = |c: char| match signs.iter().find(|(sign, _)| *sign == c) {
+        Some((_, word)) => (*word).to_owned(),
+        None if c.is_ascii_alphanumeric() => c.to_string(),
+        None => "_".to_owned(),
+    };
+    name.chars().map(word).collect()
+}
+
+impl Scene {
+    /// Renames an object for functions from before aliases. Where the name is taken, the next number replaces the one at its end.
+    ///
+    /// # Errors
+    /// When there is no such object.
+    pub fn set_old_name(&mut self, handle: Handle, name: &str) -> SceneResult<()> {
+        let name = self.claim_old_name(handle, name)?;
+        self.modify(handle, Field::Other, |object| object.old_name = name)
+    }
+
+    /// Reserves a name in place of the present one.
+    pub(super) fn claim_old_name(&mut self, handle: Handle, name: &str) -> SceneResult<String> {
+        let previous = self.object(handle)?.old_name().to_owned();
+        self.old_names.release(&previous);
+        Ok(self.old_names.claim(name, handle))
+    }
+
+    /// The same for a name that must be legal and unused.
+    ///
+    /// # Errors
+    /// When it is not, or there is no such object.
+    pub fn rename(&mut self, handle: Handle, name: &str) -> SceneResult<()> {
+        if self.object(handle)?.old_name() == name {
+            return Ok(());
+        }
+        if !is_legal(name) || self.old_names.handles.contains_key(name) {
+            return Err(SceneError::IllegalName);
+        }
+        self.set_old_name(handle, name)
+    }
+
+    /// The object with that name.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn find_old_name(&self, name: &str) -> SceneResult<Handle> {
+        self.old_names.handles.get(name).copied().ok_or(SceneError::NoSuchPath)
+    }
+
+    /// The object with that alternative name.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn find_alternative_name(&self, name: &str) -> SceneResult<Handle> {
+        let mut names = self.old_names.handles.iter();
+        let found = names.find(|(known, _)| alternative_name(known) == name);
+        found.map(|(_, handle)| *handle).ok_or(SceneError::NoSuchPath)
+    }
+
+    /// Renames the objects of a model that was added, given their names in the model: all of one suffix get the same other suffix, the
+    /// smallest with which no name is used twice.
+    ///
+    /// # Errors
+    /// When an object does not exist.
+    pub fn number_names(&mut self, group: &[(Handle, String)]) -> SceneResult<()> {
+        for (handle, _) in group {
+            let name = self.object(*handle)?.old_name().to_owned();
+            self.old_names.release(&name);
+        }
+        let mut by_suffix: BTreeMap<i64, Vec<(Handle, &str)>> = BTreeMap::new();
+        for (handle, name) in group {
+            by_suffix.entry(suffix(name).0).or_default().push((*handle, name));
+        }
+        let lowest = by_suffix.keys().next().copied().unwrap_or(-1);
+        let offset = self.old_names.highest_suffix() - lowest + 1;
+        for (own, members) in by_suffix {
+            let is_free = |number: i64| {
+                members.iter().all(|(_, name)| !self.old_names.handles.contains_key(&with_suffix(name, number)))
+            };
+            let number = (-1..own + offset).find(|&number| is_free(number)).unwrap_or(own + offset);
+            for (handle, name) in members {
+                let name = self.old_names.claim(&with_suffix(name, number), handle);
+                self.modify(handle, Field::Other, |object| object.old_name = name)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Kind;
+    use crate::scene::object::dummy::Dummy;
+
+    fn add(scene: &mut Scene, name: &str) -> Handle {
+        let handle = scene.add("dummy", Kind::Dummy(Dummy::new(0.01))).expect("there is room");
+        scene.set_old_name(handle, name).expect("it exists");
+        handle
+    }
+
+    fn name(scene: &Scene, handle: Handle) -> String {
+        scene.object(handle).expect("it exists").old_name().to_owned()
+    }
+
+    #[test]
+    fn created_objects_get_the_next_number() {
+        let mut scene = Scene::new();
+        let made: Vec<Handle> = (0..3).map(|_| add(&mut scene, "dummy")).collect();
+        assert_eq!(made.iter().map(|&h| name(&scene, h)).collect::<Vec<_>>(), ["dummy", "dummy0", "dummy1"]);
+        scene.remove(&[made[1]]).expect("it exists");
+        let next = add(&mut scene, "dummy");
+        assert_eq!(name(&scene, next), "dummy0");
+        let arm = [add(&mut scene, "arm7"), add(&mut scene, "arm7")];
+        assert_eq!(name(&scene, arm[1]), "arm8");
+    }
+
+    #[test]
+    fn models_are_numbered_as_a_whole() {
+        let mut scene = Scene::new();
+        for expected in [["bot", "bot_motor"], ["bot#0", "bot_motor#0"], ["bot#1", "bot_motor#1"]] {
+            let names = ["bot", "bot_motor"];
+            let group: Vec<_> = names.iter().map(|name| (add(&mut scene, name), (*name).to_owned())).collect();
+            scene.number_names(&group).expect("they exist");
+            assert_eq!([0, 1].map(|at| name(&scene, group[at].0)), expected);
+        }
+        assert!(scene.find_old_name("bot_motor#1").is_ok());
+    }
+
+    #[test]
+    fn suffixes_are_split() {
+        assert_eq!([suffix("arm#12"), suffix("arm12"), suffix("arm#")], [(12, "arm"), (-1, "arm12"), (-1, "arm")]);
+    }
+
+    #[test]
+    fn illegal_names_are_refused() {
+        for name in ["", "#1", "arm#", "arm#00", "my arm", "a#b", "a#1#2", &"x".repeat(128)] {
+            assert!(!is_legal(name), "{name}");
+        }
+        for name in ["arm", "arm#0", "arm#12", "arm(2)", "a_b", &"x".repeat(127)] {
+            assert!(is_legal(name), "{name}");
+        }
+    }
+}
