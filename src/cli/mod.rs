@@ -24,7 +24,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use session::{interrupt, output, permissions, progress, setup, video};
+use session::{graphs, interrupt, output, permissions, progress, setup, video};
 
 /// Exit code for a wrong command line or a file that cannot be read or written; clap uses the same.
 const USAGE: u8 = 2;

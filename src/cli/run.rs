@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
+use super::graphs::GraphArgs;
 use super::interrupt::Interrupt;
 use super::progress::Progress;
 use super::remote::Remote;
@@ -40,6 +41,8 @@ pub(super) struct Args {
     loops: u64,
     #[command(flatten)]
     video: VideoArgs,
+    #[command(flatten)]
+    graphs: GraphArgs,
     #[command(flatten)]
     remote: Remote,
     #[command(flatten)]
@@ -100,7 +103,7 @@ pub(super) fn run(args: &Args) -> ExitCode {
         sim.run(args.limits(), &mut session)
     };
     session.progress.finish();
-    let video = args.video.finish(&mut sim);
+    let written = args.video.finish(&mut sim).and(args.graphs.write(&sim));
     if interrupt.is_requested() {
         sim.request_stop();
         // Scripts that outlive a run clean up when their scene is closed.
@@ -108,10 +111,10 @@ pub(super) fn run(args: &Args) -> ExitCode {
     }
     let errors = sim.errors();
     drop(sim);
-    if let Err(reason) = &video {
+    if let Err(reason) = &written {
         complain(reason);
     }
-    let code = match (interrupt.is_requested(), video, errors) {
+    let code = match (interrupt.is_requested(), written, errors) {
         (true, ..) => interrupt.exit_code(),
         (_, Err(_), _) => USAGE,
         (_, _, 0) => 0,

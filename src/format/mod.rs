@@ -1,6 +1,8 @@
 //! Files of other programs.
 
+pub(crate) mod graph_file;
 pub(crate) mod picture;
+pub(crate) mod plot;
 
 pub(crate) mod scene_file;
 pub(crate) mod scene_folder;

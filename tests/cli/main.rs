@@ -2,6 +2,7 @@
 #![allow(clippy::disallowed_methods, reason = "every wait of a test is bounded by the clock")]
 
 mod commands;
+mod graphs;
 #[cfg(unix)]
 mod interrupts;
 mod messages;

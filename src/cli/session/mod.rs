@@ -1,5 +1,6 @@
 //! What `swanilda run` does while a simulation runs: it shows progress, rests, and listens for ctrl-c.
 
+pub(super) mod graphs;
 pub(super) mod interrupt;
 pub(super) mod output;
 pub(super) mod permissions;

@@ -1,15 +1,14 @@
 //! Plots of expected and actual traces.
 
 use std::error::Error;
-use std::sync::Once;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::{FontStyle, register_font};
 
 use super::compare::Difference;
 use super::{Comparison, ComparisonResult, Recordings};
 use crate::format::picture::{Layout, Picture};
+use crate::format::plot::{drawable, label, load_font, range, thinned};
 use crate::script::test_bench::Trace;
 
 /// Pixels.
@@ -80,24 +79,8 @@ where
 
 /// The points of a column that can be drawn: time and value.
 fn points(trace: &Trace, column: usize) -> Vec<(f64, f64)> {
-    let points = trace.rows.iter().map(|row| (row[0], row[column + 1]));
-    // Larger values leave no room between two lines of a grid.
-    thinned(points.filter(|(_, value)| value.is_finite() && value.abs() < 1e100).collect())
-}
-
-/// Of the many points over one pixel, only the lowest and the highest can be seen.
-fn thinned(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
-    if points.len() <= 2 * WIDTH as usize {
-        return points;
-    }
-    let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
-    let extremes = |some: &[(f64, f64)]| {
-        let mut ends: Vec<_> =
-            some.iter().min_by(by_value).into_iter().chain(some.iter().max_by(by_value)).copied().collect();
-        ends.sort_by(|a, b| a.0.total_cmp(&b.0));
-        ends
-    };
-    points.chunks(points.len().div_ceil(WIDTH as usize)).flat_map(extremes).collect()
+    let points: Vec<(f64, f64)> = trace.rows.iter().map(|row| (row[0], row[column + 1])).collect();
+    thinned(drawable(&points), WIDTH as usize)
 }
 
 fn draw_quantity<B>(area: &DrawingArea<B, Shift>, name: &str, was: &[(f64, f64)], is: &[(f64, f64)]) -> Drawn<()>
@@ -124,25 +107,4 @@ where
     }
     chart.configure_series_labels().background_style(WHITE.mix(0.8)).border_style(EXPECTED).draw()?;
     Ok(())
-}
-
-fn label(value: f64) -> String {
-    if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) { format!("{value:.2e}") } else { format!("{value:.4}") }
-}
-
-/// The range of some numbers with a little room; never empty.
-fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
-    if low > high {
-        return 0.0..1.0;
-    }
-    let room = ((high - low) * 0.05).max(high.abs().max(low.abs()) * 1e-9).max(1e-12);
-    low - room..high + room
-}
-
-/// plotters brings no font; it needs one also to measure the words of an SVG.
-fn load_font() {
-    static LOADED: Once = Once::new();
-    // A font that cannot be loaded leaves a picture without words.
-    LOADED.call_once(|| drop(register_font("sans-serif", FontStyle::Normal, dejavu::sans::regular())));
 }
