@@ -53,6 +53,8 @@ pub struct Options {
     pub limits: Option<Limits>,
     /// Whether to count the lines of scripts that run. Scripts are slower meanwhile.
     pub count_lines: bool,
+    /// Whether the error for a missing module has CoppeliaSim's text, with every place that was searched.
+    pub original_errors: bool,
     /// Threads that draw pictures; None for as many as there are processor cores. Pictures do not depend on it.
     pub render_threads: Option<NonZero<usize>>,
     /// The address on which servers of scripts listen.
@@ -74,6 +76,7 @@ impl Default for Options {
             stop: Arc::default(),
             limits: None,
             count_lines: false,
+            original_errors: false,
             render_threads: None,
             listen_address: Ipv4Addr::LOCALHOST.into(),
             web_origins: Vec::new(),

@@ -105,6 +105,18 @@ fn a_missing_plugin_is_named_in_one_line() {
 }
 
 #[test]
+fn original_errors_list_the_places_where_a_plugin_was_searched() {
+    let scene =
+        Scene::new("local _, text = pcall(require, 'simROS2') print((text:gsub('\\n.*', '')))\nrequire 'simROS2'");
+    let output = scene.run(&["--steps", "1", "--empty", "--quiet", "--original-errors"]);
+    assert_eq!(stdout(&output), "module 'simROS2' not found:\n");
+    let log = stderr(&output);
+    assert!(log.contains("[/Script:error]   module 'simROS2' not found:\n"), "{log}");
+    assert!(log.contains("no field package.preload['simROS2']\n"), "{log}");
+    assert!(!log.contains("PLUGINS.md"), "{log}");
+}
+
+#[test]
 fn a_scene_s_own_module_goes_before_a_missing_plugin() {
     let scene = Scene::new("print(require('simIK').mine)");
     fs::write(scene.folder.path().join("simIK.lua"), "return {mine = 7}").expect("our own folder is writable");

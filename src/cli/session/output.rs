@@ -147,7 +147,7 @@ impl Output {
     }
 
     fn write_error(&self, line: &LogLine<'_>) {
-        let text = if self.format == Format::OriginalText { line.decorated() } else { line.located() };
+        let text = if self.format == Format::OriginalText { line.original() } else { line.located() };
         self.bar.suspend(|| {
             let _ = writeln!(std::io::stderr().lock(), "{text}");
         });

@@ -49,7 +49,7 @@ pub(in crate::cli) struct Setup {
     /// Print JSON lines (output, log and summary) on standard output
     #[arg(long)]
     pub json: bool,
-    /// Log errors in CoppeliaSim's words only, without files and hints
+    /// Report errors in CoppeliaSim's words only, without files and hints
     #[arg(long)]
     original_errors: bool,
     /// Suppress status messages and the summary
@@ -121,6 +121,7 @@ impl Setup {
             data_dir: self.data_dir.clone(),
             package_dirs: scene.map(folder_of).into_iter().collect(),
             stop: interrupt.flag(),
+            original_errors: self.original_errors,
             ..Options::default()
         };
         options.seed = self.seed.unwrap_or(options.seed);

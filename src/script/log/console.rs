@@ -43,6 +43,14 @@ impl LogLine<'_> {
         LogLine { text: self.located.unwrap_or(self.text), ..*self }.decorated()
     }
 
+    /// The line as CoppeliaSim shows it: messages of its libraries have no author.
+    pub fn original(&self) -> String {
+        if self.origin == "CoppeliaSim" && self.level & verbosity::UNDECORATED != 0 {
+            return self.text.to_owned();
+        }
+        self.decorated()
+    }
+
     /// The text; where it is marked as HTML, by `@html` at its end, without mark and tags.
     pub fn plain_text(&self) -> Cow<'_, str> {
         self.text.strip_suffix(HTML_MARK).map_or(Cow::Borrowed(self.text), |html| Cow::Owned(without_tags(html)))
@@ -107,6 +115,16 @@ mod tests {
         assert_eq!(plain("<b>bold</b> text@html"), "bold text");
         assert_eq!(plain("<b>bold</b> text"), "<b>bold</b> text");
         assert_eq!(plain("1 < 2@html"), "1 < 2");
+    }
+
+    #[test]
+    fn messages_of_the_original_s_libraries_have_no_author() {
+        let level = verbosity::SCRIPT_WARNINGS | verbosity::UNDECORATED;
+        let line = LogLine { origin: "CoppeliaSim", level, text: "refused", located: None, time: 0.0, status: false };
+        assert_eq!(line.original(), "refused");
+        assert_eq!(line.decorated(), "[CoppeliaSim:warning]   refused");
+        assert_eq!(LogLine { origin: "/script", ..line }.original(), "[/script:warning]   refused");
+        assert_eq!(LogLine { level: verbosity::SCRIPT_WARNINGS, ..line }.original(), line.decorated());
     }
 
     #[test]

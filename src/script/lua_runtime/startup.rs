@@ -138,15 +138,17 @@ fn search_embedded(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     find_module(stack, &name)
 }
 
-/// Finds the others. The error for a module of CoppeliaSim that was not found says that it is missing, without the searched places.
+/// Finds the others. The error for a module of CoppeliaSim that was not found says that it is missing, without the searched places,
+/// unless the original text is wanted.
 fn search_last(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let name = String::from_utf8_lossy(&stack.text(1).unwrap_or_default()).into_owned();
     if LAST.contains(&&*name) {
         return find_module(stack, &name);
     }
+    let wants_original = stack.owner().sim.upgrade().is_some_and(|sim| sim.options.original_errors);
     match ReferenceModule::all().find(|module| module.name == name) {
-        Some(module) => Err(module.missing()),
-        None => Ok(0),
+        Some(module) if !wants_original => Err(module.missing()),
+        _ => Ok(0),
     }
 }
 
