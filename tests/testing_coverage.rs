@@ -179,6 +179,15 @@ fn lines_of_scenes_scripts_and_modules_are_counted() {
 }
 
 #[test]
+fn children_report_their_lines_to_the_parent() {
+    let project = project();
+    run(project.path(), &["--coverage", "--isolate", "-j", "2"]);
+    assert_eq!(read(project.path(), "lcov.info"), REPORT);
+    let copy = read(project.path(), "coverage/scenes/robot.ttt/robot/script.lua");
+    assert!(copy.starts_with("function sysCall_init()"), "{copy}");
+}
+
+#[test]
 fn the_report_does_not_depend_on_the_number_of_threads() {
     let project = project();
     run(project.path(), &["--coverage=report.info", "-j", "3", "--repeat", "2"]);

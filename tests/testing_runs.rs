@@ -9,13 +9,18 @@ use support::process::{run_for_code, run_within};
 
 /// Writes test files into a folder and runs them there; the exit code, and what was written to standard output and error.
 fn run(files: &[(&str, &str)], args: &[&str]) -> (i32, String) {
+    try_run(files, args).expect("it ends")
+}
+
+/// The same; an error with the output if it was ended by a signal.
+fn try_run(files: &[(&str, &str)], args: &[&str]) -> Result<(i32, String), String> {
     let dir = tempfile::tempdir().expect("a folder");
     for (name, text) in files {
         std::fs::write(dir.path().join(name), text).expect("a file");
     }
     let mut command = Command::new(env!("CARGO_BIN_EXE_swanilda"));
     command.arg("test").args(args).current_dir(dir.path());
-    run_for_code(&mut command, Duration::from_secs(120)).expect("it ends")
+    run_for_code(&mut command, Duration::from_secs(120))
 }
 
 const SCENE: &str = "sim = require 'sim'
@@ -127,6 +132,33 @@ fn isolated_tests_crash_alone() {
     assert!(output.contains("1 passed, 1 failed, 2 errors, 1 pending"), "{output}");
     assert!(output.contains("last words") && output.contains("longer than 2 s"), "{output}");
     assert!(output.contains("crash_test.lua:6"), "{output}");
+}
+
+#[test]
+#[cfg(unix)]
+fn after_a_crash_all_tests_run_again_in_children() {
+    for signal in ["ABRT", "ILL"] {
+        let suite = "
+    it('goes on', function() end)
+    it('crashes', function() os.execute('kill -SIGNAL $PPID') end)
+    it('fails', function() assert.equal(1, 2) end)";
+        let suite = suite.replace("SIGNAL", signal);
+        let (code, output) = run(&[("crash_test.lua", &suite)], &["-v", "-j", "1"]);
+        assert_eq!(code, 1, "{output}");
+        assert_eq!(output.matches("All tests run again, each in a child process").count(), 1, "{output}");
+        assert!(output.contains(&format!("SIG{signal}")), "{output}");
+        assert!(output.contains("1 passed, 1 failed, 1 error"), "{output}");
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_stream_of_results_is_not_begun_twice() {
+    let suite = "it('crashes', function() os.execute('kill -ABRT $PPID') end)";
+    let output = try_run(&[("crash_test.lua", suite)], &["--json", "-j", "1"]).expect_err("a crash");
+    assert!(output.starts_with("ended by a signal"), "{output}");
+    assert_eq!(output.matches("\"begin\"").count(), 1, "{output}");
+    assert!(!output.contains("All tests run again"), "{output}");
 }
 
 #[test]

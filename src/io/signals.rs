@@ -3,9 +3,9 @@
 //! Elsewhere than on Unix there are none: the end is asked for by ctrl-c, and threads cannot be interrupted.
 
 #[cfg(not(unix))]
-pub(crate) use elsewhere::{InterruptibleThread, last_request, note_requests, standard_output_is_closed};
+pub(crate) use elsewhere::{InterruptibleThread, last_request, note_requests, run_on_crash, standard_output_is_closed};
 #[cfg(unix)]
-pub(crate) use unix::{InterruptibleThread, last_request, note_requests, standard_output_is_closed};
+pub(crate) use unix::{InterruptibleThread, last_request, note_requests, run_on_crash, standard_output_is_closed};
 
 /// The number of the signal that ctrl-c sends.
 pub(crate) const INTERRUPT: i32 = 2;
@@ -14,7 +14,10 @@ pub(crate) const CLOSED_PIPE: i32 = 13;
 
 #[cfg(unix)]
 mod unix {
+    use std::ffi::{CString, OsString};
     use std::mem::MaybeUninit;
+    use std::os::unix::ffi::OsStringExt;
+    use std::ptr;
     use std::sync::OnceLock;
     use std::sync::atomic::{AtomicI32, AtomicUsize, Ordering};
 
@@ -102,6 +105,49 @@ mod unix {
         }
     }
 
+    /// Signals of faults in native code.
+    const CRASHES: [c_int; 5] = [libc::SIGSEGV, libc::SIGBUS, libc::SIGILL, libc::SIGFPE, libc::SIGABRT];
+
+    /// A program to run after a crash, in the form that the system takes.
+    struct Successor {
+        /// Printed to standard error before.
+        message: String,
+        args: Vec<CString>,
+    }
+
+    static SUCCESSOR: OnceLock<Successor> = OnceLock::new();
+    /// The most arguments that can be passed on: a handler cannot allocate.
+    const MOST_ARGS: usize = 256;
+
+    /// When native code crashes, prints `message` and replaces this process by the program `args[0]`, which has no crash handler then. Does
+    /// nothing where the arguments are too many, or cannot be passed on.
+    pub(crate) fn run_on_crash(message: String, args: Vec<OsString>) {
+        let args: Result<Vec<_>, _> = args.into_iter().map(|arg| CString::new(arg.into_vec())).collect();
+        let Some(args) = args.ok().filter(|args| (1..MOST_ARGS).contains(&args.len())) else { return };
+        SUCCESSOR.get_or_init(|| Successor { message, args });
+        for signal in CRASHES {
+            // A fault may be a stack that is full: the handler has one of its own, which Rust gives to each thread.
+            handle(signal, succeed, libc::SA_ONSTACK | libc::SA_RESETHAND | libc::SA_NODEFER);
+        }
+    }
+
+    /// Only calls that are allowed in a handler.
+    extern "C" fn succeed(signal: c_int) {
+        if let Some(Successor { message, args }) = SUCCESSOR.get() {
+            let mut pointers = [ptr::null(); MOST_ARGS];
+            for (pointer, arg) in pointers.iter_mut().zip(args) {
+                *pointer = arg.as_ptr();
+            }
+            // SAFETY: the texts live as long as the process, and the list of pointers ends with a null pointer, being longer than `args`.
+            unsafe {
+                libc::write(libc::STDERR_FILENO, message.as_ptr().cast(), message.len());
+                libc::execv(pointers[0], pointers.as_ptr());
+            }
+        }
+        // SAFETY: the handler is the system's again, which ends the process.
+        unsafe { libc::raise(signal) };
+    }
+
     /// Whether nobody reads standard output any more.
     pub(crate) fn standard_output_is_closed() -> bool {
         let stdout = std::io::stdout();
@@ -118,6 +164,8 @@ mod elsewhere {
     pub(crate) fn last_request() -> i32 {
         super::INTERRUPT
     }
+
+    pub(crate) fn run_on_crash(_: String, _: Vec<std::ffi::OsString>) {}
 
     pub(crate) fn standard_output_is_closed() -> bool {
         false

@@ -6,10 +6,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::case::{Outcome, Status, TestCase};
 use super::excerpt::Excerpt;
+use super::report;
+use crate::script::coverage::{CountedText, LineCounts};
 use crate::script::test_bench::ConsoleLine;
 
 /// How often the process is looked at.
@@ -76,7 +78,42 @@ fn outcome(text: &str, test: &Arc<TestCase>) -> Option<Outcome> {
     outcome.steps = value["steps"].as_u64().unwrap_or_default();
     outcome.excerpts = list(&value["excerpts"]).map(excerpt).collect();
     outcome.console = list(&value["console"]).map(console_line).collect();
+    outcome.line_counts = line_counts(&value["lineCounts"]);
     Some(outcome)
+}
+
+/// The line that a child prints: that of the JSON report, with the counts of lines.
+pub(super) fn printed(outcome: &Outcome, counts: &LineCounts) -> String {
+    let mut value = report::json::test_value(outcome);
+    let texts = counts.texts.iter().map(|(text, counts)| match text {
+        CountedText::File(file) => json!({"file": file.to_string_lossy(), "counts": counts}),
+        CountedText::Script { scene, path, text } => {
+            json!({"scene": scene, "path": path, "text": latin1(text), "counts": counts})
+        }
+    });
+    value["lineCounts"] = texts.collect();
+    value.to_string() + "\n"
+}
+
+fn line_counts(value: &Value) -> LineCounts {
+    let mut all = LineCounts::default();
+    for value in list(value) {
+        let text = match value["file"].as_str() {
+            Some(file) => CountedText::File(file.into()),
+            None => {
+                let text = string(&value["text"]).chars().filter_map(|c| u8::try_from(c).ok()).collect();
+                CountedText::Script { scene: string(&value["scene"]), path: string(&value["path"]), text }
+            }
+        };
+        let counts: Vec<u64> = list(&value["counts"]).filter_map(Value::as_u64).collect();
+        all.add(text, &counts);
+    }
+    all
+}
+
+/// Bytes as characters, one each: JSON holds no others, and a script need not be UTF-8.
+fn latin1(bytes: &[u8]) -> String {
+    bytes.iter().map(|&byte| char::from(byte)).collect()
 }
 
 fn excerpt(value: &Value) -> Excerpt {
@@ -100,4 +137,25 @@ fn list(value: &Value) -> impl Iterator<Item = &Value> {
 
 fn string(value: &Value) -> String {
     value.as_str().unwrap_or_default().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    #[test]
+    fn counts_of_lines_come_back_from_a_child() {
+        let mut counts = LineCounts::default();
+        counts.add(CountedText::File("lib/a.lua".into()), &[1, 0, 7]);
+        let text = b"-- \xff\xc3\xa4\nx = 1".as_slice().into();
+        counts.add(CountedText::Script { scene: "s.ttt".into(), path: "/Arm".into(), text }, &[0, 2]);
+        let test = Arc::new(TestCase::of_file(Path::new("a_test.lua")));
+        let passed = Outcome::new(Arc::clone(&test), Status::Passed, "");
+        let printed = printed(&passed, &counts);
+        assert_eq!(printed.lines().count(), 1);
+        let read = outcome(&printed, &test).expect("the line of a test");
+        assert_eq!((read.status, read.line_counts.texts), (Status::Passed, counts.texts));
+    }
 }

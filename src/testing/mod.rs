@@ -60,7 +60,7 @@ pub struct Config {
     pub allowance: Allowance,
     /// What scripts may do; the scene's folder is that of the test's file.
     pub permissions: Permissions,
-    /// The command that runs a test in a process of its own and prints its outcome as JSON; None: tests run here.
+    /// The command that runs a test in a process of its own and prints its outcome by [`run_child`]; None: tests run here.
     pub isolate: Option<fn(&TestCase) -> std::process::Command>,
     /// Number and repetition of the only test to run.
     pub only: Option<(usize, u32)>,
@@ -177,6 +177,19 @@ pub fn run(config: &Config, reporter: &mut dyn Reporter) -> std::io::Result<Summ
     };
     reporter.end(&summary);
     Ok(summary)
+}
+
+/// In the child process of a test (`Config::only`): runs it and returns the line that the parent reads.
+///
+/// # Errors
+/// When its file cannot be read.
+pub fn run_child(config: &Config) -> std::io::Result<String> {
+    struct Quiet;
+    impl Reporter for Quiet {
+        fn outcome(&mut self, _: &Outcome) {}
+    }
+    let (outcomes, counts) = run_plan(config, plan(config)?, &mut Quiet);
+    Ok(outcomes.first().map(|outcome| isolated::printed(outcome, &counts)).unwrap_or_default())
 }
 
 /// The outcomes in the order of the files, and what lines ran.

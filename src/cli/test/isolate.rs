@@ -4,7 +4,8 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::testing::{Config, TestCase};
+use crate::io::signals::run_on_crash;
+use crate::testing::{self, Config, TestCase};
 
 /// The variable with the number, repetition and file of the one test to run.
 const TEST: &str = "SWANILDA_ISOLATED_TEST";
@@ -19,6 +20,17 @@ pub(super) fn command(test: &TestCase) -> Command {
     command
 }
 
+/// When a test crashes the process, it begins anew with a child for each test.
+pub(super) fn after_crash() {
+    let Ok(program) = std::env::current_exe() else { return };
+    let mut args: Vec<_> = std::env::args_os().collect();
+    let Some(subcommand) = args.iter().position(|arg| arg == "test") else { return };
+    args[0] = program.into_os_string();
+    args.insert(subcommand + 1, "--isolate".into());
+    let message = "\nswanilda: native code crashed in a test. All tests run again, each in a child process (--isolate).\n";
+    run_on_crash(message.to_owned(), args);
+}
+
 /// In a child: restricts the tests to the one.
 pub(super) fn restrict(config: &mut Config) -> bool {
     let Some(which) = std::env::var_os(TEST) else { return false };
@@ -30,4 +42,19 @@ pub(super) fn restrict(config: &mut Config) -> bool {
     config.isolate = None;
     (config.filters, config.shard, config.jobs) = (Vec::new(), None, 1);
     true
+}
+
+/// In a child: runs the test, and ends the process at once, since a test that could not be ended may still keep a thread.
+pub(super) fn run(config: &Config) -> ! {
+    let code = match testing::run_child(config) {
+        Ok(line) => {
+            super::super::say(line.as_bytes());
+            0
+        }
+        Err(error) => {
+            super::super::complain(&error.to_string());
+            1
+        }
+    };
+    std::process::exit(code)
 }

@@ -78,7 +78,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "lcov.info")]
     coverage: Option<PathBuf>,
     /// Run each test in a child process, so that a crash in native code ends this test only
-    #[arg(long, conflicts_with = "coverage")]
+    #[arg(long)]
     isolate: bool,
     /// Run the tests again whenever a file next to or below them changes
     #[arg(long)]
@@ -103,8 +103,10 @@ pub(super) fn test(args: &Args) -> ExitCode {
     let interrupt = Interrupt::install(INTERRUPTED);
     let mut config = args.config(&interrupt);
     if args.isolate && isolate::restrict(&mut config) {
-        let ran = testing::run(&config, &mut reports::Reports::json());
-        std::process::exit(i32::from(ran.is_err()));
+        isolate::run(&config);
+    }
+    if !args.isolate && !args.list && !args.reports.streams() {
+        isolate::after_crash();
     }
     let ran = match (args.list, args.watch) {
         (true, _) => list(&config),

@@ -47,6 +47,11 @@ impl ReportArgs {
         [&self.junit, &self.html].into_iter().flatten().try_for_each(|file| check(file))
     }
 
+    /// Whether results go to standard output for programs, which cannot be asked to forget them.
+    pub(super) fn streams(&self) -> bool {
+        self.tap || self.json
+    }
+
     /// Output while the tests run.
     pub(super) fn reporter(&self) -> Reports {
         let stream = if self.tap { Some(Stream::Tap(0)) } else { self.json.then_some(Stream::Json) };
@@ -86,13 +91,6 @@ impl ReportArgs {
 pub(super) struct Reports {
     terminal: Option<Terminal>,
     stream: Option<Stream>,
-}
-
-impl Reports {
-    /// Nothing but lines of JSON.
-    pub(super) fn json() -> Self {
-        Self { terminal: None, stream: Some(Stream::Json) }
-    }
 }
 
 /// A report on standard output.

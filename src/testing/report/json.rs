@@ -16,8 +16,12 @@ pub fn begin(tests: &[impl AsRef<TestCase>]) -> String {
 
 /// The line of a test that is over.
 pub fn test(outcome: &Outcome) -> String {
+    line(&test_value(outcome))
+}
+
+pub(in crate::testing) fn test_value(outcome: &Outcome) -> Value {
     let test = &outcome.test;
-    line(&json!({
+    json!({
         "type": "test",
         "file": test.file.to_string_lossy(),
         "name": test.name,
@@ -36,7 +40,7 @@ pub fn test(outcome: &Outcome) -> String {
         "steps": outcome.steps,
         "wallTime": outcome.wall.as_secs_f64(),
         "console": outcome.console.iter().map(console_line).collect::<Vec<_>>(),
-    }))
+    })
 }
 
 /// The last line: counts.
