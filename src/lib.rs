@@ -16,9 +16,9 @@ pub mod testing;
 pub(crate) mod wire;
 
 pub use format::scene_file::SceneFile;
-/// What Lua modules in Rust are written with, see [`Simulator::builder`].
+/// The library for Lua modules in Rust, see [`Simulator::builder`].
 pub use mlua;
 pub use perception::vision::{Channels, Picture};
 pub use permissions::{Denied, HostRule, Permissions};
 pub use script::{Console, Limits, LogLine, Options, Silent, SimulationState, VideoFailure, VideoOptions, VideoView};
-pub use simulator::{Builder, Error, Onlooker, RunLimits, RunTotals, ScriptKind, ScriptRef, Simulator};
+pub use simulator::{Builder, Error, RunLimits, RunObserver, RunTotals, ScriptKind, ScriptRef, Simulator};

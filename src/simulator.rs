@@ -28,7 +28,7 @@ use crate::script::{
 };
 
 pub use builder::Builder;
-pub use run::{Onlooker, RunLimits, RunTotals};
+pub use run::{RunLimits, RunObserver, RunTotals};
 
 /// The add-on that serves clients by ZeroMQ.
 const ZMQ_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.zmq'";
@@ -45,7 +45,7 @@ pub enum Error {
     Script(String),
 }
 
-/// What a script file becomes.
+/// Type of script made from a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ScriptKind {
     /// A script object that lives before, during and after a run.
@@ -79,7 +79,7 @@ pub struct Simulator {
 }
 
 impl Simulator {
-    /// What a thread that runs scripts should have as stack.
+    /// Recommended stack size of a thread that runs scripts, bytes.
     pub const STACK_SIZE: usize = 256 << 20;
 
     /// A simulator with an empty scene that says nothing.
@@ -367,7 +367,7 @@ impl Simulator {
     /// without Lua. Those that deal with Lua's functions or coroutines are an error.
     ///
     /// # Errors
-    /// What the function says, in the words scripts get; or when there is no such function.
+    /// The error of the function, with the text that scripts receive; or when there is no such function.
     pub fn call_api(&mut self, name: &str, args: &[Data]) -> Result<Vec<Data>, Error> {
         let sandbox = self.the(ScriptType::Sandbox);
         Ok(self.sim.call_api(&sandbox.0, name, args)?)

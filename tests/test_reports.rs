@@ -134,8 +134,8 @@ fn tap_takes_standard_output() {
             "ok 5 - a_test.lua::group ends itself # SKIP not today",
         ]
     );
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(told.contains("1 passed, 1 failed, 1 error, 2 pending"), "{told}");
+    let log = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(log.contains("1 passed, 1 failed, 1 error, 2 pending"), "{log}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What scripts can call as `sim`: one file per category of the manual.
+//! The functions of module `sim`: one file per category of the manual.
 //!
 //! A function is described once, with `#[api]`; its row is in the table of its file, and the tables are listed here. Names that need no code of
 //! their own are in tables: constants, aliases, deprecations, old names, and the reference, which shows what is missing.

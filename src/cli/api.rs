@@ -47,7 +47,7 @@ fn list(functions: &[Function]) -> String {
     categories.iter().map(|(category, lines)| format!("{category}\n{lines}")).collect::<Vec<_>>().join("\n")
 }
 
-/// What a module is for, and its functions with their summaries.
+/// Summary of a module, and its functions with their summaries.
 fn list_module(module: &str, functions: &[Function]) -> String {
     let of_module = functions.iter().filter(|function| function.category == module);
     let lines: String = of_module.map(|function| format!("{:<38} {}\n", function.name, function.summary())).collect();

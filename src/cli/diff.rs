@@ -24,9 +24,9 @@ pub(super) fn diff(args: &Args) -> ExitCode {
         Ok(both) => both,
         Err(reason) => return refuse(&reason),
     };
-    let told = differences(&old, &new);
-    say(told.as_bytes());
-    if told.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(DIFFERENT) }
+    let report = differences(&old, &new);
+    say(report.as_bytes());
+    if report.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(DIFFERENT) }
 }
 
 pub(super) fn outline(path: &Path) -> Result<Outline, String> {

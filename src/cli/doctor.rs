@@ -118,7 +118,7 @@ impl Report {
         ["works", "approximated", "missing"].map(count)
     }
 
-    /// What does not work in full, script by script, then a summary.
+    /// Functions that do not work in full, script by script, then a summary.
     fn text(&self) -> String {
         let mut out: String = self.scripts.iter().map(Patient::text).collect();
         let [works, approximated, missing] = self.counts();

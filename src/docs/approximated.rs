@@ -10,7 +10,7 @@ const TABLE: &str = include_str!("approximated.tsv");
 
 static DIFFERENCES: LazyLock<HashMap<&str, &str>> = LazyLock::new(|| pairs(TABLE).collect());
 
-/// What a function or module does not do, or does differently; None for those that work in full.
+/// Limitations or differences of a function or module; None for those that work in full.
 pub fn difference(name: &str) -> Option<&'static str> {
     DIFFERENCES.get(name).copied()
 }

@@ -19,7 +19,7 @@ struct Callback {
 
 struct Argument {
     field: Field,
-    /// What a table contains, where it is known.
+    /// Fields of a table, where they are known.
     fields: Vec<Field>,
 }
 
@@ -61,7 +61,7 @@ impl Callback {
         names.join(", ")
     }
 
-    /// What it is about, as a sentence.
+    /// Its description as a sentence.
     fn sentence(&self) -> String {
         let mut letters = self.when.chars();
         let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();

@@ -34,7 +34,7 @@ pub(super) fn text(functions: &[Function]) -> String {
     out
 }
 
-/// What is here of a function of the reference.
+/// State of a function of the reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Status {
     Works,
@@ -52,7 +52,7 @@ impl Status {
     }
 }
 
-/// What becomes of a function, of which `built` are those that exist.
+/// State of a function; `built` are those that exist.
 pub(super) fn status(name: &str, built: &HashSet<&str>) -> Status {
     match (built.contains(name), difference(&format!("sim.{name}"))) {
         (false, _) => Status::Missing,

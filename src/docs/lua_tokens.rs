@@ -13,7 +13,7 @@ pub(super) struct Token<'a> {
 pub(super) enum Kind<'a> {
     /// A name, a keyword, or a chain of names such as `sim.getObject`.
     Name(String),
-    /// What stands between the quotes or brackets, escapes as they are.
+    /// Content between the quotes or brackets, escapes unchanged.
     Text(&'a [u8]),
     /// Anything else: one sign, or a number as its first digit.
     Sign(u8),

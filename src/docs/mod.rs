@@ -58,7 +58,7 @@ pub fn functions() -> Vec<Function> {
     all.into_values().filter(|function| !function.is_inner()).collect()
 }
 
-/// What to use instead of a function of CoppeliaSim that is not here; None when there is nothing.
+/// Replacement of a missing function of CoppeliaSim; None without one.
 pub fn remedy(name: &str) -> Option<&'static str> {
     let member = name.strip_prefix("sim.")?;
     let (_, replacement) = pairs(api::SIM.deprecated).find(|(old, _)| *old == member)?;
@@ -71,7 +71,7 @@ pub fn module_functions() -> Vec<Function> {
     modules::names().flat_map(|module| module_stubs::of_module(&module)).collect()
 }
 
-/// What a module is for, in a line or two; empty if it does not say.
+/// Summary of a module, in a line or two; empty if it has none.
 pub fn module_summary(module: &str) -> &'static str {
     modules::summary(module)
 }

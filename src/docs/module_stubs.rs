@@ -142,7 +142,7 @@ fn described(module: &str, source: &str, table: &str) -> BTreeMap<String, Functi
     taken(module, source).into_iter().chain(commented).map(|function| (key(&function.name), function)).collect()
 }
 
-/// What the file declares and its head mentions. The file knows the parameters best, unless it takes whatever comes.
+/// Functions that the file declares or its head mentions. The file is the best source of parameters, unless a function is variadic.
 fn stubs(source: &str, table: &str) -> Stubs {
     let mut stubs = stubs_of_head(modules::head(source));
     for (name, declared) in declared(source, table) {

@@ -115,7 +115,7 @@ pub(super) fn public() -> impl Iterator<Item = (String, &'static str)> {
     files.map(|&(name, source)| (name.to_owned(), source)).chain(native)
 }
 
-/// What a module is for.
+/// Summary of a module.
 pub(super) fn summary(module: &str) -> &'static str {
     match about(module) {
         "" => head(source_of(module)).split("\n\n").next().unwrap_or_default(),
@@ -123,7 +123,7 @@ pub(super) fn summary(module: &str) -> &'static str {
     }
 }
 
-/// What else there is to know about it: the rest of the head of its Lua part.
+/// Further description: the rest of the head of its Lua part.
 pub(super) fn details(module: &str) -> &'static str {
     let head = head(source_of(module));
     match about(module) {

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::{approximated::difference, modules};
 use crate::script::ReferenceModule;
 
-/// What is here of a module.
+/// State of a module.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum State {
     Works,

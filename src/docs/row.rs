@@ -8,13 +8,13 @@ pub struct Function {
     /// `sim.name`, or a bare name for globals.
     pub name: String,
     pub category: String,
-    /// What it does, in one or several lines.
+    /// Its description, in one or several lines.
     pub text: String,
     pub parameters: Vec<Parameter>,
     pub results: Vec<Returned>,
     /// The name this one is another word for.
     pub alias_of: Option<String>,
-    /// What to use instead; empty when there is nothing.
+    /// Its replacement; empty without one.
     pub deprecated: Option<String>,
 }
 
@@ -145,7 +145,7 @@ impl Doc {
         self.parameters.iter().find(|(known, _)| known == name).map(|(_, text)| text.clone()).unwrap_or_default()
     }
 
-    /// What is said of the result `name`.
+    /// Description of the result `name`.
     pub(super) fn of_result(&self, name: &str) -> String {
         let said = self.returns.iter().filter_map(|line| line.strip_prefix(name)?.strip_prefix(' '));
         said.collect::<Vec<_>>().join(" ")

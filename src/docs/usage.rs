@@ -1,6 +1,6 @@
 //! Which functions of the simulator Lua code uses, and whether they work here.
 //!
-//! What counts are members of `sim` and of CoppeliaSim's modules, under their names or those a `require` gave them, and the names from
+//! Counted are members of `sim` and of CoppeliaSim's modules, under their names or those a `require` gave them, and the names from
 //! before there were modules (`simGetObjectHandle`). It reads code and runs nothing: what a script builds names from stays unseen.
 
 use std::collections::{HashMap, HashSet};
@@ -12,7 +12,7 @@ use super::{module_stubs, modules};
 use crate::format::scene_file::old_names;
 use crate::script::{Member, ReferenceModule};
 
-/// What becomes of a name.
+/// Support for a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Support {
     Works,
@@ -45,7 +45,7 @@ pub fn uses(code: &[u8]) -> Vec<Use> {
     named.collect()
 }
 
-/// What a script in another language uses: that language, which is missing.
+/// Uses of a script in another language: that language, which is missing.
 pub fn foreign_script(language: &str) -> Vec<Use> {
     let name = match language {
         "python" => "Python".to_owned(),
@@ -58,7 +58,7 @@ pub fn foreign_script(language: &str) -> Vec<Use> {
 struct Scope {
     /// Variables that hold a module.
     modules: HashMap<String, String>,
-    /// What the file itself makes.
+    /// Names that the file itself defines.
     own: HashSet<String>,
 }
 
@@ -138,7 +138,7 @@ fn required(module: &str, line: usize) -> Option<Use> {
     Some(Use { name: module.to_owned(), written: None, line, support })
 }
 
-/// What an old name is called now; None for other names.
+/// Current name for an old one; None for other names.
 fn current_name(written: &str) -> Option<String> {
     if written.contains('.') || !written.starts_with("sim") {
         return None;
@@ -153,9 +153,9 @@ fn current_name(written: &str) -> Option<String> {
         };
         registry.members_of_sim().contains(&member).then(|| format!("sim.{member}"))
     };
-    let kept = registry.members_of_sim().of_old_name(written);
-    let kept = kept.filter(|member| !member.starts_with('_')).map(|member| format!("sim.{member}"));
-    kept.or_else(by_rule).or_else(|| old_names::current(written).map(str::to_owned))
+    let current = registry.members_of_sim().of_old_name(written);
+    let current = current.filter(|member| !member.starts_with('_')).map(|member| format!("sim.{member}"));
+    current.or_else(by_rule).or_else(|| old_names::current(written).map(str::to_owned))
 }
 
 /// None for constants, which are no functions.
@@ -183,7 +183,7 @@ fn of_module(module: &str, member: &str, is_call: bool) -> Option<Support> {
     }
 }
 
-/// What there is, and what CoppeliaSim has.
+/// Functions that exist here, and those of CoppeliaSim.
 struct Catalogue {
     /// The functions of each module.
     modules: HashMap<String, HashSet<String>>,

@@ -97,7 +97,7 @@ impl Bodies {
         self.places = plan.iter().enumerate().map(|(place, (shape, _))| (*shape, place)).collect();
         for (shape, plan) in plan {
             let is_unchanged = |body: &Body| body.build == plan.build && !wants_rebuild(scene, shape, body);
-            // What does not go on stays in `old`, to be removed from the engine.
+            // Bodies that no longer exist stay in `old`, to be removed from the engine.
             let existing = if old.get(&shape).is_some_and(is_unchanged) { old.remove(&shape) } else { None };
             let body = match existing {
                 Some(body) => body.with_surface(shape, plan.surface, world),

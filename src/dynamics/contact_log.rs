@@ -22,7 +22,7 @@ pub(crate) struct Contact {
     pub shapes: [Handle; 2],
     /// Metres.
     pub point: [f64; 3],
-    /// What the second shape does to the first, newtons.
+    /// Force of the second shape on the first, newtons.
     pub force: [f64; 3],
     /// Points to the first shape.
     pub normal: [f64; 3],
@@ -65,7 +65,7 @@ struct Resting {
     colliders: Vec<Option<Known>>,
 }
 
-/// What is known of a collider.
+/// Properties of a collider.
 #[derive(Clone, Copy)]
 struct Known {
     shape: Handle,

@@ -120,7 +120,7 @@ pub(super) struct Push {
     pub impulse: [f64; 3],
 }
 
-/// What rapier begins the next sub-step with: the impulses of the contacts of the one before, for shapes that matter.
+/// Warm-start impulses of the next sub-step: those of the contacts of the previous one, for shapes that matter.
 pub(super) fn expected(world: &World, matters: impl Fn(Handle) -> bool) -> Vec<Push> {
     let mut pushes = Vec::new();
     for pair in world.narrow_phase.contact_pairs() {

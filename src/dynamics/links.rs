@@ -1,6 +1,6 @@
 //! Joints, force sensors and welds as constraints between bodies.
 //!
-//! What holds them is the crate `articulation`, which solves all of them exactly. Those of bodies that touch something are rapier's impulse
+//! The crate `articulation` solves them exactly. Those of bodies that touch something are rapier's impulse
 //! joints as well, so that contacts and links can answer each other within a sub-step; those that scripts hand to rapier are nothing
 //! else. rapier's multibodies would not do: they have no loops, no moving bases, and no reading of what a link or a motor bears.
 
@@ -54,7 +54,7 @@ pub(super) struct Link {
     shared: bool,
     /// Effort of the motor on the parent in each sub-step of this call.
     pub efforts: Vec<f64>,
-    /// What a force sensor felt in each sub-step of this call.
+    /// Load of a force sensor in each sub-step of this call.
     pub loads: Vec<Load>,
     rows: Option<Rows>,
 }
@@ -232,7 +232,7 @@ impl Link {
         let solution = self.solution.take().unwrap_or(JointLoad { rows: Vector6::zeros(), motor: 0.0 });
         let axis = self.axis().filter(|_| self.shared && self.drive.is_some());
         let impulse = axis.map_or(0.0, |axis| joint.data.motors[axis as usize].impulse);
-        // What overflowed is not read at all.
+        // Values that overflowed are not read at all.
         self.efforts.push((impulse / step - solution.motor).finite().unwrap_or(0.0));
         if let Some(residual) = self.rows.take() {
             let impulses = if self.shared { joint.impulses } else { Default::default() };

@@ -56,7 +56,7 @@ impl Rows {
         Some(Self { base, com: com(second), rows })
     }
 
-    /// What the second body does to the first through the link, from the solver's impulses over `step` seconds.
+    /// Load of the second body on the first through the link, from the solver's impulses over `step` seconds.
     pub(super) fn load(&self, impulses: &[f64; 6], step: f64) -> Load {
         // rapier numbers the axes linear first.
         let of_row = |i: usize| impulses[(i + 3) % 6] / step;

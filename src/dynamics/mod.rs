@@ -72,7 +72,7 @@ pub(crate) struct Dynamics {
     frozen: Frozen,
     /// Roots too far away to be simulated.
     far: Vec<Handle>,
-    /// What the plan was made for.
+    /// State of the scene for which the plan was made.
     known: Option<Mark>,
     call: Option<Call>,
     /// Whether every pair that may touch is filtered, not only those with masks of their own.

@@ -30,7 +30,7 @@ pub(super) struct Motion {
     pub velocity: f64,
 }
 
-/// What a motor remembers between sub-steps.
+/// State of a motor between sub-steps.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Motor {
     /// Sum of error times sub-step.
@@ -105,8 +105,8 @@ impl Motor {
             return self.advance_profile(next);
         }
         self.integral = if i == 0.0 { 0.0 } else { self.integral + error * step };
-        let wish = (p * error + i * self.integral - d * now.velocity) / CONTROL_PERIOD;
-        wish.clamp(-joint.max_vel.abs(), joint.max_vel.abs())
+        let velocity = (p * error + i * self.integral - d * now.velocity) / CONTROL_PERIOD;
+        velocity.clamp(-joint.max_vel.abs(), joint.max_vel.abs())
     }
 
     /// Takes over a step of a profile; limits that allow none leave the joint where it is.

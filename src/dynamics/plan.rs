@@ -20,7 +20,7 @@ use crate::scene::{Handle, Kind, ModelFlags, Object, Pose, Scene, Uid};
 /// Root shapes further from the origin than this are out of service with their trees, metres.
 const ACTIVITY_RANGE: f64 = 1000.0;
 
-/// What the engine should hold.
+/// Bodies and constraints that the engine should contain.
 #[derive(Default)]
 pub(super) struct Plan {
     /// Base-to-tip.
@@ -67,7 +67,7 @@ impl PartialEq for PartForm {
     }
 }
 
-/// What may change about a body while it moves on.
+/// Properties of a body that may change without making it anew.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) struct Surface {
     pub root: Handle,
@@ -100,7 +100,7 @@ pub(super) struct LinkPlan {
     pub tip: Pose,
     /// Metres per radian: a screw moves along its axis while it turns.
     pub pitch: f64,
-    /// What the joint asks for; one joint speaks for its chain.
+    /// Solver requested by the joint; one joint decides for its chain.
     pub solver: JointSolver,
     /// Whether `second` is the child of the link in the scene, whose pose follows from the link.
     pub second_is_child: bool,

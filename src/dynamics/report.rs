@@ -42,7 +42,7 @@ impl Dynamics {
                 report_link(scene, handle, link, moving_side);
             }
         }
-        let stopped = if seen || world.has_given_up() { self.report_bodies(&world, scene) } else { Vec::new() };
+        let stopped = if seen || world.has_invalid_bodies() { self.report_bodies(&world, scene) } else { Vec::new() };
         self.contacts.add_sub_step(&world, step);
         self.world = Some(world);
         self.stop_bodies(&stopped, scene);

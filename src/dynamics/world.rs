@@ -108,8 +108,8 @@ impl World {
         }
     }
 
-    /// Whether the last step met bodies that have no next state in numbers. rapier leaves them where they were.
-    pub(super) fn has_given_up(&self) -> bool {
+    /// Whether the last step found bodies without a finite next state. rapier leaves them where they were.
+    pub(super) fn has_invalid_bodies(&self) -> bool {
         !self.pipeline.quarantine().is_empty()
     }
 

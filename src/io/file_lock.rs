@@ -4,7 +4,7 @@ use std::io;
 #[cfg(unix)]
 use std::os::fd::BorrowedFd;
 
-/// What to do with the lock of a file.
+/// Operation on the lock of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FileLock {
     Shared,

@@ -47,7 +47,7 @@ pub(crate) static ALL: &[&Module] = &[
     &swanilda_test::MODULE,
 ];
 
-/// What scripts can reach in simulators whose owner adds nothing. Bound once per process.
+/// All built-in functions and modules. Bound once per process.
 pub(crate) fn registry() -> Arc<Registry> {
     static REGISTRY: LazyLock<Arc<Registry>> = LazyLock::new(|| Arc::new(Registry::new(ALL, FILES)));
     REGISTRY.clone()

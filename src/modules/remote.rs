@@ -17,7 +17,7 @@ pub(super) static ZMQ: Module = Module { inner: &[FUNCTIONS, NAMES], ..Module::n
 pub(super) static WS: Module = Module { inner: &[sim_ws::REMOTE, NAMES], ..Module::new("remote.ws") };
 
 const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, others, returns];
-/// What every remote API needs.
+/// Functions that every remote API needs.
 const NAMES: &[ApiFn] = functions![members];
 
 /// Where programs outside reach a simulator.

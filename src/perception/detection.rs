@@ -1,4 +1,4 @@
-//! What a proximity sensor detects (spec: sensors 1.1, 1.2).
+//! Detection by a proximity sensor (spec: sensors 1.1, 1.2).
 //!
 //! Objects are looked at by ascending distance of the boxes around them, and each point found shortens the reach for the others. Points
 //! and normals are in the frame of the sensor, distances are from its origin.
@@ -79,7 +79,7 @@ struct Search {
 }
 
 impl Perception {
-    /// What a sensor detects of an entity.
+    /// Detects an entity with a sensor.
     ///
     /// # Errors
     /// When there is no such sensor.

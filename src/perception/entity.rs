@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::scene::{Handle, Kind, ModelFlags, Object, Scene, SceneError, SceneResult, SpecialFlags, special};
 
-/// What a query is for. Objects have a flag for each.
+/// Purpose of a query. Objects have a flag for each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Purpose {
     Collision,
@@ -43,7 +43,7 @@ pub(super) fn is_solid(kind: &Kind) -> bool {
     matches!(kind, Kind::Shape(_) | Kind::OcTree(_) | Kind::PointCloud(_) | Kind::Dummy(_))
 }
 
-/// What a script names to take part.
+/// Entity named by a script.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Entity {
     Object(Handle),

@@ -1,4 +1,4 @@
-//! What a proximity sensor detects of points, segments and triangles that are no objects.
+//! Detection of points, segments and triangles that are not objects by a proximity sensor.
 
 use nalgebra::Vector3;
 use proximity::{Geometry, Hit, Placed, PointSet, TriangleMesh, cast_ray};
@@ -44,7 +44,7 @@ impl Items {
 }
 
 impl Perception {
-    /// What a sensor detects of items. Rays see triangles only.
+    /// Detects items with a sensor. Rays see triangles only.
     ///
     /// # Errors
     /// When there is no such sensor.

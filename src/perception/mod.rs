@@ -1,4 +1,4 @@
-//! What sensors and queries perceive of the scene: proximity sensors, collisions, distances, pictures.
+//! Perception of the scene by sensors and queries: proximity sensors, collisions, distances, pictures.
 //!
 //! Results are computed from the scene when they are asked for. [`Perception`] owns what makes that fast, such as prepared meshes; it is
 //! derived from the scene, and whether it is new or old makes no difference to a result. Only the generator of random numbers has a memory.

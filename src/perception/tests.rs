@@ -73,7 +73,7 @@ fn detect(perception: &mut Perception, scene: &Scene, sensor: Handle, entity: En
     perception.detect(scene, sensor, &group, mode).unwrap()
 }
 
-/// What `entity` gives of all others, one after the other.
+/// Results of `ask` for all other objects, one after the other.
 fn one_by_one<R>(scene: &Scene, purpose: Purpose, mut ask: impl FnMut(Handle) -> Option<R>) -> Vec<R> {
     let others = Entity::All.objects(scene, purpose);
     others.into_iter().filter_map(&mut ask).collect()

@@ -1,4 +1,4 @@
-//! What scripts may do to the world outside: files, programs, the network, native code.
+//! Permissions of scripts: files, programs, the network, native code.
 //!
 //! Whoever calls the operating system for a script asks here first, with what the call is going to be made with. Values, cheap to
 //! clone; a simulator has one for all its scripts (`Options::permissions`).
@@ -20,7 +20,7 @@ pub use network::HostRule;
 pub(crate) use resolve::c_path;
 use resolve::{resolve, resolve_entry};
 
-/// What scripts may do; see the methods named `allow_`.
+/// Permissions of scripts; see the methods named `allow_`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Permissions {
     read: Scope<PathBuf>,
@@ -170,7 +170,7 @@ impl Permissions {
 }
 
 /// # Errors
-/// What is not allowed, and the option that would allow it.
+/// An error that names the refused action and the option that allows it.
 impl Permissions {
     /// A file is read.
     pub fn check_read(&self, path: &Path) -> Result<(), Denied> {
@@ -310,7 +310,7 @@ fn itself(path: &Path) -> Option<&Path> {
     Some(path)
 }
 
-/// What is done with files, and the option that allows it.
+/// A kind of access to files, and the option that allows it.
 struct Access {
     doing: &'static str,
     option: &'static str,

@@ -1,4 +1,4 @@
-//! What can go wrong in a scene. The texts are CoppeliaSim's: scripts compare them.
+//! Errors of a scene. The texts are CoppeliaSim's: scripts compare them.
 
 /// An operation the scene refused. Nothing was changed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,6 +1,6 @@
 //! The script host: lifecycle, order of calls, threads, values between scripts, the step loop; and scripts in Lua.
 //!
-//! What scripts can call is in `crate::api`; this module binds functions and does not know which there are.
+//! The functions for scripts are in `crate::api`; this module binds them and does not know which exist.
 
 mod binding;
 mod calls;

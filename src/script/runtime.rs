@@ -131,7 +131,7 @@ pub(crate) struct SourceText<'a> {
     pub counted_as: Option<String>,
 }
 
-/// What a script is to call.
+/// Function that a script is to call.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Callee<'a> {
     /// The global function of that name; dots walk through tables. The script's `sysCall_ext`, if there is one, replaces all of them.

@@ -45,7 +45,7 @@ pub struct Options {
     pub package_dirs: Vec<std::path::PathBuf>,
     /// Lua instructions a thread may run per millisecond of its time slice.
     pub instructions_per_ms: u64,
-    /// What scripts may do outside of the simulator: files, programs, the network.
+    /// Permissions of scripts: files, programs, the network.
     pub permissions: Permissions,
     /// Set it to end calls that wait for the world outside: they raise an error.
     pub stop: Arc<AtomicBool>,
@@ -84,7 +84,7 @@ impl Default for Options {
     }
 }
 
-/// What holds scripts that are not trusted to end. Lua code runs slower under them, since it is looked at every thousand instructions:
+/// Limits for scripts that may not end. Lua code runs slower under them, since it is checked every thousand instructions:
 /// by then `Options::stop` ends it too, wherever it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
@@ -168,7 +168,7 @@ impl Sim {
         self.log_line(&LogLine { origin: &origin, level, text, located: Some(&located), time, status: false });
     }
 
-    /// What may have been meant, where an error is about an object that does not exist; else nothing.
+    /// Suggestion where an error is about an object that does not exist; else empty.
     fn hint(&self, error: &str) -> String {
         let Some(path) = self.log.take_missing_path().filter(|_| error.contains(&SceneError::NoSuchPath.to_string()))
         else {

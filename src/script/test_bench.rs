@@ -1,4 +1,4 @@
-//! What a test can access of its simulator, and its results for the test runner.
+//! Access of a test to its simulator, and its results for the test runner.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -91,7 +91,7 @@ pub struct Golden {
     pub content: GoldenContent,
 }
 
-/// What was recorded.
+/// Content of a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub enum GoldenContent {
     Trace { trace: Trace, tolerances: Tolerances },
@@ -103,7 +103,7 @@ pub enum GoldenContent {
 pub struct RunRequest {
     /// A Lua file, one of CoppeliaSim, or an unpacked one.
     pub scene: PathBuf,
-    /// What a Lua file becomes.
+    /// Type of the script.
     pub kind: ScriptType,
     /// From nothing instead of the default scene.
     pub empty: bool,
@@ -137,7 +137,7 @@ pub struct RunReport {
 /// Runs a scene in a simulator with these options; why it could not, otherwise.
 pub type RunApart = fn(Options, &RunRequest) -> Result<RunReport, String>;
 
-/// What lines of the streams are called, in the order of `Stream`.
+/// Levels of the lines of streams, in the order of `Stream`.
 const LEVELS: [&str; 2] = ["print", "stderr"];
 
 /// The link between a test's script and its runner.

@@ -27,7 +27,7 @@ impl Builder {
         Self { options, ..self }
     }
 
-    /// What scripts may do to the world outside; everything without this.
+    /// Permissions of scripts outside of the simulator; all without this call.
     ///
     /// ```
     /// use swanilda::{Permissions, ScriptKind, Simulator};

@@ -46,10 +46,10 @@ fn error(text: &str) -> ScriptError {
     ScriptError::new(text)
 }
 
-/// What the language shares with its scripts.
+/// State that the language shares with its scripts.
 #[derive(Default)]
 struct Shared {
-    /// What scripts did.
+    /// Actions of scripts.
     lines: RefCell<Vec<String>>,
     sim: OnceCell<Weak<Sim>>,
 }
@@ -234,7 +234,7 @@ impl Fixture {
         self.simulator.script(handle).expect("it is a script")
     }
 
-    /// What scripts in the second language did since the last time.
+    /// Actions of scripts in the second language since the last call.
     fn take_lines(&self) -> Vec<String> {
         self.shared.lines.take()
     }

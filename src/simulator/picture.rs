@@ -7,7 +7,7 @@ use crate::scene::sensor::View;
 use crate::script::{ApiError, VideoFailure, VideoOptions};
 
 impl Simulator {
-    /// What a camera or a vision sensor sees now; without one the scene from a place where all of it can be seen. `resolution` (width and
+    /// Picture of a camera or a vision sensor; without one the scene from a place where all of it can be seen. `resolution` (width and
     /// height, at most 4096 each) replaces the camera's own. Ids are handles of objects; rows begin at the bottom.
     ///
     /// # Errors

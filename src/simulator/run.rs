@@ -24,18 +24,18 @@ pub struct RunTotals {
     pub time: f64,
 }
 
-/// Looks on at a run.
-pub trait Onlooker {
+/// Observes a run, and may end it.
+pub trait RunObserver {
     /// Whether the run is to end now.
-    fn wants_end(&self, sim: &Simulator) -> bool;
+    fn should_stop(&self, sim: &Simulator) -> bool;
 
     /// A loop iteration of an advancing simulation is over; it may have been too early for a step.
     fn iterated(&mut self, sim: &Simulator, stepped: bool) {
         let _ = (sim, stepped);
     }
 
-    /// The simulation is going to be ended, since it was paused for too long.
-    fn gives_up(&mut self, sim: &Simulator) {
+    /// The simulation will be stopped, because it was paused for too long.
+    fn stops_paused(&mut self, sim: &Simulator) {
         let _ = sim;
     }
 }
@@ -50,55 +50,55 @@ impl RunLimits {
 
 impl Simulator {
     /// Starts the simulation and runs it to its end; one more loop iteration follows, as in CoppeliaSim when it is closed.
-    pub fn run(&mut self, limits: RunLimits, onlooker: &mut dyn Onlooker) -> RunTotals {
+    pub fn run(&mut self, limits: RunLimits, observer: &mut dyn RunObserver) -> RunTotals {
         let mut totals = RunTotals::default();
         self.start();
         let mut idle = 0;
-        let mut asked = false;
+        let mut stopping = false;
         while self.state() != SimulationState::Stopped && !self.quit_requested() {
             idle += u64::from(self.state() == SimulationState::Paused);
-            if asked || limits.are_reached(self) || onlooker.wants_end(self) {
-                asked = true;
+            if stopping || limits.are_reached(self) || observer.should_stop(self) {
+                stopping = true;
                 self.request_stop();
             } else if idle > limits.idle {
-                onlooker.gives_up(self);
+                observer.stops_paused(self);
                 self.request_stop();
                 idle = 0;
             }
             let steps = self.steps();
-            self.iterate_watched(&mut totals, onlooker);
+            self.iterate_watched(&mut totals, observer);
             if self.steps() < steps {
                 // A script has started the next run.
                 if limits.once {
                     return totals;
-                } else if asked {
+                } else if stopping {
                     break;
                 }
             }
         }
-        self.iterate_watched(&mut totals, onlooker);
+        self.iterate_watched(&mut totals, observer);
         totals
     }
 
     /// That many loop iterations, in whatever state the scripts bring the simulation into.
-    pub fn loop_freely(&mut self, iterations: u64, onlooker: &mut dyn Onlooker) -> RunTotals {
+    pub fn loop_freely(&mut self, iterations: u64, observer: &mut dyn RunObserver) -> RunTotals {
         let mut totals = RunTotals::default();
         for _ in 0..iterations {
-            if self.quit_requested() || onlooker.wants_end(self) {
+            if self.quit_requested() || observer.should_stop(self) {
                 break;
             }
-            self.iterate_watched(&mut totals, onlooker);
+            self.iterate_watched(&mut totals, observer);
         }
         totals
     }
 
-    fn iterate_watched(&mut self, totals: &mut RunTotals, onlooker: &mut dyn Onlooker) {
+    fn iterate_watched(&mut self, totals: &mut RunTotals, observer: &mut dyn RunObserver) {
         let (state, steps, time) = (self.state(), self.steps(), self.time());
         self.iterate();
         if state.is_advancing() {
             totals.steps += self.steps().saturating_sub(steps);
             totals.time += (self.time() - time).max(0.0);
-            onlooker.iterated(self, self.steps() != steps);
+            observer.iterated(self, self.steps() != steps);
         }
     }
 }

@@ -6,9 +6,9 @@ use crate::format::scene_input::SceneInput;
 use crate::scene::object::script_object::ScriptType;
 use crate::script::TestBench;
 use crate::script::test_bench::{RunReport, RunRequest};
-use crate::{Onlooker, Options, RunLimits, RunTotals, ScriptKind, Simulator};
+use crate::{Options, RunLimits, RunObserver, RunTotals, ScriptKind, Simulator};
 
-/// What a test asked for. The scene's own modules are found beside it.
+/// Runs the scene that a test requested. The scene's own modules are found beside it.
 pub(super) fn run_apart(options: Options, request: &RunRequest) -> Result<RunReport, String> {
     let input = SceneInput::read(&request.scene, &options.permissions)?;
     let data = tempfile::tempdir().map_err(|error| format!("no folder for data of scripts: {error}"))?;
@@ -23,18 +23,18 @@ pub(super) fn run_apart(options: Options, request: &RunRequest) -> Result<RunRep
 /// Runs a scene to its end. With `once`, a simulation restarted by a script is not part of it.
 pub(super) fn run(options: Options, input: &SceneInput, request: &RunRequest, once: bool) -> Result<RunReport, String> {
     let bench = TestBench::new(request.scene.to_string_lossy().into_owned(), request.time_limit, None);
-    let mut patience = Patience { options: options.clone(), time_limit: request.time_limit, time: 0.0 };
+    let mut time_limit = TimeLimit { options: options.clone(), time_limit: request.time_limit, time: 0.0 };
     let mut sim = Simulator::with_console(options, bench.console());
     fill(&mut sim, input, request)?;
     let has_end = request.steps.is_some() || request.time.is_some();
     let limits = RunLimits { steps: request.steps, time: request.time, idle: request.loops, once };
     let totals = if !request.start {
-        sim.loop_freely(request.loops, &mut patience)
+        sim.loop_freely(request.loops, &mut time_limit)
     } else if sim.errors() > 0 && !has_end {
         // Without its script the run might never end.
         RunTotals::default()
     } else {
-        sim.run(limits, &mut patience)
+        sim.run(limits, &mut time_limit)
     };
     let mut report = RunReport { steps: totals.steps, time: totals.time, errors: sim.errors(), ..RunReport::default() };
     report.params = sim.named_params().into_iter().collect();
@@ -67,7 +67,7 @@ fn fill(sim: &mut Simulator, input: &SceneInput, request: &RunRequest) -> Result
             let kind = kind_of(request.kind);
             let _ = sim.add_script_of_file(kind, &name_of(&request.scene), code, Some(&request.scene));
             if request.kind == ScriptType::AddOn && request.empty {
-                // What an add-on made before there was a scene does not belong to it.
+                // Objects that an add-on created before there was a scene do not belong to it.
                 sim.clear_scene();
             }
         }
@@ -90,15 +90,15 @@ fn name_of(path: &Path) -> String {
 }
 
 /// Ends a run when the test has to stop, or has simulated for too long.
-struct Patience {
+struct TimeLimit {
     options: Options,
     time_limit: f64,
     /// Over all simulations of the run.
     time: f64,
 }
 
-impl Onlooker for Patience {
-    fn wants_end(&self, _: &Simulator) -> bool {
+impl RunObserver for TimeLimit {
+    fn should_stop(&self, _: &Simulator) -> bool {
         self.options.stop.load(std::sync::atomic::Ordering::Relaxed) || self.time > self.time_limit
     }
 

@@ -66,7 +66,7 @@ pub enum Status {
 pub struct Outcome {
     pub test: Arc<TestCase>,
     pub status: Status,
-    /// What went wrong, or why it is pending.
+    /// Description of the failure, or why it is pending.
     pub message: String,
     /// Pending since it is yet to be written; else since it ended itself.
     pub todo: bool,
@@ -85,10 +85,10 @@ pub struct Outcome {
     pub steps: u64,
     pub wall: Duration,
     pub console: Vec<ConsoleLine>,
-    /// What the test recorded, until it is compared.
+    /// Recordings of the test, until they are compared.
     pub(super) goldens: Vec<Golden>,
     pub comparisons: Vec<Comparison>,
-    /// What a run of a batch came to.
+    /// Results of a run of a batch.
     pub results: BTreeMap<String, String>,
     /// The names of the parameters that a batch's run has read.
     pub params_read: BTreeSet<String>,

@@ -34,7 +34,7 @@ fn wait(mut child: Child, stop: &AtomicBool) -> std::io::Result<(ExitStatus, Str
     let mut out = child.stdout.take().ok_or(std::io::ErrorKind::BrokenPipe)?;
     let reader = std::thread::spawn(move || {
         let mut bytes = Vec::new();
-        // What has come before an error is all there is.
+        // After an error, the bytes before it are used.
         let _ = out.read_to_end(&mut bytes);
         String::from_utf8_lossy(&bytes).into_owned()
     });

@@ -34,7 +34,7 @@ use plan::Plan;
 use results::Results;
 use workers::{Message, Task, work};
 
-/// What is run, and how.
+/// Selection of tests, and how to run them.
 #[derive(Debug, Clone)]
 pub struct Config {
     /// Test files, and folders to look for them.
@@ -56,9 +56,9 @@ pub struct Config {
     pub artifacts: PathBuf,
     /// The file for the report of which lines ran, if that is wanted.
     pub coverage: Option<PathBuf>,
-    /// What a test may use up.
+    /// Limits of a test.
     pub allowance: Allowance,
-    /// What scripts may do; the scene's folder is that of the test's file.
+    /// Permissions of scripts; the scene's folder is that of the test's file.
     pub permissions: Permissions,
     /// The command that runs a test in a process of its own and prints its outcome by [`run_child`]; None: tests run here.
     pub isolate: Option<fn(&TestCase) -> std::process::Command>,
@@ -91,7 +91,7 @@ impl Config {
     }
 }
 
-/// What a test may use up.
+/// Limits of a test.
 #[derive(Debug, Clone, Copy)]
 pub struct Allowance {
     /// By the wall clock.
@@ -130,7 +130,7 @@ pub struct Summary {
     /// Whether the user wanted an end before all tests had run.
     pub interrupted: bool,
     pub wall: Duration,
-    /// What lines of the tested scripts did, if that was wanted.
+    /// Line coverage of the tested scripts, if requested.
     pub coverage: Option<Coverage>,
 }
 

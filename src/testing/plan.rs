@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::Config;
 use super::case::{Outcome, TestCase};
 
-/// What is known of a file once it was loaded.
+/// Tests of a loaded file.
 pub(super) struct Collection {
     pub file: PathBuf,
     pub tests: Vec<Found>,
@@ -67,7 +67,7 @@ impl Plan {
         plan
     }
 
-    /// What will have an outcome.
+    /// All tests that will have an outcome.
     pub(super) fn all(&self) -> Vec<Arc<TestCase>> {
         self.broken.iter().map(|outcome| &outcome.test).chain(&self.tests).cloned().collect()
     }

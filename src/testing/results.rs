@@ -74,7 +74,7 @@ impl<'a> Results<'a> {
         self.waiting = waiting;
         due.sort_by_key(|outcome| outcome.test.key());
         for mut outcome in due {
-            self.claims.settle(&mut outcome);
+            self.claims.assign(&mut outcome);
             if self.config.update_golden {
                 golden::record(&mut outcome);
             }

@@ -19,7 +19,7 @@ pub(super) struct Session {
     sim: Simulator,
     sandbox: ScriptRef,
     bench: Rc<TestBench>,
-    /// What scripts keep beyond a run; it goes after the simulator.
+    /// Folder of persistent data of scripts; it is removed after the simulator.
     _data: Option<tempfile::TempDir>,
 }
 

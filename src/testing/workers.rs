@@ -24,9 +24,9 @@ use crate::Simulator;
 /// How often the clock is looked at.
 const TICK: Duration = Duration::from_millis(20);
 /// Time for a test to stop on request.
-const GRACE: Duration = Duration::from_secs(2);
+const STOP_TIME: Duration = Duration::from_secs(2);
 /// The same when the user waits for the end.
-const GRACE_OF_USER: Duration = Duration::from_millis(500);
+const STOP_TIME_OF_USER: Duration = Duration::from_millis(500);
 /// Time for a process of a test to start, and to give the test up itself.
 const FOR_PROCESS: Duration = Duration::from_secs(5);
 
@@ -40,7 +40,7 @@ pub(super) enum Task {
     Simulate(batch::Job),
 }
 
-/// What comes back.
+/// Result of a task.
 pub(super) enum Message {
     Collected(Box<Collection>),
     Finished(Box<Outcome>),
@@ -48,7 +48,7 @@ pub(super) enum Message {
 
 enum News {
     /// A worker begins with something that takes time, and can be asked to stop it.
-    Begun(Running),
+    Started(Running),
     Ready(Message),
     /// A worker has nothing left to do.
     Gone,
@@ -56,24 +56,24 @@ enum News {
 
 struct Running {
     test: Arc<TestCase>,
-    /// What is left to another worker when this one is given up.
+    /// Remaining tests, for another worker if this one is abandoned.
     rest: Vec<Arc<TestCase>>,
     stop: Arc<AtomicBool>,
-    begun: Instant,
+    started: Instant,
 }
 
-/// What is left to do.
+/// Remaining tasks.
 struct Queue {
     tasks: VecDeque<Task>,
     /// Workers that get nothing any more.
-    given_up: HashSet<usize>,
+    abandoned: HashSet<usize>,
 }
 
-/// What all threads know.
+/// State shared by all threads.
 struct Shared {
     config: Config,
     queue: Mutex<Queue>,
-    /// Nothing new is to be begun.
+    /// Nothing new is to be started.
     cancelled: AtomicBool,
 }
 
@@ -88,7 +88,7 @@ impl Shared {
 
     fn next_task(&self, worker: usize) -> Option<Task> {
         let mut queue = self.queue();
-        let ends = self.cancelled.load(Ordering::Relaxed) || queue.given_up.contains(&worker);
+        let ends = self.cancelled.load(Ordering::Relaxed) || queue.abandoned.contains(&worker);
         if ends { None } else { queue.tasks.pop_front() }
     }
 }
@@ -105,10 +105,10 @@ struct Watch<'a> {
     interrupted: Option<Instant>,
 }
 
-/// Does the tasks on `config.jobs` threads and hands over what comes back, until all is done or `receive` wants no more to be begun.
+/// Does the tasks on `config.jobs` threads and hands over what comes back, until all is done or `receive` wants no more to be started.
 pub(super) fn work(config: &Config, tasks: Vec<Task>, receive: &mut dyn FnMut(Message) -> bool) {
     let count = config.jobs.clamp(1, tasks.len().max(1));
-    let queue = Mutex::new(Queue { tasks: tasks.into(), given_up: HashSet::new() });
+    let queue = Mutex::new(Queue { tasks: tasks.into(), abandoned: HashSet::new() });
     let shared = Arc::new(Shared { config: config.clone(), queue, cancelled: AtomicBool::new(false) });
     let (sender, news) = mpsc::channel();
     let mut watch = Watch { shared, workers: HashMap::new(), next: 0, sender, news, receive, interrupted: None };
@@ -137,7 +137,7 @@ impl Watch<'_> {
         // Those that were given up may say what they like.
         let Some(running) = self.workers.get_mut(&worker) else { return };
         match news {
-            News::Begun(begun) => *running = Some(begun),
+            News::Started(started) => *running = Some(started),
             News::Ready(message) => {
                 let running = running.take();
                 self.take(message, running);
@@ -148,7 +148,7 @@ impl Watch<'_> {
 
     fn take(&mut self, mut message: Message, running: Option<Running>) {
         if let (Message::Finished(outcome), Some(running)) = (&mut message, running) {
-            outcome.wall = running.begun.elapsed();
+            outcome.wall = running.started.elapsed();
             if running.stop.load(Ordering::Relaxed) {
                 outcome.status = Status::Error;
                 outcome.message = too_long(self.shared.config.allowance.wall);
@@ -157,7 +157,7 @@ impl Watch<'_> {
                 }
             }
         }
-        // What the user interrupted has no outcome.
+        // An interrupted test has no outcome.
         if self.is_interrupted() || !(self.receive)(message) {
             self.shared.cancel();
         }
@@ -172,7 +172,7 @@ impl Watch<'_> {
         let interrupted = self.is_interrupted();
         if interrupted {
             self.shared.cancel();
-            if self.interrupted.get_or_insert_with(Instant::now).elapsed() > GRACE_OF_USER {
+            if self.interrupted.get_or_insert_with(Instant::now).elapsed() > STOP_TIME_OF_USER {
                 // The process ends without those that are left.
                 return self.workers.clear();
             }
@@ -182,31 +182,31 @@ impl Watch<'_> {
         let mut stuck = Vec::new();
         for (&worker, running) in &self.workers {
             let Some(running) = running else { continue };
-            let wall = running.begun.elapsed();
+            let wall = running.started.elapsed();
             if interrupted || wall > limit {
                 running.stop.store(true, Ordering::Relaxed);
             }
-            if wall > limit + GRACE {
+            if wall > limit + STOP_TIME {
                 stuck.push(worker);
             }
         }
-        stuck.into_iter().for_each(|worker| self.give_up(worker));
+        stuck.into_iter().for_each(|worker| self.abandon(worker));
     }
 
-    fn give_up(&mut self, worker: usize) {
+    fn abandon(&mut self, worker: usize) {
         let mut queue = self.shared.queue();
         // A worker reports a test before it takes the next: with the queue locked and no news, it is still at this one.
         if let Ok((sender, news)) = self.news.try_recv() {
             drop(queue);
             return self.receive(sender, news);
         }
-        queue.given_up.insert(worker);
+        queue.abandoned.insert(worker);
         drop(queue);
         let Some(Some(running)) = self.workers.remove(&worker) else { return };
         let message = too_long(self.shared.config.allowance.wall)
             + " It could not be ended: it is in a finalizer (__gc), or in a function that is not written in Lua.";
         let mut outcome = Outcome::new(Arc::clone(&running.test), Status::Error, message);
-        outcome.wall = running.begun.elapsed();
+        outcome.wall = running.started.elapsed();
         let message = if running.test.index == 0 {
             Message::Collected(Box::new(Collection::broken(outcome)))
         } else {
@@ -259,12 +259,12 @@ impl Worker {
 
     /// The rest of a job is left to other workers, or dropped.
     fn is_to_end(&self) -> bool {
-        self.shared.cancelled.load(Ordering::Relaxed) || self.shared.queue().given_up.contains(&self.id)
+        self.shared.cancelled.load(Ordering::Relaxed) || self.shared.queue().abandoned.contains(&self.id)
     }
 
     fn begin(&self, test: &Arc<TestCase>, rest: &[Arc<TestCase>], stop: &Arc<AtomicBool>) {
         let (test, rest, stop) = (Arc::clone(test), rest.to_vec(), Arc::clone(stop));
-        self.send(News::Begun(Running { test, rest, stop, begun: Instant::now() }));
+        self.send(News::Started(Running { test, rest, stop, started: Instant::now() }));
     }
 
     fn collect(&self, file: &Path) {
@@ -317,7 +317,7 @@ impl Worker {
             }
             session.take_line_counts(&mut outcome);
             if is_last {
-                // What hangs or crashes while the simulator is closed is the test's as well.
+                // A hang or crash while the simulator is closed is the test's as well.
                 drop(session);
                 self.finished(outcome);
                 return tests;

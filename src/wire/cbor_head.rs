@@ -21,7 +21,7 @@ pub const INDEFINITE: u8 = 31;
 pub const FALSE: u8 = major::SIMPLE | 20;
 pub const TRUE: u8 = major::SIMPLE | 21;
 pub const NULL: u8 = major::SIMPLE | 22;
-/// What ends an item without a length.
+/// Byte that ends an item without a length.
 pub const BREAK: u8 = major::SIMPLE | INDEFINITE;
 
 /// The beginning of an item.

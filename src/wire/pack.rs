@@ -157,7 +157,7 @@ pub fn decode(bytes: &[u8]) -> Result<Data, Unreadable> {
     Ok(table)
 }
 
-/// What is left to read.
+/// Unread input.
 struct Input<'a> {
     bytes: &'a [u8],
     /// Values read, of all depths.

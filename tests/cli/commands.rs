@@ -87,9 +87,9 @@ fn endless_files_are_refused() {
         print(pcall(sim.createPath, {0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0, 1}, 0, 1 << 30))",
     );
     let output = scene.run(&["--no-start"]);
-    let told = stdout(&output);
-    assert_eq!(told.lines().count(), 4, "{told}");
-    assert!(told.lines().all(|line| line.starts_with("false, ")), "{told}");
-    assert_eq!(told.matches("more than 64 MiB").count(), 3, "{told}");
-    assert!(told.contains("100000 at most"), "{told}");
+    let printed = stdout(&output);
+    assert_eq!(printed.lines().count(), 4, "{printed}");
+    assert!(printed.lines().all(|line| line.starts_with("false, ")), "{printed}");
+    assert_eq!(printed.matches("more than 64 MiB").count(), 3, "{printed}");
+    assert!(printed.contains("100000 at most"), "{printed}");
 }

@@ -69,8 +69,8 @@ fn functions_that_cannot_be_interrupted_end_with_the_process() {
     let pattern = "(('a'):rep(40)):find(('a?'):rep(40) .. ('a'):rep(40))";
     let output = interrupt(&Scene::new(&format!("print('ready')\nlocal x = 1\n{pattern}")), &["--empty"], 1);
     assert_eq!(output.status.code(), Some(130));
-    let told = stderr(&output);
-    assert!(told.contains("ended in the middle of a script, at ") && told.contains("/Script\"]:3"), "{told}");
+    let log = stderr(&output);
+    assert!(log.contains("ended in the middle of a script, at ") && log.contains("/Script\"]:3"), "{log}");
 }
 
 #[test]
@@ -109,11 +109,8 @@ fn a_run_ends_quietly_when_nobody_reads_its_output() {
         let output = child.wait_with_output().expect("the child is ours");
         assert_eq!(output.status.code(), Some(141), "{code}: {}", stderr(&output));
         assert!(begun.elapsed() < LIMIT, "{code}: {:?}", begun.elapsed());
-        let told = stderr(&output);
-        assert!(
-            !told.contains("interrupted") && !told.contains("traceback") && !told.contains("panic"),
-            "{code}: {told}"
-        );
+        let log = stderr(&output);
+        assert!(!log.contains("interrupted") && !log.contains("traceback") && !log.contains("panic"), "{code}: {log}");
     }
 }
 

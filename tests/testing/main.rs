@@ -234,8 +234,8 @@ fn fail_alone(tests: &[(&str, &str, &str)], args: &[&str]) {
     assert_eq!(code, 1, "{output}");
     for (name, _, message) in tests {
         let start = format!("ERROR bad_test.lua::{name}\n");
-        let told = output.split_once(&start).unwrap_or_else(|| panic!("{name} is no error:\n{output}")).1;
-        let block: Vec<&str> = told.lines().take_while(|line| line.starts_with(' ')).collect();
+        let rest = output.split_once(&start).unwrap_or_else(|| panic!("{name} is no error:\n{output}")).1;
+        let block: Vec<&str> = rest.lines().take_while(|line| line.starts_with(' ')).collect();
         assert!(block.join("\n").contains(message), "{name}:\n{}", block.join("\n"));
     }
     let total = format!("1 passed, {} errors", tests.len());

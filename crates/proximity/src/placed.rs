@@ -1,4 +1,4 @@
-//! What is queried, and where it is.
+//! Geometry of queries, and its pose.
 
 use geometry::{Finite, LARGEST_COORDINATE, Pose};
 use nalgebra::Matrix3;
@@ -9,7 +9,7 @@ use crate::points::{ORIGIN, PointSet};
 use crate::primitive::Vector;
 use crate::voxels::VoxelGrid;
 
-/// What a query sees.
+/// Geometry of a query.
 #[derive(Debug, Clone, Copy)]
 pub enum Geometry<'a> {
     /// A surface.
@@ -25,7 +25,7 @@ pub enum Geometry<'a> {
 /// A geometry and the pose of its frame in the world.
 #[derive(Debug, Clone, Copy)]
 pub struct Placed<'a> {
-    /// What it is.
+    /// Its geometry.
     pub geometry: Geometry<'a>,
     /// From its frame to the world.
     pub pose: Pose,

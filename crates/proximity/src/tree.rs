@@ -76,7 +76,7 @@ impl Tree {
     }
 }
 
-/// What is sorted during the build.
+/// Entry that is sorted during the build.
 #[derive(Clone, Copy)]
 struct Entry {
     bounds: Bounds,

@@ -1,4 +1,4 @@
-//! What surfaces look like.
+//! Appearance of surfaces.
 
 use crate::texture::Texture;
 

@@ -1,4 +1,4 @@
-//! What a renderer returns.
+//! Results of a renderer.
 
 use crate::Background;
 

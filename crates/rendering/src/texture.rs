@@ -49,7 +49,7 @@ impl Texture {
         mix(low, high, up)
     }
 
-    /// What a lit colour becomes where the image has a colour and opacity.
+    /// Combines a lit colour with the colour and opacity of the image.
     pub(crate) fn combine(&self, lit: [f32; 3], [r, g, b, opacity]: [f32; 4]) -> [f32; 3] {
         let image = [r, g, b];
         [0, 1, 2].map(|i| match self.mode {

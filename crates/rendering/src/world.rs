@@ -1,4 +1,4 @@
-//! What a picture shows: meshes, points, lines, lights, fog and background.
+//! Content of a picture: meshes, points, lines, lights, fog and background.
 
 use geometry::Pose;
 
@@ -26,7 +26,7 @@ pub struct Instance<'a> {
     /// From the mesh's frame to the world. An instance whose pose is not finite is not drawn.
     pub pose: Pose,
     pub material: &'a Material,
-    /// What [`Picture::ids`](crate::Picture) holds where the instance is seen.
+    /// Value in [`Picture::ids`](crate::Picture) where the instance is seen.
     pub id: u32,
 }
 

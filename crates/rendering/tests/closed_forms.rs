@@ -1,4 +1,4 @@
-//! What can be computed by hand: silhouettes, depths, directions, normals.
+//! Comparison with closed forms: silhouettes, depths, directions, normals.
 
 mod common;
 

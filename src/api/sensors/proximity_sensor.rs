@@ -61,7 +61,7 @@ fn handle_proximity_sensor(cx: &mut Cx, sensor_handle: Number) -> Result<(i64, f
     sensor.map_or(Ok(nothing(-1)), |sensor| cx.handle_proximity_sensor(sensor).map(reading))
 }
 
-/// What a sensor detected when it was last handled.
+/// Result of the last handling of a sensor.
 ///
 /// @param sensorHandle the sensor
 /// @return result 1 if something was detected, 0 if not, -1 if it was not handled since the start of the simulation

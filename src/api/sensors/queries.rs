@@ -9,7 +9,7 @@ use crate::script::Number;
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![check_collision, check_collision_ex, check_distance];
 
-/// What the two handles of a script mean.
+/// Entities for the two handles of a script.
 fn entities(scene: &Scene, [first, second]: [Number; 2]) -> Result<[Entity; 2]> {
     Ok([Entity::named(scene, first.0)?, Entity::named_or_all(scene, second.0)?])
 }

@@ -89,7 +89,7 @@ fn check_vision_sensor_ex(
     })
 }
 
-/// What a script wants to be seen.
+/// Entity for the handle of a script.
 fn entity(cx: &Cx, handle: Number) -> Result<Entity> {
     let scene = cx.scene();
     let entity = Entity::from_raw(if handle.0 == special::ALL { Entity::ALL.raw() } else { handle.0 });

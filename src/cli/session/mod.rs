@@ -1,4 +1,4 @@
-//! What `swanilda run` does while a simulation runs: it shows progress, rests, and listens for ctrl-c.
+//! The loop of `swanilda run` during a simulation: shows progress, waits for real time, and listens for ctrl-c.
 
 pub(super) mod graphs;
 pub(super) mod interrupt;
@@ -14,7 +14,7 @@ use interrupt::Interrupt;
 use output::Output;
 use progress::Progress;
 
-use crate::{Onlooker, Simulator};
+use crate::{RunObserver, Simulator};
 
 /// Sleep between polls of the wall clock in real-time mode.
 const REAL_TIME_NAP: Duration = Duration::from_millis(1);
@@ -50,8 +50,8 @@ impl Reminder {
     }
 }
 
-impl Onlooker for Session<'_> {
-    fn wants_end(&self, sim: &Simulator) -> bool {
+impl RunObserver for Session<'_> {
+    fn should_stop(&self, sim: &Simulator) -> bool {
         self.interrupt.is_requested() || sim.video_failure().is_some()
     }
 
@@ -63,8 +63,8 @@ impl Onlooker for Session<'_> {
         self.reminder.remind(self.output, sim.time());
     }
 
-    fn gives_up(&mut self, sim: &Simulator) {
-        self.output.gives_up(sim.time());
+    fn stops_paused(&mut self, sim: &Simulator) {
+        self.output.stops_paused(sim.time());
     }
 }
 

@@ -1,4 +1,4 @@
-//! What a run says: prints to stdout, the log to stderr; or everything as JSON lines on stdout.
+//! Output of a run: prints to stdout, the log to stderr; or everything as JSON lines on stdout.
 
 use std::cell::Cell;
 use std::io::Write;
@@ -32,7 +32,7 @@ pub(in crate::cli) struct Output {
     quiet: bool,
     /// Stands on the terminal between lines.
     bar: ProgressBar,
-    /// What has happened since the last error of a script.
+    /// State since the last error of a script.
     aftermath: Rc<Cell<Aftermath>>,
     /// Requested when nobody reads standard output any more.
     interrupt: Interrupt,
@@ -47,7 +47,7 @@ enum Aftermath {
     /// The line about the pause is held back.
     Paused,
     /// The paused simulation is being stopped.
-    GivenUp,
+    Stopping,
 }
 
 impl Output {
@@ -68,14 +68,14 @@ impl Output {
     }
 
     /// Reports that a simulation nobody resumes is stopped.
-    pub(in crate::cli) fn gives_up(&self, time: f64) {
+    pub(in crate::cli) fn stops_paused(&self, time: f64) {
         if self.aftermath.get() == Aftermath::Paused {
-            return self.aftermath.set(Aftermath::GivenUp);
+            return self.aftermath.set(Aftermath::Stopping);
         }
         self.note("The simulation is paused and nobody resumes it: it is stopped.", time);
     }
 
-    /// What to show of a line; None if it is left out or held back.
+    /// Line to show; None if it is left out or delayed.
     fn condensed<'a>(&self, line: &LogLine<'a>) -> Option<LogLine<'a>> {
         if !line.status {
             if verbosity::plain(line.level) == verbosity::SCRIPT_ERRORS {
@@ -85,8 +85,8 @@ impl Output {
         }
         let (next, text) = match (self.aftermath.get(), line.text) {
             (Aftermath::Error, status::PAUSED) => (Aftermath::Paused, None),
-            (Aftermath::GivenUp, status::RESUMED) => (Aftermath::GivenUp, None),
-            (Aftermath::GivenUp, status::STOPPED) => (Aftermath::None, Some(STOPPED_AFTER_ERROR)),
+            (Aftermath::Stopping, status::RESUMED) => (Aftermath::Stopping, None),
+            (Aftermath::Stopping, status::STOPPED) => (Aftermath::None, Some(STOPPED_AFTER_ERROR)),
             (Aftermath::Paused, text) => {
                 // Somebody has resumed it: the pause is told after all.
                 self.write_error(&LogLine { text: status::PAUSED, ..*line });

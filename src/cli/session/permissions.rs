@@ -8,7 +8,7 @@ use crate::permissions::{HostRule, Permissions};
 /// Where the help text lists them.
 pub(in crate::cli) const HEADING: &str = "Permissions of scripts and remote clients (default: everything)";
 
-/// What scripts and remote clients may do: everything without these options.
+/// Permissions of scripts and remote clients: all without these options.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub(in crate::cli) struct PermissionArgs {
     /// Allow reading the scene's folder, and nothing else but what other options allow
@@ -34,7 +34,7 @@ pub(in crate::cli) struct PermissionArgs {
     allow_native: bool,
 }
 
-/// What an option names, or everything.
+/// Values of an option, or everything.
 #[derive(Debug, Clone)]
 enum Scope<T> {
     Everything,

@@ -1,4 +1,4 @@
-//! What `run` and `serve` have in common: the simulator they are given and its scene.
+//! Common set-up of `run` and `serve`: the simulator and its scene.
 
 use std::path::{Path, PathBuf};
 
@@ -147,7 +147,7 @@ impl Setup {
         }
         self.apply_settings(sim, scene);
         if kind == ScriptKind::AddOn && self.empty {
-            // What an add-on made before there was a scene does not belong to it.
+            // Objects that an add-on created before there was a scene do not belong to it.
             sim.clear_scene();
         }
     }

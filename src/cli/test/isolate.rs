@@ -27,7 +27,8 @@ pub(super) fn after_crash() {
     let Some(subcommand) = args.iter().position(|arg| arg == "test") else { return };
     args[0] = program.into_os_string();
     args.insert(subcommand + 1, "--isolate".into());
-    let message = "\nswanilda: native code crashed in a test. All tests run again, each in a child process (--isolate).\n";
+    let message =
+        "\nswanilda: native code crashed in a test. All tests run again, each in a child process (--isolate).\n";
     run_on_crash(message.to_owned(), args);
 }
 

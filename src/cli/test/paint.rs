@@ -47,7 +47,7 @@ impl Paint {
     }
 }
 
-/// What tests and scripts say, with signs in place of characters that would command the terminal.
+/// Text of tests and scripts with control characters of the terminal replaced.
 pub(super) fn harmless(text: &str) -> String {
     let sign = |c: char| match c {
         '\n' | '\t' => c,

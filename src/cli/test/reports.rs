@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::paint::ColorChoice;
-use super::terminal::{Terminal, Wishes};
+use super::terminal::{Terminal, TerminalOptions};
 use crate::format::scene_file::{is_special, link_target, write_whole};
 use crate::testing::report::{html, json, junit, tap};
 use crate::testing::{Outcome, Reporter, Summary, TestCase};
@@ -57,9 +57,13 @@ impl ReportArgs {
         let stream = if self.tap { Some(Stream::Tap(0)) } else { self.json.then_some(Stream::Json) };
         // A terminal that shows the report already has no place for a second one.
         let is_silent = stream.is_some() && std::io::stdout().is_terminal();
-        let wishes =
-            Wishes { verbose: self.verbose, color: self.color, durations: self.durations, on_stderr: stream.is_some() };
-        Reports { terminal: (!is_silent).then(|| Terminal::new(wishes)), stream }
+        let options = TerminalOptions {
+            verbose: self.verbose,
+            color: self.color,
+            durations: self.durations,
+            on_stderr: stream.is_some(),
+        };
+        Reports { terminal: (!is_silent).then(|| Terminal::new(options)), stream }
     }
 
     /// Prints a message that belongs to no report, without disturbing one.

@@ -1,4 +1,4 @@
-//! What the terminal shows of a test run.
+//! Output of a test run on the terminal.
 //!
 //! Failures are shown in full as they come, passed tests by file, or one by one when it is verbose; at the end stands what matters once more.
 
@@ -15,9 +15,9 @@ use super::paint::{BOLD, ColorChoice, DIM, GREEN, Paint, RED, YELLOW, harmless};
 use crate::testing::report::files;
 use crate::testing::{Outcome, Reporter, Status, Summary, TestCase};
 
-/// What the user wants to see.
+/// Options for the terminal.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Wishes {
+pub(super) struct TerminalOptions {
     /// Each test, and tracebacks.
     pub verbose: bool,
     pub color: ColorChoice,
@@ -29,7 +29,7 @@ pub(super) struct Wishes {
 
 /// Shows how tests get on.
 pub(super) struct Terminal {
-    wishes: Wishes,
+    options: TerminalOptions,
     paint: Paint,
     bar: ProgressBar,
     bad: usize,
@@ -47,17 +47,17 @@ struct Tally {
 }
 
 impl Terminal {
-    pub(super) fn new(wishes: Wishes) -> Self {
+    pub(super) fn new(options: TerminalOptions) -> Self {
         let is_terminal =
-            if wishes.on_stderr { std::io::stderr().is_terminal() } else { std::io::stdout().is_terminal() };
+            if options.on_stderr { std::io::stderr().is_terminal() } else { std::io::stdout().is_terminal() };
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-        Self { wishes, paint: Paint::new(wishes.color, is_terminal), bar, bad: 0, open: BTreeMap::new() }
+        Self { options, paint: Paint::new(options.color, is_terminal), bar, bad: 0, open: BTreeMap::new() }
     }
 
     /// Writes text between the frames of the progress bar. A reader that closes the pipe has seen enough, which is no error.
     fn say(&self, text: &str) {
         self.bar.suspend(|| {
-            let _ = if self.wishes.on_stderr {
+            let _ = if self.options.on_stderr {
                 std::io::stderr().lock().write_all(text.as_bytes())
             } else {
                 std::io::stdout().lock().write_all(text.as_bytes())
@@ -109,11 +109,11 @@ impl Terminal {
 
     fn failure(&self, outcome: &Outcome) -> String {
         let title = self.paint.paint(BOLD, &harmless(&outcome.test.id()));
-        let block = failure::block(outcome, self.paint, self.wishes.verbose);
+        let block = failure::block(outcome, self.paint, self.options.verbose);
         format!("{} {title}\n{block}\n", self.paint.status(outcome.status))
     }
 
-    /// What failed, a line each, in the order of the files.
+    /// Failed tests, one per line, in the order of the files.
     fn failures(&self, summary: &Summary) -> String {
         let bad: String = files(summary).flatten().filter(|outcome| outcome.is_bad()).map(|o| self.short(o)).collect();
         if bad.is_empty() { bad } else { format!("Failures:\n{bad}\n") }
@@ -132,7 +132,7 @@ impl Terminal {
     fn slowest(&self, summary: &Summary) -> String {
         let mut slowest: Vec<_> = summary.outcomes.iter().collect();
         slowest.sort_by_key(|outcome| std::cmp::Reverse(outcome.wall));
-        slowest.truncate(self.wishes.durations);
+        slowest.truncate(self.options.durations);
         let line =
             |outcome: &&Outcome| format!("  {:>8.3} s  {}\n", outcome.wall.as_secs_f64(), harmless(&outcome.test.id()));
         let lines: String = slowest.iter().map(line).collect();
@@ -161,7 +161,7 @@ impl Terminal {
     }
 }
 
-/// What to do when nothing was run.
+/// Advice when nothing was run.
 fn no_tests(deselected: usize) -> String {
     if deselected > 0 {
         return format!("no tests run: --filter and --shard leave out all {deselected}; --list shows names\n");
@@ -183,10 +183,10 @@ impl Reporter for Terminal {
         let file = self.tally(outcome);
         if outcome.is_bad() {
             self.say(&self.failure(outcome));
-        } else if self.wishes.verbose {
+        } else if self.options.verbose {
             self.say(&self.test_line(outcome));
         }
-        if let Some(line) = file.filter(|_| !self.wishes.verbose) {
+        if let Some(line) = file.filter(|_| !self.options.verbose) {
             self.say(&line);
         }
     }

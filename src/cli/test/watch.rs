@@ -56,7 +56,7 @@ impl Watch {
     }
 }
 
-/// What tests are made of; not what they write.
+/// Whether a file is a source of tests, not an output of theirs.
 fn matters(path: &Path) -> bool {
     path.extension().is_some_and(|extension| ["lua", "ttt", "ttm", "xml"].iter().any(|known| extension == *known))
 }

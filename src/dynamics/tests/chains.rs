@@ -49,7 +49,7 @@ impl Chain {
         self.links.iter().map(|&link| self.bench.energy(link)).sum()
     }
 
-    /// What there is to fall to the hanging position.
+    /// Height above the hanging position, metres.
     fn fall(&self) -> f64 {
         let reach = |i: usize| LENGTH * (i as f64 + 0.5) * (1.0 + self.incline.cos());
         self.masses.iter().enumerate().map(|(i, mass)| mass * 9.81 * reach(i)).sum()

@@ -80,7 +80,7 @@ fn a_screw_moves_along_while_it_turns() {
     bench.run(40);
     near(bench.joint(screw).position, 2.0 * std::f64::consts::TAU, 1e-6);
     near(bench.height(nut), 1.02, 1e-6);
-    // What the motor bears of the weight: mass, gravity, lead per radian.
+    // Torque of the weight on the motor: mass, gravity, lead per radian.
     near(bench.joint(screw).force.expect("simulated"), -9.81 * 0.01 / std::f64::consts::TAU, 1e-6);
 }
 

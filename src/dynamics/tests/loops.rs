@@ -43,7 +43,7 @@ fn a_long_arm_keeps_together_and_holds_its_pose() {
         near(joint.position, 0.0, 1e-6);
         near(joint.error.expect("simulated").translation.vector.norm(), 0.0, 1e-6);
     }
-    // What the first joint carries: six links of 1 kg, 0.1 to 1.1 m away.
+    // Load of the first joint: six links of 1 kg, 0.1 to 1.1 m away.
     near(bench.joint(joints[0]).force.expect("simulated"), 9.81 * 3.6, 1e-3);
 }
 

@@ -47,7 +47,7 @@ impl Sleeper {
         self.bench.scene.world_pose(self.body).expect("exists").translation.vector.into()
     }
 
-    /// What the floor does to the box in each sub-step of the last call, newtons.
+    /// Force of the floor on the box in each sub-step of the last call, newtons.
     fn support(&self) -> Vec<f64> {
         let mut sub_steps = vec![0.0; 10];
         for contact in self.bench.dynamics.contacts() {
@@ -214,9 +214,9 @@ fn a_link_wakes_and_keeps_awake() {
 #[test]
 fn contact_callbacks_wake_bodies() {
     let mut sleeper = Sleeper::new();
-    let asked = std::cell::Cell::new(0);
+    let calls = std::cell::Cell::new(0);
     let callback = |_, _| {
-        asked.set(asked.get() + 1);
+        calls.set(calls.get() + 1);
         ContactResponse::NoCollision
     };
     let call = sleeper.bench.dynamics.begin(&mut sleeper.bench.scene, STEP).expect("not busy").expect("a body");
@@ -229,7 +229,7 @@ fn contact_callbacks_wake_bodies() {
         sleeper.bench.dynamics.finish_sub_step(sub_step, &mut sleeper.bench.scene);
     }
     sleeper.bench.dynamics.end(&mut sleeper.bench.scene);
-    assert!(asked.get() >= 10 && sleeper.at()[2] < 0.045, "{} {}", asked.get(), sleeper.at()[2]);
+    assert!(calls.get() >= 10 && sleeper.at()[2] < 0.045, "{} {}", calls.get(), sleeper.at()[2]);
 }
 
 #[test]

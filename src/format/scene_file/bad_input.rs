@@ -57,7 +57,7 @@ fn flipped_bits_do_no_harm() {
             let at = (state >> 33) as usize % (8 * damaged.len());
             damaged[at / 8] ^= 1 << (at % 8);
         }
-        // What comes of it does not matter, as long as it ends.
+        // Any result is right, as long as it ends.
         let _ = load(&plain(&damaged));
     }
 }

@@ -34,7 +34,7 @@ impl SceneFile {
         Ok(save::scene(scene, scripts)?.write())
     }
 
-    /// What a file holds after its header, uncompressed.
+    /// Body of a file: the bytes after its header, uncompressed.
     ///
     /// # Errors
     /// When the header or the compressed data are damaged.
@@ -43,7 +43,7 @@ impl SceneFile {
     }
 }
 
-/// What a file has brought into a scene.
+/// Objects that a file added to a scene.
 #[derive(Debug, Default)]
 pub struct Loaded {
     /// The objects, in the order of the file.

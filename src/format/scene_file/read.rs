@@ -11,10 +11,10 @@ pub fn is_scene(bytes: &[u8]) -> bool {
     ttt::is_binary(bytes) || xml::is_xml(bytes)
 }
 
-/// What a file holds. XML may name files beside it, which are looked for in `folder`, where they may be read.
+/// Content of a file. XML may name files beside it, which are looked for in `folder`, where they may be read.
 ///
 /// # Errors
-/// What is wrong with the bytes, and where.
+/// Describes the fault in the bytes, and its position.
 pub fn read_file(bytes: &[u8], folder: Option<&Path>, permissions: &Permissions) -> FileResult<File> {
     if xml::is_xml(bytes) { xml::read(bytes, folder, permissions) } else { File::read(bytes) }
 }

@@ -62,7 +62,7 @@ pub fn unpack(file: &File, folder: &Path) -> NodeResult<()> {
 /// The file an unpacked scene says.
 ///
 /// # Errors
-/// What is wrong, and where in the tree.
+/// Describes the fault and its place in the tree.
 pub fn pack(folder: &Path, permissions: &Permissions) -> NodeResult<File> {
     let inside = Inside { folder, permissions };
     let mut tree = inside.tree()?;
@@ -102,7 +102,7 @@ fn mesh_name(number: i32) -> String {
     format!("meshes/{number}.obj")
 }
 
-/// What is written beside the tree.
+/// Files written beside the tree.
 struct Outside<'a> {
     folder: &'a Path,
     names: Names,
@@ -139,7 +139,7 @@ impl Outside<'_> {
     }
 }
 
-/// What is read beside the tree.
+/// Files read beside the tree.
 struct Inside<'a> {
     folder: &'a Path,
     permissions: &'a Permissions,

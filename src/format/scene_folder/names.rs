@@ -27,7 +27,7 @@ impl Names {
     }
 }
 
-/// What scripts are called: by the places of objects and of attached scripts in a file.
+/// Names of scripts, by the positions of objects and of attached scripts in a file.
 pub(super) struct ScriptNames {
     pub(super) objects: Vec<String>,
     pub(super) attached: Vec<String>,

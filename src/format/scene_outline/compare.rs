@@ -1,4 +1,4 @@
-//! What is different between two scenes: objects added, removed, moved, changed; their scripts line by line.
+//! Differences between two scenes: objects added, removed, moved, changed; their scripts line by line.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -145,12 +145,12 @@ mod tests {
             let as_scene = !source.is_model();
             let loaded = source.add_to(&mut scene, as_scene).unwrap();
             let saved = save::scene(&scene, &loaded.scripts).unwrap();
-            let (mut told, other) = (outline(file), outline(saved));
+            let (mut opened, other) = (outline(file), outline(saved));
             // A model is saved as the scene that it is in.
             if !as_scene {
-                told.settings.clone_from(&other.settings);
+                opened.settings.clone_from(&other.settings);
             }
-            assert_eq!(differences(&told, &other), "", "{}", path.display());
+            assert_eq!(differences(&opened, &other), "", "{}", path.display());
         }
     }
 
@@ -181,10 +181,10 @@ mod tests {
                 _ => {}
             }
         }
-        let told = differences(&outline(robot()), &outline(other));
-        assert!(told.contains("moved   /robot/joint/arm/tip -> /robot/joint/arm/end\n"), "{told}");
-        assert!(told.contains("changed /robot/joint: Joint.motor: [0.0, 2.5] -> [0.5, 7.0]\n"), "{told}");
-        assert!(told.contains("+-- more\n"), "{told}");
-        assert_eq!(told.lines().filter(|line| line.starts_with("changed")).count(), 1, "{told}");
+        let report = differences(&outline(robot()), &outline(other));
+        assert!(report.contains("moved   /robot/joint/arm/tip -> /robot/joint/arm/end\n"), "{report}");
+        assert!(report.contains("changed /robot/joint: Joint.motor: [0.0, 2.5] -> [0.5, 7.0]\n"), "{report}");
+        assert!(report.contains("+-- more\n"), "{report}");
+        assert_eq!(report.lines().filter(|line| line.starts_with("changed")).count(), 1, "{report}");
     }
 }

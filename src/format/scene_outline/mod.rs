@@ -1,4 +1,4 @@
-//! What a scene or model is, object by object, in words: to look at, and to compare.
+//! Textual description of a scene or model, object by object: to look at, and to compare.
 //!
 //! A file is loaded and described as it would be saved today, so that files of different versions are told apart by what they say, not by
 //! how they say it. Objects are known by their paths, not by handles.
@@ -133,7 +133,7 @@ fn item(
         scripts: Vec::new(),
         meshes: BTreeMap::new(),
     };
-    // What all objects have goes without a name, what the type adds under the name of the type.
+    // Common attributes have no prefix, those of the type have its name.
     entries.iter().for_each(|(name, node)| walk.visit(if name == "Object" { "" } else { name }, node));
     let id = object.common.persistent_id.as_ref().map(|id| id.decode()).unwrap_or_default();
     Item {

@@ -19,14 +19,14 @@ const HEADER: usize = 1021;
 /// The release whose files this program writes: 4.10.0.
 const PROGRAM_VERSION: u16 = 41_000;
 
-/// What a file holds, by its header. Old programs wrote nothing there.
+/// Content of a file according to its header. Old programs wrote nothing there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileKind {
     Scene = 1,
     Model = 2,
 }
 
-/// What a file says of itself.
+/// Header of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Header {
     /// The number of the format, 16 to 25.

@@ -75,7 +75,7 @@ const PEEK: usize = 11;
 /// Looks that one word of 57 bits is good for.
 const LOOKS: usize = 5;
 
-/// What [`PEEK`] bits say: the symbols whose codes are complete in them, and how many bits these take.
+/// Table entry for [`PEEK`] bits: the symbols whose codes are complete in them, and how many bits these take.
 #[derive(Clone, Copy, Default)]
 struct Entry {
     symbols: [u8; 4],

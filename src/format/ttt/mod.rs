@@ -44,7 +44,7 @@ pub struct File {
 impl File {
     /// # Errors
     ///
-    /// What is wrong with the bytes, with the offset in the uncompressed body and the path of chunks. Memory stays in
+    /// Describes the fault, with the offset in the uncompressed body and the path of chunks. Memory stays in
     /// proportion to the size of the file, whatever its numbers announce.
     pub fn read(bytes: &[u8]) -> FileResult<Self> {
         let (header, body) = container::unpack(bytes)?;

@@ -20,7 +20,7 @@ pub enum Node {
     Table(Vec<(String, Node)>),
 }
 
-/// What is wrong with a tree, in words, with the names that lead there.
+/// Result with a description of the fault in a tree, with the names that lead there.
 pub type NodeResult<T> = Result<T, String>;
 
 /// How deep trees are read: as deep as compound shapes may be, which take a few levels each.

@@ -49,7 +49,7 @@ pub fn is_xml(bytes: &[u8]) -> bool {
 /// The scene or model of an XML file. Files that it names are below `folder`, where they may be read; a buffer has none.
 ///
 /// # Errors
-/// What is wrong, with line, column and the names of the elements.
+/// Describes the fault, with line, column and the names of the elements.
 pub fn read(bytes: &[u8], folder: Option<&Path>, permissions: &Permissions) -> FileResult<File> {
     scene::read(&Document::parse(bytes)?, SideFiles { folder, permissions })
 }

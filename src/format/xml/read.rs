@@ -17,7 +17,7 @@ const REVOLUTE: i64 = 10;
 /// How the names of elements end whose bytes are coded in base64.
 pub(super) const CODED: &str = "_base64Coded";
 
-/// What is known while a document is read.
+/// State while a document is read.
 pub(super) struct Reading<'a> {
     pub simple: bool,
     /// Objects and collections by what refers to them.
@@ -28,7 +28,7 @@ pub(super) struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    /// What the element says of a section's fields.
+    /// Fields of a section in the element.
     ///
     /// # Errors
     /// When a value has the wrong type or form.

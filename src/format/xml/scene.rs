@@ -45,7 +45,7 @@ type Attached = (i64, i64, Node);
 type Placed<'a> = (Element<'a>, Option<usize>);
 
 /// # Errors
-/// What is wrong, with line, column and the names of the elements.
+/// Describes the fault, with line, column and the names of the elements.
 pub(super) fn read(document: &Document, side_files: SideFiles<'_>) -> FileResult<File> {
     let root = document.root().mark();
     let what = root.find(&["filetype"]).filter(|_| root.name() == "CoppeliaSim");
@@ -94,7 +94,7 @@ fn skipped(element: Element<'_>) -> Skipped {
     Skipped { offset: element.offset(), path: element.path(), size: element.size() }
 }
 
-/// What the file says of the program that wrote it: a number such as 41000, or 4.10.0.
+/// Header with the version of the program that wrote the file: a number such as 41000, or 4.10.0.
 fn header(root: Element<'_>, kind: FileKind, simple: bool) -> FileResult<Node> {
     let current = Header::current(kind);
     let _ = ["xmlSerializationNb", "prgFlavor", "modelThumbnail"].map(|name| root.find(&[name]).map(Element::mark));

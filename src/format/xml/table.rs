@@ -12,7 +12,7 @@ pub(super) enum Step {
     Items(usize, usize),
 }
 
-/// What numbers mean.
+/// Unit of numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Unit {
     Int,

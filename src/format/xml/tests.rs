@@ -39,7 +39,7 @@ fn exhaustive_scenes_come_back_equal() {
     }
 }
 
-/// What the simple variant keeps of an object: its path, place and mass.
+/// Attributes of objects that the simple variant stores: path, position and mass.
 fn outline(scene: &Scene) -> Vec<String> {
     let line = |object: &crate::scene::Object| {
         let pose = scene.world_pose(object.handle()).unwrap();
@@ -148,7 +148,7 @@ fn changed_bytes_do_no_harm() {
             let at = (state >> 33) as usize % damaged.len();
             damaged[at] = b"0123456789.-e<>&/ "[(state >> 20) as usize % 18];
         }
-        // What comes of it does not matter, as long as it ends.
+        // Any result is right, as long as it ends.
         let _ = load_damaged(&damaged);
     }
 }

@@ -77,7 +77,7 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('\r', "&#13;")
 }
 
-/// What is known while a file is written.
+/// State while a file is written.
 pub(super) struct Writing<'a> {
     pub simple: bool,
     pub pool: &'a MeshPool,

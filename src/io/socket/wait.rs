@@ -49,8 +49,8 @@ impl<'a> Wait<'a> {
 
     fn limit(&self) -> Option<Duration> {
         let block = duration(self.timeout.block);
-        let spent = self.began.map(|began| began.elapsed()).unwrap_or_default();
-        let total = duration(self.timeout.total).map(|total| total.saturating_sub(spent));
+        let elapsed = self.began.map(|began| began.elapsed()).unwrap_or_default();
+        let total = duration(self.timeout.total).map(|total| total.saturating_sub(elapsed));
         match (block, total) {
             (Some(block), Some(total)) => Some(block.min(total)),
             (block, total) => block.or(total),

@@ -6,7 +6,7 @@ use tokio_tungstenite::tungstenite::http::StatusCode;
 use super::LARGEST_MESSAGE;
 use super::http::LARGEST_HEAD;
 
-/// What follows the bytes of a chunk.
+/// Separator after the bytes of a chunk.
 const LINE_END: &[u8] = b"\r\n";
 
 /// A body that is put together from its chunks.

@@ -50,8 +50,8 @@ impl Numbers {
         self.0.fetch_add(1, Ordering::Relaxed) + 1
     }
 
-    /// Whether that number has been given out.
-    pub(crate) fn has_given(&self, number: u64) -> bool {
+    /// Whether that number has been issued.
+    pub(crate) fn was_issued(&self, number: u64) -> bool {
         (1..=self.0.load(Ordering::Relaxed)).contains(&number)
     }
 }

@@ -220,9 +220,9 @@ mod tests {
         client.write_all(b"\x01\0\0\x02hi").expect("the server reads");
         assert_eq!(next(&server), Some(Incoming::Request(1, b"hi".to_vec())));
         server.reply(1, b"ho");
-        let mut heard = vec![0; zmtp::hello().len() + 6];
-        client.read_exact(&mut heard).expect("the answer comes");
-        assert!(heard.ends_with(b"\x01\0\0\x02ho"));
+        let mut received = vec![0; zmtp::hello().len() + 6];
+        client.read_exact(&mut received).expect("the answer comes");
+        assert!(received.ends_with(b"\x01\0\0\x02ho"));
         drop(client);
         assert_eq!(next(&server), Some(Incoming::Gone(1)));
         server.reply(1, b"nobody");

@@ -11,7 +11,7 @@ use crate::wire::cbor_head::{Head, INDEFINITE, major};
 /// Room made for elements before they are read: a head may promise more than follows.
 const MAX_HINT: usize = 1 << 10;
 
-/// What the library calls the major types that hold one kind of value, in their order.
+/// Names that the library uses for the major types with one kind of value, in their order.
 const TYPES: [&str; 6] = ["UINT", "NINT", "BIN", "TEXT", "ARRAY", "MAP"];
 
 /// Why there is no value.
@@ -24,7 +24,7 @@ enum Stop {
     },
 }
 
-/// What the value was in CBOR.
+/// Kind of the value in CBOR.
 #[derive(Clone, Copy)]
 enum Kind {
     Name(&'static str),

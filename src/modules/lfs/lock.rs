@@ -41,7 +41,7 @@ fn lock(args: &mut Args<'_>) -> ApiResult<c_int> {
     }
 }
 
-/// What the system says of an error, without the number Rust adds.
+/// Message of the operating system for an error, without the number that Rust appends.
 pub(super) fn system_words(error: &std::io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or_default().to_owned()

@@ -97,7 +97,7 @@ fn link(cx: &Cx, old: String, new: String, #[default(false)] symbolic: bool) -> 
     let allowed = if symbolic {
         cx.permissions().check_redirect("making symbolic links")
     } else {
-        // What is written by its new name changes under its old one too.
+        // Writes through the new name change the file under its old one, too.
         let (old, new) = (Path::new(&old), Path::new(&new));
         cx.permissions().check_rename(old, new)
     };

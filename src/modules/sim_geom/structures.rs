@@ -11,7 +11,7 @@ use super::{ApiError, Result, refused};
 use crate::scene::voxels::octree::OcTree;
 use crate::scene::voxels::point_cloud::PointCloud;
 
-/// What a script has made. It ends with the script's state.
+/// Structures created by a script. They are dropped with the script's state.
 #[derive(Default)]
 pub(super) struct Structures {
     pub meshes: Store<MeshStructure>,

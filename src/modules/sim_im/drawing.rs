@@ -40,7 +40,7 @@ fn pen(Ints([red, green, blue]): Ints<3>, line_type: Number) -> Result<Pen> {
     Ok(Pen { colour: [blue as f64, green as f64, red as f64, 0.0], line_type })
 }
 
-/// What a number with binary digits behind the point is divided by.
+/// Divisor of a fixed-point number with `shift` binary digits after the point.
 fn divisor(shift: Number) -> Result<f64> {
     const MOST: i64 = 16;
     let is_possible = (0..=MOST).contains(&shift.0);

@@ -23,7 +23,7 @@ impl From<MatrixError> for ApiError {
     }
 }
 
-/// What a script has. It goes with the script's state.
+/// Images of a script. They are dropped with the script's state.
 #[derive(Default)]
 pub(super) struct Images {
     images: RefCell<BTreeMap<u64, Rc<Matrix>>>,

@@ -14,7 +14,7 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![handle_anaglyph_stereo, handle
 /// Red for the left eye, cyan for the right one.
 const RED_CYAN: [f64; 6] = [1.0, 0.0, 0.0, 0.0, 1.0, 1.0];
 
-/// What composed sensors have to agree on.
+/// Properties that composed sensors must have in common.
 #[derive(Clone, Copy)]
 pub(super) struct Part {
     pub handle: Handle,

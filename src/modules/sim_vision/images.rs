@@ -14,7 +14,7 @@ use crate::script::Number;
 /// A vision sensor as scripts pass it; sim.handle_self is the object of the calling script.
 pub(super) type SensorArgument = Checked<Number>;
 
-/// What a script has, by sensor. It goes with the script's state.
+/// Work images of a script, by sensor. They are dropped with the script's state.
 #[derive(Default)]
 pub(super) struct WorkImages(RefCell<BTreeMap<Handle, ImageSet>>);
 

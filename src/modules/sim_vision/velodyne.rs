@@ -80,7 +80,7 @@ impl Sweep {
     }
 }
 
-/// What a scanner saw.
+/// Points measured by a scanner.
 #[derive(Default)]
 struct Points {
     /// x, y and z of each, or angles and distance.

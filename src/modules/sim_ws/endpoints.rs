@@ -38,14 +38,14 @@ impl WebSockets {
     }
 }
 
-/// What an endpoint is.
+/// Role of an endpoint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
     Server,
     Client,
 }
 
-/// What a handler can be for.
+/// Kind of event that a handler receives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum HandlerKind {
     Open,

@@ -136,7 +136,7 @@ fn send(
     let endpoint = endpoint(cx, &server_or_client_handle)?;
     let connection = handle_number(&connection_handle, "Connection").ok_or_else(invalid_handle)?;
     match endpoint.send(connection, data.0, opcode) {
-        Err(SendError::Expired) if !numbers(cx).has_given(connection) => Err(invalid_handle()),
+        Err(SendError::Expired) if !numbers(cx).was_issued(connection) => Err(invalid_handle()),
         Err(error) => Err(ApiError::Other(error.to_string())),
         Ok(()) => Ok(()),
     }

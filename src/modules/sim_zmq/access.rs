@@ -1,4 +1,4 @@
-//! What ZeroMQ sockets may reach. libzmq reads addresses generously: what is restricted must be written plainly.
+//! Permissions of ZeroMQ sockets. libzmq reads addresses generously: what is restricted must be written plainly.
 
 use std::path::Path;
 

@@ -22,7 +22,7 @@ const CONTEXT: &str = "zmq.context";
 const SOCKET: &str = "zmq.socket";
 const MESSAGE: &str = "zmq.msg";
 
-/// What the scripts of a simulator share.
+/// State shared by the scripts of a simulator.
 #[derive(Default)]
 struct Shared {
     /// The context with the number `SINGLETON`; made at first need.
@@ -36,7 +36,7 @@ pub(crate) fn has_sockets(states: &States) -> bool {
     states.existing::<Shared>().is_some_and(|shared| Rc::strong_count(&shared.users) > 1)
 }
 
-/// What the calling script has. It goes with the script's state.
+/// Sockets and messages of the calling script. They are closed with the script's state.
 #[derive(Default)]
 pub(super) struct Objects {
     messages: RefCell<BTreeMap<u64, Message>>,
@@ -209,7 +209,7 @@ impl Objects {
         handle(number, MESSAGE)
     }
 
-    /// What `f` does with a message.
+    /// Calls `f` with a message and returns its result.
     pub(super) fn with_message<R>(&self, message: &str, f: impl FnOnce(&mut Message) -> R) -> Result<R> {
         self.messages.borrow_mut().get_mut(&number(message, MESSAGE)?).map(f).ok_or_else(invalid)
     }

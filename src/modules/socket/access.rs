@@ -1,4 +1,4 @@
-//! What sockets may reach.
+//! Permissions of sockets.
 
 use crate::api::{Cx, Result};
 use crate::io::socket::{Family, TlsSettings, port};

@@ -72,9 +72,9 @@ fn getaddrinfo(cx: &Cx, host: LuaString) -> Result<Outcome<Data>> {
 fn getnameinfo(cx: &Cx, host: Option<LuaString>, service: Option<LuaString>) -> Result<Outcome<Results>> {
     let text = |given: &Option<LuaString>| given.as_ref().map(|given| given.text().into_owned());
     let (host, service) = (text(&host), text(&service));
-    let asked = host.as_deref().unwrap_or("127.0.0.1");
-    check_lookup(cx, asked)?;
-    let found = addresses(cx, asked, service.as_deref().unwrap_or("0"), Family::Any);
+    let name = host.as_deref().unwrap_or("127.0.0.1");
+    check_lookup(cx, name)?;
+    let found = addresses(cx, name, service.as_deref().unwrap_or("0"), Family::Any);
     let named = found.and_then(|found| {
         found.into_iter().map(|address| name_of(address, stop(cx))).collect::<Found<Vec<(String, String)>>>()
     });

@@ -23,9 +23,9 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![run];
 fn run(cx: &mut Cx, file: String, options: Data) -> Result<Data> {
     let bench = bench(cx)?;
     let run_apart = bench.run_apart.ok_or_else(|| wrong("a scene that runs by itself cannot run others."))?;
-    let wishes = Wishes::new(&options)?;
-    let request = wishes.request(&file, bench.time_limit)?;
-    let options = wishes.options(cx.options(), &request.scene)?;
+    let named_options = NamedOptions::new(&options)?;
+    let request = named_options.request(&file, bench.time_limit)?;
+    let options = named_options.options(cx.options(), &request.scene)?;
     let report = run_apart(options, &request).map_err(ApiError::Other)?;
     if cx.is_interrupted() {
         return Err(wrong("interrupted."));
@@ -35,11 +35,11 @@ fn run(cx: &mut Cx, file: String, options: Data) -> Result<Data> {
 }
 
 /// The options of a run, by name.
-struct Wishes<'a>(BTreeMap<&'a str, &'a Data>);
+struct NamedOptions<'a>(BTreeMap<&'a str, &'a Data>);
 
 const NAMES: [&str; 8] = ["as", "empty", "start", "loops", "steps", "time", "seed", "params"];
 
-impl<'a> Wishes<'a> {
+impl<'a> NamedOptions<'a> {
     fn new(options: &'a Data) -> Result<Self> {
         let entries: &[(Key, Data)] = match options {
             Data::Map(entries) => entries,
@@ -51,10 +51,10 @@ impl<'a> Wishes<'a> {
             Key::Text(name) => Ok((std::str::from_utf8(name).unwrap_or_default(), value)),
             _ => Err(wrong("the options of a run have names.")),
         });
-        let wishes = Self(named.collect::<Result<_>>()?);
-        match wishes.0.keys().find(|name| !NAMES.contains(name)) {
+        let named_options = Self(named.collect::<Result<_>>()?);
+        match named_options.0.keys().find(|name| !NAMES.contains(name)) {
             Some(name) => Err(wrong(&format!("a run has no option '{name}'; there are {}.", NAMES.join(", ")))),
-            None => Ok(wishes),
+            None => Ok(named_options),
         }
     }
 

@@ -1,4 +1,4 @@
-//! What an object is for queries: its geometry, and where it is.
+//! Body of an object for queries: its geometry and pose.
 
 use std::cell::OnceCell;
 use std::collections::BTreeMap;

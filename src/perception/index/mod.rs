@@ -14,7 +14,7 @@ use crate::scene::{Change, Cursor, Field, Handle, Scene, Topic, Topics, Unread};
 pub(crate) use body::Body;
 use body::Meshes;
 
-/// What can move an object or change its geometry.
+/// Changes that can move an object or change its geometry.
 const TOPICS: Topics = Topics::TREE.with(Topic::Added).with(Topic::Removed).with_fields(&[
     Field::Pose,
     Field::Geometry,
@@ -34,7 +34,7 @@ pub(crate) struct Index {
     meshes: Meshes,
 }
 
-/// What has changed since the last query.
+/// Changes since the last query.
 #[derive(Default)]
 struct News {
     /// Came, or got another geometry.

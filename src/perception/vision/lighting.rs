@@ -12,7 +12,7 @@ const USUAL_BACKGROUND: [[f32; 3]; 2] = [[0.804, 0.867, 0.916], [0.05, 0.05, 0.1
 /// Where linear fog ends unless the scene says so, metres.
 const USUAL_FOG_END: f64 = 5.0;
 
-/// What is behind all objects.
+/// Background behind all objects.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Backdrop {
     Colour([f32; 3]),

@@ -28,7 +28,7 @@ pub use rendering::{Channels, Picture};
 pub(crate) use subjects::Subjects;
 pub(crate) use views::{Viewpoint, first_camera, projection};
 
-/// What draws pictures of a scene, with what it has prepared of the objects.
+/// Draws pictures of a scene, with cached data of its objects.
 #[derive(Default)]
 pub(crate) struct Vision {
     /// None before the first picture.
@@ -38,7 +38,7 @@ pub(crate) struct Vision {
     models: Models,
 }
 
-/// What a picture shows, and from where.
+/// Content and viewpoint of a picture.
 #[derive(Debug, Clone)]
 pub(crate) struct Shot {
     /// In the world.
@@ -52,7 +52,7 @@ pub(crate) struct Shot {
     pub lit_by: Option<Handle>,
 }
 
-/// What the colours of a picture mean.
+/// Meaning of the colours of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Look {
     /// Surfaces as the lights show them.

@@ -1,4 +1,4 @@
-//! What objects look like, prepared for drawing. Kept until the object changes.
+//! Geometry and appearance of objects, prepared for drawing. Cached until the object changes.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -17,7 +17,7 @@ const LOOKS: Topics = Topics::NONE.with(Topic::Added).with(Topic::Removed).with_
     Field::Texture,
 ]);
 
-/// What an object looks like.
+/// Prepared geometry and appearance of an object.
 #[derive(Default)]
 pub(super) struct Model {
     pub parts: Vec<ModelPart>,

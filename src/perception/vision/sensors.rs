@@ -1,4 +1,4 @@
-//! What vision sensors see.
+//! Pictures of vision sensors.
 
 use rendering::{Channels, Picture};
 
@@ -9,7 +9,7 @@ use crate::scene::{Handle, Scene, SceneResult};
 /// The colour of nothing where colours are handles.
 const NOTHING: [u8; 3] = [255; 3];
 
-/// What a vision sensor sees. Parts that the sensor ignores are missing.
+/// Picture of a vision sensor. Channels that the sensor ignores are missing.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct SensorPicture {
     /// Red, green, blue of each pixel, from the lowest row.
@@ -21,7 +21,7 @@ pub(crate) struct SensorPicture {
 }
 
 impl Vision {
-    /// What a sensor sees, of an entity instead of its own where there is one.
+    /// Picture of a sensor; `entity` replaces its own.
     ///
     /// # Errors
     /// When `sensor` is no vision sensor.
@@ -40,7 +40,7 @@ impl Vision {
     }
 }
 
-/// What a sensor looks at, of an entity instead of its own where there is one.
+/// Content and viewpoint for a sensor; `entity` replaces its own.
 pub(super) fn sensor_shot(
     scene: &Scene,
     handle: Handle,

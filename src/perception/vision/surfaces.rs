@@ -26,7 +26,7 @@ pub(super) struct Surfaces {
     images: BTreeMap<usize, (SceneTexture, Arc<Image>)>,
 }
 
-/// What a prepared mesh is made of: the addresses of its lists, or the numbers themselves. The lists never change.
+/// Identity of a prepared mesh: the addresses of its lists, or the numbers themselves. The lists never change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct MeshKey {
     mesh: usize,
@@ -54,7 +54,7 @@ impl MeshKey {
 }
 
 impl Surfaces {
-    /// What a mesh of a shape looks like; None when there is nothing to see.
+    /// Prepared part of a shape; None when nothing is visible.
     pub(super) fn part(&mut self, scene: &Scene, part: &Part) -> Option<ModelPart> {
         let mesh = self.mesh(part)?;
         let texture = part.texture.as_deref().and_then(|mapping| self.texture(scene, mapping));

@@ -24,7 +24,7 @@ const FACES: [[[f64; 3]; 3]; 6] = [
 /// Corners of a face, as factors of the two edges.
 const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
-/// What an octree looks like.
+/// Prepared octree.
 pub(super) fn octree(octree: &OcTree, colour: &Colour) -> Model {
     if octree.shows_points {
         let points = octree.voxels().map(|(centre, voxel)| (centre, voxel.colour));
@@ -33,7 +33,7 @@ pub(super) fn octree(octree: &OcTree, colour: &Colour) -> Model {
     Model { parts: cubes(octree, colour).into_iter().collect(), ..Model::default() }
 }
 
-/// What a point cloud looks like.
+/// Prepared point cloud.
 pub(super) fn point_cloud(cloud: &PointCloud, colour: &Colour) -> Model {
     let fraction = cloud.display_fraction.clamp(0.0, 1.0);
     // Evenly spread: as many as the fraction of those so far requires.

@@ -19,7 +19,7 @@ pub struct Colour {
 pub enum ColourSlot {
     /// Of everything but shapes.
     Body,
-    /// What a light sheds, or the ray of a proximity sensor.
+    /// Emitted light, or the ray of a proximity sensor.
     Emitted,
     /// Of one mesh of a shape.
     Mesh(usize),
@@ -65,7 +65,7 @@ impl Component {
 }
 
 impl ColourName {
-    /// What a script means by `name`.
+    /// The colours that a script names by `name`.
     pub fn from_script(name: Option<String>) -> Self {
         match name {
             None => Self::All,

@@ -76,7 +76,7 @@ bitflags! {
 pub enum TextureSource {
     /// A texture of the scene, by its number.
     Texture(i64),
-    /// What a vision sensor sees.
+    /// The image of a vision sensor.
     Sensor(Handle),
 }
 

@@ -15,7 +15,7 @@ use options::{DrawingFlags, DrawingKind};
 pub use container::Drawings;
 pub use items::Item;
 
-/// What a drawing object looks like and how much it holds.
+/// Appearance and capacity of a drawing object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawingStyle {
     pub kind: DrawingKind,

@@ -2,7 +2,7 @@
 
 use bitflags::bitflags;
 
-/// What the items of a drawing object are.
+/// Kind of the items of a drawing object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DrawingKind {
     Points,

@@ -57,7 +57,7 @@ pub struct Stream {
     pub style: Style,
     pub visible: bool,
     pub transformation: Transformation,
-    /// What the next slot records.
+    /// Value for the next slot.
     pub next: Option<f64>,
     /// Of the last slots; those before them are gaps. None where the values are fixed.
     pub samples: VecDeque<Sample>,
@@ -83,7 +83,7 @@ pub struct Sample {
     pub transformed: Option<f64>,
 }
 
-/// What a stream makes of its values.
+/// Transformation of the values of a stream.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transformation {
     pub kind: TransformationKind,

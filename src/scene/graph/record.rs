@@ -96,7 +96,7 @@ fn averaged(values: &[Option<f64>], period: usize) -> Vec<Option<f64>> {
 }
 
 impl Transformation {
-    /// What a value becomes after the sample before it, `step` seconds ago.
+    /// Transformed value; `before` is the previous sample, `step` seconds ago.
     fn apply(&self, raw: Option<f64>, before: Option<&Sample>, step: Option<f64>) -> Option<f64> {
         use TransformationKind::{Cumulative, Derivative, Integral, Raw};
         let raw = raw?;
@@ -131,14 +131,14 @@ mod tests {
     }
 
     /// The values of a stream into which these are recorded, one each 0.05 s.
-    fn recorded(transformation: Transformation, given: &[Option<f64>]) -> Vec<Option<f64>> {
+    fn recorded(transformation: Transformation, values: &[Option<f64>]) -> Vec<Option<f64>> {
         let mut graph = Graph::default();
         let id = graph.add_stream(Stream { transformation, ..Stream::new(style("s")) }).unwrap();
-        for (slot, value) in given.iter().enumerate() {
+        for (slot, value) in values.iter().enumerate() {
             graph.stream_mut(id).unwrap().next = *value;
             graph.record(0.05 * slot as f64);
         }
-        graph.streams()[0].slots(given.len())
+        graph.streams()[0].slots(values.len())
     }
 
     #[track_caller]
@@ -152,29 +152,29 @@ mod tests {
 
     #[test]
     fn transformations_are_those_of_the_specification() {
-        let given = [Some(0.0), Some(1.0), Some(3.0)];
+        let values = [Some(0.0), Some(1.0), Some(3.0)];
         let kind = |kind| Transformation { kind, ..Transformation::default() };
-        assert_near(&recorded(kind(TransformationKind::Derivative), &given), &[None, Some(20.0), Some(40.0)]);
-        assert_near(&recorded(kind(TransformationKind::Integral), &given), &[Some(0.0), Some(0.025), Some(0.125)]);
-        assert_near(&recorded(kind(TransformationKind::Cumulative), &given), &[Some(0.0), Some(1.0), Some(4.0)]);
+        assert_near(&recorded(kind(TransformationKind::Derivative), &values), &[None, Some(20.0), Some(40.0)]);
+        assert_near(&recorded(kind(TransformationKind::Integral), &values), &[Some(0.0), Some(0.025), Some(0.125)]);
+        assert_near(&recorded(kind(TransformationKind::Cumulative), &values), &[Some(0.0), Some(1.0), Some(4.0)]);
         let cyclic = Transformation { cyclic_range: 6.0, ..kind(TransformationKind::Derivative) };
         assert_near(&recorded(cyclic, &[Some(5.5), Some(0.5)]), &[None, Some(20.0)]);
     }
 
     #[test]
     fn gaps_begin_anew() {
-        let given = [Some(1.0), None, Some(3.0)];
+        let values = [Some(1.0), None, Some(3.0)];
         let kind = |kind| Transformation { kind, ..Transformation::default() };
-        assert_near(&recorded(kind(TransformationKind::Derivative), &given), &[None, None, None]);
-        assert_near(&recorded(kind(TransformationKind::Integral), &given), &[Some(0.0), None, Some(0.0)]);
-        assert_near(&recorded(kind(TransformationKind::Cumulative), &given), &[Some(1.0), None, Some(3.0)]);
+        assert_near(&recorded(kind(TransformationKind::Derivative), &values), &[None, None, None]);
+        assert_near(&recorded(kind(TransformationKind::Integral), &values), &[Some(0.0), None, Some(0.0)]);
+        assert_near(&recorded(kind(TransformationKind::Cumulative), &values), &[Some(1.0), None, Some(3.0)]);
     }
 
     #[test]
     fn averages_need_all_their_slots() {
         let transformation = Transformation { multiplier: 2.0, offset: 1.0, period: 2, ..Transformation::default() };
-        let given = [Some(1.0), Some(3.0), None, Some(5.0)];
-        assert_near(&recorded(transformation, &given), &[None, Some(5.0), None, Some(11.0)]);
+        let values = [Some(1.0), Some(3.0), None, Some(5.0)];
+        assert_near(&recorded(transformation, &values), &[None, Some(5.0), None, Some(11.0)]);
     }
 
     #[test]

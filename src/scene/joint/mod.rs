@@ -43,7 +43,7 @@ pub enum Control {
     Callback = 16,
 }
 
-/// What holds a chain of dynamic joints together.
+/// Solver for a chain of dynamic joints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum JointSolver {
     /// All joints of the chain are solved at once, exactly.
@@ -125,7 +125,7 @@ pub struct Dependency {
     pub coefficient: f64,
 }
 
-/// What a kinematic joint is moving towards.
+/// Target of a kinematic joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
     ToPosition,

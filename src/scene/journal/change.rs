@@ -2,13 +2,13 @@
 
 use crate::scene::{Handle, Holder, Namespace, Uid};
 
-/// What changed about an object.
+/// A changed aspect of an object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Field {
     Alias,
     Parent,
     Pose,
-    /// What was measured or what the physics reports: velocities, readings, flags. Measured velocities are noted only for those
+    /// Measured values and results of the physics: velocities, readings, flags. Measured velocities are noted only for those
     /// who follow them.
     Measured,
     Layer,
@@ -20,7 +20,7 @@ pub enum Field {
     Appearance,
     /// The image on a mesh.
     Texture,
-    /// What kind of joint it is: mode, limits, master.
+    /// Kind of joint: mode, limits, master.
     Joint,
     /// Motor of a joint: targets, gains, limits. The physics reads these in every sub-step.
     JointControl,
@@ -58,7 +58,7 @@ pub enum Change {
 }
 
 impl Change {
-    /// What the change is about.
+    /// Topic of the change.
     pub fn topic(&self) -> Topic {
         match self {
             Self::Added(_) => Topic::Added,
@@ -71,7 +71,7 @@ impl Change {
     }
 }
 
-/// What a change is about, whichever object it concerns.
+/// Topic of a change, without its object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Topic {
     Added,

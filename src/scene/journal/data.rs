@@ -10,7 +10,7 @@ pub type ChangedNames = BTreeMap<String, bool>;
 /// The same of all objects.
 pub(crate) type DataOfObjects = BTreeMap<(Handle, Namespace), ChangedNames>;
 
-/// What changed since it was last taken.
+/// Changed custom data since the last call of `take`.
 #[derive(Debug, Default)]
 pub(super) struct ChangedData(DataOfObjects);
 

@@ -22,7 +22,7 @@ pub struct Cursor {
     next: Rc<Cell<u64>>,
 }
 
-/// What a cursor has not read yet.
+/// Changes that a cursor has not read yet.
 #[derive(Debug)]
 pub enum Unread<'a> {
     /// The reader is new or too far behind, or the scene is another one: all it knows may be wrong.

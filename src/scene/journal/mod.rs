@@ -26,7 +26,7 @@ use super::{Handle, Holder, Namespace};
 use data::{ChangedData, DataOfObjects};
 use log::Log;
 
-/// What has changed in a scene.
+/// Record of changes in a scene.
 #[derive(Debug, Default)]
 pub struct Journal {
     /// All changes ever noted, and those about each topic.
@@ -106,7 +106,7 @@ impl Journal {
         self.log.follow(topics)
     }
 
-    /// What has changed since the last call with this cursor, the oldest first.
+    /// Changes since the last call with this cursor, oldest first.
     pub fn read(&self, cursor: &mut Cursor) -> Unread<'_> {
         self.log.read(cursor)
     }

@@ -23,7 +23,7 @@ fn follower(journal: &Journal, topics: Topics) -> Cursor {
     cursor
 }
 
-/// What the cursor reads; None for everything.
+/// Changes read by the cursor; None for `Unread::Everything`.
 fn read(journal: &Journal, cursor: &mut Cursor) -> Option<Vec<Change>> {
     match journal.read(cursor) {
         Unread::Everything => None,

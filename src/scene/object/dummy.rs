@@ -2,7 +2,7 @@
 
 use crate::scene::{Field, Handle, InertValues, Scene, SceneResult};
 
-/// What the link of two dummies means (`sim.dummytype_*`).
+/// Type of the link between two dummies (`sim.dummytype_*`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LinkType {
     LoopClosure = 0,

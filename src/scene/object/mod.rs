@@ -74,7 +74,7 @@ pub struct Object {
     /// Tagged lists of handles: `(tag, handles)`; -1 stands for an object that is gone.
     pub references: crate::scene::ReferenceLists,
     pub original_references: crate::scene::ReferenceLists,
-    /// What the physics simulates of this object.
+    /// Aspects of this object that the physics simulates.
     pub dynamic_flag: DynamicFlags,
     /// Requests that the physics rebuilds this object.
     pub dynamics_reset: bool,

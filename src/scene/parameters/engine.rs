@@ -39,7 +39,7 @@ impl Engine {
         self as i64
     }
 
-    /// What the names of its parameters begin with.
+    /// Prefix of the names of its parameters.
     pub fn name(self) -> &'static str {
         match self {
             Self::Bullet => "bullet",
@@ -65,7 +65,7 @@ impl SelectedEngine {
     }
 }
 
-/// What a parameter belongs to.
+/// Owner of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum EngineOwner {
     Scene,
@@ -91,7 +91,7 @@ pub struct EngineParam {
     pub default: Data,
 }
 
-/// What a number means.
+/// Meaning of a number in the old API.
 #[derive(Debug)]
 pub(in crate::scene) enum Numbered {
     /// An element of a parameter; of one that is no list, the parameter itself.

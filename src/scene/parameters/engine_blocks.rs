@@ -1,6 +1,6 @@
 //! Engine parameters the way files keep them: per engine a row of real numbers and a row of integers, in the order of their numbers.
 //!
-//! What a row holds beyond the numbers known here is ignored; it has no counterpart.
+//! Further numbers of a row are ignored; they have no counterpart.
 
 use super::engine::{Engine, EngineOwner, EngineParam, Numbered, is_step_size, numbered};
 use super::engine_values::{element, value_in, with_element};
@@ -45,7 +45,7 @@ const JOINT: [Rows; 5] = [
 /// Dummies have parameters of MuJoCo only.
 const DUMMY: Rows = rows(46_001, 21, 47_001, 2);
 
-/// What has engine parameters of its own.
+/// Objects with engine parameters of their own.
 pub trait EngineValues {
     /// Those of one engine.
     fn rows(&self, engine: Engine) -> Option<Rows>;

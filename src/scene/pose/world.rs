@@ -38,7 +38,7 @@ impl Moves {
     }
 }
 
-/// What an object remembers of its place in the world.
+/// Cached world pose of an object.
 #[derive(Clone)]
 pub(in crate::scene) struct PlaceInWorld {
     /// The last change of its own place.
@@ -134,7 +134,7 @@ impl Scene {
 }
 
 impl Object {
-    /// What decides where the object and those below it are, as bits.
+    /// Local frames that determine the world poses of the object and its descendants, as bits.
     pub(in crate::scene) fn frames(&self) -> impl PartialEq + use<> {
         (self.parent, bits(&self.pose), self.intrinsic_pose().as_ref().map(bits))
     }

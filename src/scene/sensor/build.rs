@@ -6,7 +6,7 @@ use super::{Entity, ProximitySensor, RenderMode, View, VisionSensor};
 use crate::scene::appearance::colour::Colour;
 
 const DISPLAY_SIZE: f64 = 0.01;
-/// What a ray looks like, as files of the original hold it.
+/// Colour of rays in files of the original.
 const RAY_GLOW: [f32; 3] = [1.0, 1.0, 0.0];
 
 impl ProximitySensor {

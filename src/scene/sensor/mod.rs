@@ -55,7 +55,7 @@ impl ProximitySensor {
     }
 }
 
-/// What a sensor detects or renders: all objects, an object, or a collection. Unknown handles are stored as written.
+/// Entity that a sensor detects or renders: all objects, an object, or a collection. Unknown handles are stored as written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Entity(i64);
 

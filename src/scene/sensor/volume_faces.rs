@@ -83,9 +83,9 @@ mod tests {
     #[test]
     fn what_was_kept_holds_while_the_volume_does() {
         let mut sensor = sensor(VolumeType::Cone);
-        let kept = VolumeFaces { planes_outside: vec![1.0; 4], ..VolumeFaces::default() };
-        sensor.set_file_faces(kept.clone());
-        assert_eq!(sensor.faces(), kept);
+        let faces = VolumeFaces { planes_outside: vec![1.0; 4], ..VolumeFaces::default() };
+        sensor.set_file_faces(faces.clone());
+        assert_eq!(sensor.faces(), faces);
         sensor.volume.range *= 2.0;
         assert!(sensor.faces().planes_outside.len() > 4 && !sensor.faces().edges.is_empty());
     }

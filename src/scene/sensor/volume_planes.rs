@@ -18,7 +18,7 @@ type Vector = Vector3<f64>;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ConvexPiece {
     pub planes: Vec<Plane>,
-    /// What is inside of all planes of a hole is not inside of the piece.
+    /// Holes: points inside all planes of a hole are outside the piece.
     pub holes: Vec<Vec<Plane>>,
 }
 

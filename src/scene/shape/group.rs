@@ -26,7 +26,7 @@ impl Shape {
         parts
     }
 
-    /// What the shape was grouped of: lists of parts, each without the number of its group.
+    /// Shapes that were grouped into this one: a list of parts each, without the number of their group.
     fn members(&self) -> Vec<Vec<Part>> {
         let together = |a: &Part, b: &Part| a.group.first().is_some_and(|group| b.group.first() == Some(group));
         let mut members: Vec<Vec<Part>> = self.parts.chunk_by(together).map(<[Part]>::to_vec).collect();

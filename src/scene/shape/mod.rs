@@ -173,7 +173,7 @@ impl Default for Material {
     }
 }
 
-/// What a mesh looks like.
+/// Visual attributes of a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Appearance {
     pub colour_name: String,

@@ -33,7 +33,7 @@ impl Scene {
     pub fn store_initial_state(&mut self) {
         self.in_run = true;
         let objects = self.all_breadth_first();
-        let kept = self.not_reset(&objects);
+        let unrestored = self.not_reset(&objects);
         for handle in objects {
             let Ok(world) = self.world_pose(handle) else { continue };
             let parent = self.uid_of_parent(handle);
@@ -42,7 +42,7 @@ impl Scene {
                     object.model_property.remove(ModelFlags::NOT_RESET);
                 }
                 end_suspension(object);
-                let stored = !kept.contains(&handle);
+                let stored = !unrestored.contains(&handle);
                 object.initial = stored.then(|| Box::new(InitialState::of(object, parent, world)));
             }
             self.hide_for_simulation(handle);
@@ -88,7 +88,7 @@ impl Scene {
     pub fn restore_initial_state(&mut self) {
         self.in_run = false;
         let objects = self.all_breadth_first();
-        let kept = self.not_reset(&objects);
+        let unrestored = self.not_reset(&objects);
         self.objects.moves_mut().measurements.forget();
         let mut restored = Vec::with_capacity(objects.len());
         for handle in objects {
@@ -96,7 +96,7 @@ impl Scene {
             object.measured = crate::scene::Measured::default();
             (object.dynamic_flag, object.dynamics_reset) = (DynamicFlags::empty(), false);
             end_suspension(object);
-            match object.initial.take().filter(|_| !kept.contains(&handle)) {
+            match object.initial.take().filter(|_| !unrestored.contains(&handle)) {
                 Some(initial) => restored.push((handle, initial)),
                 // The handle was just read.
                 None => drop(self.modify(handle, Field::Other, |object| forget_run(&mut object.kind))),

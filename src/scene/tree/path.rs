@@ -222,7 +222,7 @@ impl Search<'_> {
             *nth -= hits;
             return None;
         }
-        let asked = *nth;
+        let index = *nth;
         let mut pending = vec![base];
         while let Some(base) = pending.pop() {
             let children = self.scene.children_of(base);
@@ -243,7 +243,7 @@ impl Search<'_> {
             }
             pending.extend(deeper.into_iter().rev());
         }
-        self.hits.insert((base, components.len()), asked - *nth);
+        self.hits.insert((base, components.len()), index - *nth);
         None
     }
 

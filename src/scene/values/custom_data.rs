@@ -5,7 +5,7 @@
 
 use crate::scene::{Data, Handle, Scene, SceneResult, ValueType};
 
-/// What is done to named values. Names are without, tags with the mark of a type.
+/// A modification of named values. Names have no mark of a type, tags have one.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Edit<'a> {
     /// Sets the value with that tag; None removes it.
@@ -16,7 +16,7 @@ pub enum Edit<'a> {
     Clear,
 }
 
-/// What an edit did, by names without marks.
+/// Result of an edit; names have no marks.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Edited<'a> {
     Nothing,

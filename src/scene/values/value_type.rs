@@ -18,12 +18,12 @@ macro_rules! value_types {
                 match word { $($word => Some(Self::$variant),)* _ => None }
             }
 
-            /// What follows `sim.propertytype_` in the name of its constant.
+            /// Suffix of its constant after `sim.propertytype_`.
             pub fn word(self) -> &'static str {
                 match self { $(Self::$variant => $word),* }
             }
 
-            /// What precedes the name in a tag.
+            /// Prefix of the name in a tag.
             fn mark(self) -> &'static str {
                 match self { $(Self::$variant => $mark),* }
             }
@@ -122,10 +122,10 @@ impl ValueType {
 }
 
 fn list<T: std::str::FromStr + Clone + Into<Data>>(text: &str, empty: &[T]) -> Option<Data> {
-    let given: Vec<T> = text.split_whitespace().map(|word| word.parse().ok()).collect::<Option<_>>()?;
-    match given.len() {
+    let numbers: Vec<T> = text.split_whitespace().map(|word| word.parse().ok()).collect::<Option<_>>()?;
+    match numbers.len() {
         0 => Some(empty.to_vec().into()),
-        length => (empty.is_empty() || length == empty.len()).then(|| given.into()),
+        length => (empty.is_empty() || length == empty.len()).then(|| numbers.into()),
     }
 }
 

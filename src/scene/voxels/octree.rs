@@ -76,7 +76,7 @@ impl OcTree {
         self.voxels.is_empty()
     }
 
-    /// What occupies the cell a point is in.
+    /// Voxel of the cell that contains the point.
     pub fn voxel_at(&self, point: [f64; 3]) -> Option<&Voxel> {
         self.voxels.get(&self.cell(point)?)
     }
@@ -106,8 +106,8 @@ impl OcTree {
 }
 
 /// The edge of a cell, within what is sensible, metres.
-pub fn cell_size(asked: f64) -> f64 {
-    if asked.is_finite() { asked.clamp(0.001, 1.0) } else { 0.001 }
+pub fn cell_size(wanted: f64) -> f64 {
+    if wanted.is_finite() { wanted.clamp(0.001, 1.0) } else { 0.001 }
 }
 
 #[cfg(test)]

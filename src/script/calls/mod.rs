@@ -125,7 +125,7 @@ impl Sim {
 
     /// The value of an add-on's `sysCall_info`, for which it is loaded once more.
     fn add_on_info(self: &Rc<Self>, script: &Rc<Script>) -> Option<Data> {
-        // What is wrong with it is reported when it is loaded to run.
+        // Its errors are reported when it is loaded to run.
         let language = script.language(&self.scene.borrow());
         let runtime = self.create_runtime(script, &language).ok()?;
         let (code, name) = {

@@ -1,4 +1,4 @@
-//! What scripts make of the pictures of vision sensors: `sysCall_vision` and `sysCall_trigger` (spec: sensors 3).
+//! Callbacks for pictures of vision sensors: `sysCall_vision` and `sysCall_trigger` (spec: sensors 3).
 
 use std::rc::Rc;
 
@@ -87,7 +87,7 @@ impl Sim {
         Ok(())
     }
 
-    /// What the scripts of a sensor find in its picture. `first`: what the simulator reports about it.
+    /// Runs the scripts of a sensor on its picture and returns all packets. `first`: the packet of the simulator.
     ///
     /// # Errors
     /// When `sensor` is no vision sensor.

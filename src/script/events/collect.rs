@@ -219,7 +219,7 @@ impl Collector<'_> {
         }
     }
 
-    /// What another parent means for the siblings and the lists of the scene; the object itself comes after them.
+    /// Collects the effects of a new parent on the siblings and the lists of the scene; the object itself comes after them.
     fn collect_new_parent(&mut self, handle: Handle, parent: Option<Handle>) {
         let Some(watched) = self.watch.objects.get_mut(&handle) else { return };
         let old = std::mem::replace(&mut watched.parent, parent);

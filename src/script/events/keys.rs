@@ -47,7 +47,7 @@ const LARGE: &[(Field, &[&str])] =
 /// Properties that share an event.
 const PAIRS: &[[&str; 2]] = &[["bbPose", "bbHSize"], ["parentUid", "parentHandle"]];
 
-/// What changes in nearly every step, and the properties it concerns. A change of any other field can concern all properties. A new alias
+/// Fields that change in nearly every step, and their properties. A change of any other field can concern all properties. A new alias
 /// is told before the order among namesakes that results from it.
 const FREQUENT: &[(Field, &[&str])] = &[
     (Field::Alias, &["alias", "scriptName"]),

@@ -120,7 +120,7 @@ impl Watched {
         entries
     }
 
-    /// What is not remembered and a change of `field` concerns, as it is now: one event each.
+    /// Events for properties that are not stored and depend on `field`, with their current values.
     pub(super) fn large(&self, sim: &Rc<Sim>, field: Field) -> Vec<Event> {
         let concerned = |of: Option<Field>| of.is_some_and(|of| of == field || field == Field::Geometry);
         let large =

@@ -1,4 +1,4 @@
-//! What the host knows about one running script: its owner, yield levels, hooks, random numbers.
+//! Environment of one running script: its owner, yield levels, hooks, random numbers.
 
 use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::{BTreeMap, HashSet};
@@ -39,7 +39,7 @@ pub(crate) struct Env {
     pub events_wanted: Rc<Cell<bool>>,
     /// The state of modules for the script; it is dropped with the interpreter.
     pub module_states: States,
-    /// What the script may do outside of the simulator.
+    /// Permissions of the script.
     pub permissions: Permissions,
     /// The memory of the state.
     pub budget: Rc<Budget>,

@@ -256,11 +256,11 @@ impl Sim {
 
     /// `restartOnError` is a one-shot.
     fn restart_if_requested(&self, script: &Script) {
-        let asked = match script.object {
+        let requested = match script.object {
             Some(handle) => self.clear_restart_flag(handle),
             None => std::mem::take(&mut script.detached.borrow_mut().restart_on_error),
         };
-        if asked {
+        if requested {
             script.set_state(state::UNLOADED);
         }
     }

@@ -85,7 +85,7 @@ pub trait Console {
     /// A script could not write to standard output, or to another pipe that `io.output` is, since nobody reads it any more.
     fn pipe_closed(&mut self) {}
 
-    /// What a script wrote to a stream of the process, where scripts have none of their own: parts of lines.
+    /// Receives parts of lines that a script wrote to a stream of the process.
     fn write(&mut self, text: &[u8], stream: Stream, time: f64) {
         let _ = (text, stream, time);
     }

@@ -62,7 +62,7 @@ fn without_library(message: &str, is_library: &impl Fn(&str) -> bool) -> String 
     places.fold(message.to_owned(), |text, position| text.replace(position.text, "(library)"))
 }
 
-/// What Lua shows for a text with that name: it shortens long ones.
+/// Form in which Lua shows a chunk name: it shortens long ones.
 fn shown(chunk_name: &str) -> String {
     if let Some(file) = chunk_name.strip_prefix('@') {
         return file.to_owned();

@@ -13,7 +13,7 @@ pub(super) struct Frame<'a> {
     record: ffi::lua_Debug,
 }
 
-/// What Lua fills in about a running function. None of it pushes a value.
+/// Facts that Lua reports about a running function. None of them pushes a value.
 #[derive(Clone, Copy)]
 pub(super) struct Facts(&'static CStr);
 

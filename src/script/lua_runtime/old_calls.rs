@@ -5,7 +5,7 @@ use crate::script::calls::callback::SysCall;
 use crate::script::lua::{LuaError, Stack};
 use crate::script::sim::Sim;
 
-/// What such a text names: the call it runs for, and the first of the calls. They are looked for in the text as in the original, so that a
+/// Names that identify such a text: the call it runs for, and the first of the calls. They are searched in the text as in the original, so that a
 /// comment is enough.
 const SIGNS: [&[u8]; 2] = [b"sim_call_type", b"sim.syscb_init"];
 

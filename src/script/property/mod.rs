@@ -30,7 +30,7 @@ pub(crate) use table::{Class, Row, app_class, flags, mesh_class, object_class, s
 pub(crate) use types::app::AppData;
 pub use value::{Color, IntPair, Long, PoseArray, PropertyName, PropertyValue, Quaternion, Text, Vector2, Vector3};
 
-/// What has properties.
+/// An entity with properties.
 #[derive(Clone)]
 pub(crate) enum Target {
     App,

@@ -37,11 +37,11 @@ impl SignalOwners {
         let mut owned = Vec::new();
         for (&holder, owners) in &mut self.0 {
             owners.retain(|name, owner| {
-                let kept = *owner != script;
-                if !kept {
+                let remains = *owner != script;
+                if !remains {
                     owned.push((holder, name.clone()));
                 }
-                kept
+                remains
             });
         }
         self.0.retain(|_, owners| !owners.is_empty());

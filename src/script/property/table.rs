@@ -109,7 +109,7 @@ impl Hasher for NameHasher {
     }
 }
 
-/// What makes up a class: its word, its path, the words that may precede it, its parts before and after the named values.
+/// Definition of a class: its word, its path, the words that may precede it, its parts before and after the named values.
 type ClassSpec =
     (&'static str, &'static str, &'static [&'static str], &'static [&'static str], &'static [&'static str]);
 

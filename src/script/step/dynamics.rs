@@ -175,7 +175,7 @@ fn joint_data(joint: &Joint, request: &JointRequest, call: Call, number: u32) ->
     ])
 }
 
-/// What the table returned by `sysCall_contact` means (spec: dynamics 4): values for the selected engine come first, then
+/// Decodes the table returned by `sysCall_contact` (spec: dynamics 4): values for the selected engine come first, then
 /// those for Bullet.
 fn response(answer: &Data, engine: Engine) -> ContactResponse {
     let number = |engine: &str, name: &str| {

@@ -71,7 +71,7 @@ impl Sim {
         Ok(detection)
     }
 
-    /// What a sensor detects of the entity it is set to. Here the flag counts of a single object, too.
+    /// Detects the sensor's own entity. Here the flag of a single object counts, too.
     fn detect_as_set(&self, sensor: Handle) -> SceneResult<Option<Detected>> {
         let scene = self.scene.borrow();
         let data = scene.object(sensor)?.proximity_sensor()?;

@@ -17,7 +17,7 @@ use super::Config;
 use super::case::{Outcome, Status, TestCase};
 use super::workers::{Message, Task, work};
 
-/// What is run.
+/// A batch of runs.
 #[derive(Debug, Clone)]
 pub struct Batch {
     /// A scene, as for `swanilda run`.
@@ -41,11 +41,11 @@ pub struct Run {
     pub params: Vec<(String, String)>,
 }
 
-/// What came of a run.
+/// Result of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     pub run: Run,
-    /// What went wrong.
+    /// Description of the failure.
     pub error: Option<String>,
     pub steps: u64,
     /// Simulated seconds.

@@ -49,9 +49,9 @@ impl Store {
         fs::write(&manifest, description).map_err(about)?;
         let text = if anew { String::new() } else { fs::read_to_string(&log).unwrap_or_default() };
         let rows = rows(&text, &batch.runs());
-        // What an interruption has cut off is left out.
-        let kept: String = rows.values().map(|row| line(row) + "\n").collect();
-        replace(&log, &kept).map_err(about)?;
+        // A line cut off by an interruption is left out.
+        let lines: String = rows.values().map(|row| line(row) + "\n").collect();
+        replace(&log, &lines).map_err(about)?;
         let log = OpenOptions::new().append(true).open(&log).map_err(about)?;
         Ok(Self { folder: folder.to_owned(), rows, log })
     }
@@ -119,7 +119,7 @@ impl Store {
     }
 }
 
-/// What makes a batch the same: the scene's contents, the runs and their limits.
+/// Identity of a batch: the scene's contents, the runs and their limits.
 fn describe(batch: &Batch) -> Result<String, String> {
     let sweeps: Vec<Value> = batch.sweeps.iter().map(|(name, values)| json!([name, values])).collect();
     let scene = SceneInput::read(&batch.scene, &Permissions::all())?.bytes();

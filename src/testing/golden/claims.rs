@@ -11,7 +11,7 @@ pub(crate) struct Claims(BTreeMap<PathBuf, usize>);
 
 impl Claims {
     /// Fails a test that uses the file of another one before it: two tests cannot both say what is right. Tests come in the order of their file.
-    pub(crate) fn settle(&mut self, outcome: &mut Outcome) {
+    pub(crate) fn assign(&mut self, outcome: &mut Outcome) {
         let own = outcome.test.index;
         let mut taken = None;
         for comparison in &outcome.comparisons {

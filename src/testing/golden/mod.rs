@@ -27,7 +27,7 @@ pub struct Comparison {
     pub result: ComparisonResult,
 }
 
-/// What a test recorded, and the content of the file.
+/// Recordings of a test, and the content of the file.
 #[derive(Debug, Clone)]
 pub enum Recordings {
     Traces { actual: Trace, expected: Option<Trace> },

@@ -42,7 +42,7 @@ pub(super) fn png(comparison: &Comparison) -> Option<Vec<u8>> {
     picture.encode("png", 100).ok()
 }
 
-/// What is plotted: two traces, and the columns of both that belong together.
+/// Content of a plot: two traces, and the columns of both that belong together.
 struct Shown<'a> {
     expected: &'a Trace,
     actual: &'a Trace,

@@ -12,12 +12,12 @@ impl QuotedPrintable<'_> {
     pub(crate) fn encode(&mut self, chunk: &[u8], out: &mut Vec<u8>) {
         for &byte in chunk {
             self.pending.push(byte);
-            self.settle(out);
+            self.end_line(out);
         }
     }
 
     /// Decides what can be decided: at most a space, a CR, or a space and a CR wait.
-    fn settle(&mut self, out: &mut Vec<u8>) {
+    fn end_line(&mut self, out: &mut Vec<u8>) {
         loop {
             match self.pending[..] {
                 [] | [b' ' | b'\t' | b'\r'] | [b' ' | b'\t', b'\r'] => return,

@@ -27,7 +27,7 @@ pub enum LineType {
     Antialiased,
 }
 
-/// What to draw with.
+/// Colour and line type of strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pen {
     /// A value for each channel, in the order they are stored.

@@ -42,7 +42,7 @@ impl FontFace {
 pub struct TextSize {
     pub width: i64,
     pub height: i64,
-    /// What is below the baseline.
+    /// Height below the baseline, pixels.
     pub baseline: i64,
 }
 

@@ -23,7 +23,7 @@ pub struct Marker {
     pub corners: Quad,
 }
 
-/// What an image shows.
+/// Markers found in an image.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Detection {
     pub markers: Vec<Marker>,

@@ -77,7 +77,7 @@ pub struct Matrix {
     values: Values,
 }
 
-/// What a value of a matrix can be.
+/// Types of matrix values.
 pub(crate) trait Value: Copy + PartialOrd + Default {
     fn to_f64(self) -> f64;
     fn from_f64(number: f64) -> Self;

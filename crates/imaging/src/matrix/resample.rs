@@ -25,7 +25,7 @@ impl Matrix {
     /// When the size is none an image can have.
     pub fn resized(&self, size: [usize; 2], interpolation: Interpolation) -> MatrixResult<Self> {
         value_count(size, self.channels)?;
-        // What is there between the two passes.
+        // Intermediate result between the two passes.
         value_count([size[0], self.height], self.channels)?;
         if interpolation == Interpolation::Nearest {
             let from = |at: usize, old: usize, new: usize| at * old / new;

@@ -2,7 +2,7 @@
 
 use super::{BLACK, Rgb, RgbImage, mean};
 
-/// What the white pixels of a binary image form.
+/// Moments of the white pixels of a binary image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moments {
     /// Share of the pixels that are white.
@@ -15,7 +15,7 @@ pub struct Moments {
     pub roundness: f64,
 }
 
-/// What moments have to be like. A tolerance is the first difference that is too large.
+/// Expected moments. A tolerance is the first difference that is too large.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expected {
     pub moments: Moments,

@@ -10,7 +10,7 @@ pub struct Optics {
     pub opening: Opening,
 }
 
-/// What a sensor sees along the larger side of its image.
+/// Extent of a sensor's view along the larger side of its image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Opening {
     /// Radians.

@@ -33,7 +33,7 @@ pub struct Fragment {
     pub column: u32,
     /// The bits of its closeness, which are ordered like the numbers; more for what is drawn over everything.
     order: u32,
-    /// What is drawn later lies behind at equal closeness, as it does among the faces of a band.
+    /// Faces drawn later lie behind at equal closeness, as among the faces of a band.
     face: std::cmp::Reverse<u32>,
 }
 

@@ -48,7 +48,7 @@ pub struct Face {
     pub closeness: Plane,
     /// The least and the largest closeness of its corners.
     pub range: [f32; 2],
-    /// What it belongs to.
+    /// Index of its owner.
     pub owner: u32,
     /// Which triangle of it, or its colour.
     pub detail: u32,

@@ -1,4 +1,4 @@
-//! What can be drawn, in the order in which it is drawn.
+//! Drawable content, in drawing order.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use crate::{Channels, Edges, Instance, Lines, Material, Mesh, Points, World};
 /// Elements of a list that are projected together.
 const PIECE: usize = 512;
 
-/// What faces belong to.
+/// Owner of faces.
 #[derive(Debug)]
 pub struct Owner<'a> {
     pub id: u32,
@@ -24,7 +24,7 @@ pub struct Owner<'a> {
     pub is_decoration: bool,
 }
 
-/// What an owner consists of.
+/// Content of an owner.
 #[derive(Debug)]
 pub enum Content<'a> {
     Surface(Surface<'a>, &'a Material),

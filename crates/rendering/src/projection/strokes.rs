@@ -28,7 +28,7 @@ struct Stroke {
     owner: u32,
     detail: u32,
     back: bool,
-    /// What is added to its closeness.
+    /// Offset added to its closeness.
     lift: f64,
     /// The closeness on the surface it lies in.
     plane: Option<Plane>,

@@ -8,7 +8,7 @@ use crate::projection::strokes::add_wire_frame;
 use crate::projection::view::{ClipPlane, Transform, View};
 use crate::three::three;
 
-/// What is drawn of a mesh.
+/// Drawn surface of a mesh.
 #[derive(Debug, Clone, Copy)]
 pub struct Surface<'a> {
     pub mesh: &'a Mesh,
@@ -45,7 +45,7 @@ pub struct Setup {
     cut: Vec<Vector3<f64>>,
 }
 
-/// What the faces of one triangle have in common.
+/// Values common to the faces of one triangle.
 struct Origin<'a> {
     view: &'a View,
     surface: &'a Surface<'a>,
@@ -129,7 +129,7 @@ fn between(inner: &Vector3<f64>, a: f64, outer: &Vector3<f64>, b: f64) -> Vector
     inner + (outer - inner) * (a / (a - b))
 }
 
-/// What a triangle covers.
+/// Area covered by a triangle.
 pub struct Outline {
     /// Counter-clockwise.
     pub corners: [[i32; 2]; 3],

@@ -73,7 +73,7 @@ impl View {
         Vector3::new(vector.x * self.over_scale, vector.y * self.over_scale, vector.z)
     }
 
-    /// What the depth buffer holds: larger is closer, linear on the picture, and 0 at the far plane or beyond it (in perspective the
+    /// Value in the depth buffer: larger is closer, linear on the picture, and 0 at the far plane or beyond it (in perspective the
     /// reciprocal of the depth, where `far_closeness` is the limit).
     pub fn closeness(&self, z: f64) -> f64 {
         if self.perspective { 1.0 / z } else { (self.far - z) / (self.far - self.near) }
@@ -190,7 +190,7 @@ impl View {
     }
 }
 
-/// What triangles and lines are cut by.
+/// Plane that clips triangles and lines.
 #[derive(Debug, Clone, Copy)]
 pub enum ClipPlane {
     Near,

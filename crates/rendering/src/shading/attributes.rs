@@ -1,6 +1,6 @@
 //! Normals and texture coordinates of a face as linear functions on the picture.
 //!
-//! What is linear on a triangle in space is linear on the picture after division by the depth (J. Blinn, *Hyperbolic interpolation*, 1992).
+//! Attributes that are linear on a triangle in space are linear on the picture after division by the depth (J. Blinn, *Hyperbolic interpolation*, 1992).
 //! With the corners P in view coordinates, the weight of corner i divided by the depth is `ray . (Pj x Pk) / det` (M. Olano and T. Greer,
 //! *Triangle scan conversion using 2D homogeneous coordinates*, 1997).
 
@@ -20,7 +20,7 @@ struct Linear {
     step: [f32; 2],
 }
 
-/// What is interpolated on a face. Normals and texture coordinates are divided by the depth in perspective.
+/// Attributes interpolated on a face. Normals and texture coordinates are divided by the depth in perspective.
 #[derive(Debug, Clone, Default)]
 pub struct Attributes {
     /// Where the functions start.

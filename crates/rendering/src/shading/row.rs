@@ -35,7 +35,7 @@ pub struct Row {
     remembered: Vec<Remembered>,
 }
 
-/// What the pixels of a face have in common.
+/// Values common to the pixels of a face.
 #[derive(Debug, Clone, Default)]
 struct Remembered {
     face: Option<u32>,

@@ -15,7 +15,7 @@ const KEPT_FRAGMENTS: usize = 1 << 16;
 #[derive(Debug, Default)]
 pub struct Strip {
     band: Band,
-    /// What is drawn over the opaque faces.
+    /// Fragments drawn over the opaque faces.
     fragments: Vec<Fragment>,
     row: Row,
     /// The faces of the closest fragments.
@@ -85,7 +85,7 @@ impl Strip {
         }
     }
 
-    /// What depths and ids show of a row with fragments.
+    /// Finds the closest faces of a row with fragments, for depths and ids.
     fn find_closest(&mut self, shading: &Shading, at: usize, fragments: Range<usize>) {
         self.closest.clear();
         self.closest.extend(self.band.row(at));

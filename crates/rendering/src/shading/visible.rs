@@ -1,4 +1,4 @@
-//! What visible faces say about their pixels: ids, depths, and what their colours depend on.
+//! Data of visible faces at their pixels: ids, depths, and the inputs of their colours.
 
 use std::ops::Range;
 

@@ -121,7 +121,7 @@ impl Cell {
     }
 }
 
-/// What is left of a tree of cells.
+/// Unread rest of a tree of cells.
 struct Blob<'a> {
     bytes: &'a [u8],
     /// Real numbers are 64 bits wide.

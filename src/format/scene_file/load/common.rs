@@ -128,7 +128,7 @@ fn assembly(common: &Common, serialization: i32) -> Assembly {
     Assembly { pose, moves, child_words, parent_words }
 }
 
-/// What a hand may not do to the object. Old files forbid moving and turning together.
+/// Movements by hand that are forbidden. Old files forbid translation and rotation together.
 fn forbidden(common: &Common) -> ForbiddenMovements {
     let bits = |switches: u8, bits: &[(u8, ForbiddenMovements)]| {
         bits.iter().filter(|(bit, _)| switches >> bit & 1 == 1).map(|(_, flag)| *flag).collect::<ForbiddenMovements>()

@@ -1,6 +1,6 @@
 //! Image filters of vision sensors of V-REP 3: a script since 4.1, which calls simVision (spec: scene-files 7).
 //!
-//! What the numbers of a filter mean was read off scenes that hold them; the meaning of single bits is assumed.
+//! The meaning of a filter's numbers was found in scenes that contain them; the meaning of single bits is assumed.
 
 use std::fmt::Write as _;
 

@@ -11,7 +11,7 @@ use crate::scene::shape::Material;
 const OWN_MATERIAL_SINCE: u16 = 30_303;
 /// Since then Bullet has a friction of its own, beside the old one.
 const NEW_FRICTION_SINCE: u16 = 30_301;
-/// What that friction became for sticky moving things of older files.
+/// Friction of sticky moving shapes in older files.
 const STICKY_FRICTION: f64 = 0.25;
 const STICKY: u8 = 0x2;
 

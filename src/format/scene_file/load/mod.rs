@@ -29,7 +29,7 @@ use crate::scene::{Handle, Kind, Scene, SceneResult};
 use mesh::Meshes;
 use texture::TextureMap;
 
-/// What is needed to understand a chunk beyond the chunk.
+/// Data of the file that are needed to interpret a chunk.
 struct Context<'a> {
     header: &'a Header,
     file: &'a File,
@@ -50,7 +50,7 @@ impl SceneFile {
     /// A binary file or XML.
     ///
     /// # Errors
-    /// What is wrong with the bytes, and where.
+    /// Describes the fault in the bytes, and its position.
     pub fn read(bytes: &[u8]) -> FileResult<Self> {
         Self::new(read_file(bytes, None, &Permissions::none())?)
     }

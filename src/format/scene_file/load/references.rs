@@ -37,7 +37,7 @@ fn connect_one(scene: &mut Scene, object: &FileObject, handle: Handle, map: &Han
         Class::Dummy(dummy) => {
             if let Some(partner) = dummy.linked_dummy.and_then(|partner| map.get(&partner)) {
                 let link_type = scene.object(handle)?.dummy()?.link_type;
-                // What is no dummy cannot be a partner; the file is wrong, the dummy stays alone.
+                // Only a dummy can be a partner; else the file is wrong, and the dummy stays unlinked.
                 if scene.object(*partner)?.dummy().is_ok() {
                     scene.link_dummies(handle, Some(*partner))?;
                     scene.set_link_type(handle, link_type)?;
@@ -91,7 +91,7 @@ fn dependency(joint: &JointChunk, map: &HandleMap) -> Option<Dependency> {
     pair(&joint.mujoco, 1, 23, 22).or_else(|| pair(&joint.vortex, 5, 49, 50)).or_else(|| pair(&joint.newton, 1, 0, 1))
 }
 
-/// What a sensor looks at.
+/// Sets the entity of a sensor.
 fn watch(scene: &mut Scene, object: &FileObject, handle: Handle, entity: impl Fn(i32) -> Entity) -> SceneResult<()> {
     let seen = match &object.class {
         Class::ProximitySensor(sensor) => sensor.detectable,

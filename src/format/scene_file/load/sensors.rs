@@ -82,7 +82,7 @@ pub(super) fn proximity_sensor(context: &Context<'_>, chunk: &file::ProximitySen
     sensor
 }
 
-/// What bounds the volume, where the file says it.
+/// Faces of the volume, if the file contains them.
 fn faces(chunk: &file::Volume) -> Option<VolumeFaces> {
     let list = |list: &Option<Counted<f64>>| list.as_ref().map_or_else(Vec::new, |Counted(list)| list.clone());
     chunk.planes_inside.is_some().then(|| VolumeFaces {
@@ -201,7 +201,7 @@ fn light_type(number: i32) -> LightType {
     }
 }
 
-/// What a light sheds stands in the second group of its colour; in old files it is the mean of the diffuse light.
+/// Emitted light is the second group of a colour; in old files it is the mean of the diffuse light.
 fn emitted(chunk: &file::Colour, default: Colour) -> Colour {
     let mut colour = colour(chunk, default, false);
     let second = |values: &[f32]| [values[3], values[4], values[5]];

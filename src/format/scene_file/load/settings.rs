@@ -44,7 +44,7 @@ pub(super) fn apply(scene: &mut Scene, file: &File) -> SceneResult<()> {
     Ok(())
 }
 
-/// What old versions could switch off.
+/// Calculations that old versions could switch off.
 fn calculations(chunk: &ModuleSettings) -> Calculations {
     let is_on = |switches: Option<u8>, bit: u8| switches.is_none_or(|switches| switches & bit != 0);
     Calculations {

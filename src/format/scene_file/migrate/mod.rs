@@ -25,7 +25,7 @@ pub(crate) struct Origin {
     pub old_colours: bool,
 }
 
-/// What becomes of a thread at its end.
+/// Behaviour at the end of a thread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Thread {
     Once,

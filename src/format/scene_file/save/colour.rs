@@ -11,7 +11,7 @@ pub(super) fn colour(colour: &Colour) -> Chunk {
     chunk(colour, colour.ambient_diffuse, [0.0; 3])
 }
 
-/// What a light sheds stands in the second group.
+/// Emitted light is the second group of a colour.
 pub(super) fn emitted(colour: &Colour) -> Chunk {
     chunk(colour, [0.0; 3], colour.ambient_diffuse)
 }

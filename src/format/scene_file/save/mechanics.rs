@@ -49,7 +49,7 @@ pub(super) fn joint(context: &Context<'_>, joint: &Joint, colour: Option<Colour>
     }
 }
 
-/// What control means in the words of before 4.3.
+/// Control switches of a joint as before 4.3.
 fn switches(joint: &Joint) -> u8 {
     let control = match joint.control {
         Control::Free | Control::Force => 0,

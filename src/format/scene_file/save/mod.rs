@@ -27,7 +27,7 @@ use crate::scene::shape::Shape;
 use crate::scene::{Handle, Kind, Object, Pose, Scene, SceneResult};
 use mesh::Pool;
 
-/// What is needed to write an object beyond the object.
+/// Data of the scene that are needed to write an object.
 struct Context<'a> {
     scene: &'a Scene,
     /// The objects that are saved; others cannot be referred to.

@@ -7,7 +7,7 @@ use crate::scene::sensor::volume::Volume;
 use crate::scene::sensor::volume_faces::VolumeFaces;
 use crate::scene::sensor::{Camera, Entity, Light, ProximitySensor, VisionSensor};
 
-/// What kinds of detectable objects there once were.
+/// Kinds of detectable objects in old versions.
 const ULTRASONIC: i32 = 16;
 /// The bits that later renderers read: all of what a picture can show.
 const RENDER_EVERYTHING: i32 = 3969;

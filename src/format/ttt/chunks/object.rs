@@ -4,7 +4,7 @@ use crate::format::ttt::stream::streams;
 use crate::format::ttt::value::{Counted, OriginalReference, Rest, RotationFirst, Text};
 
 streams! {
-    /// What all scene objects have.
+    /// Common data of all scene objects.
     Common until b"NXT" {
         /// A, b, c; signature 57,58,59; always first.
         signature: Option<[u8; 3]> = b"3do",

@@ -74,7 +74,7 @@ streams! {
         ode_v16: Option<(i32, [f32; 5])> = b"Ode",
     }
 
-    /// What a mesh has beyond a node.
+    /// Data of a mesh in addition to those of a node.
     MeshData until b"EOO" {
         /// Visual colour.
         colour: Option<Colour> = b"Cl0",

@@ -67,7 +67,7 @@ impl Bodies {
         self.colours.extend(std::iter::repeat_n(colour, triangles.len()));
     }
 
-    /// What they look like together; None without items.
+    /// Prepared part with all items; None without items.
     pub(super) fn part(self, style: &DrawingStyle, opacity: f32) -> Option<ModelPart> {
         let uv: Vec<[f32; 2]> = self.colours.iter().flat_map(|number| [self.palette.place(*number); 3]).collect();
         let mesh = Rc::new(Mesh::new(&self.vertices, &self.triangles, &[], &uv)?);

@@ -119,7 +119,7 @@ impl Play {
         }
     }
 
-    /// What the physics writes, and runs that begin and end.
+    /// Poses written by the physics, and starts and ends of runs.
     fn simulate(&mut self, all: &[Handle]) {
         let (handle, pose) = (self.random.of(all), self.random.pose());
         let report = JointReport {

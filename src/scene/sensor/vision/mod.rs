@@ -54,7 +54,7 @@ pub struct VisionSensor {
     pub reading: Option<VisionReading>,
 }
 
-/// What a vision sensor reports about a picture (spec: sensors 3).
+/// Result of handling a vision sensor (spec: sensors 3).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct VisionReading {
     /// A script has found what it looks for.

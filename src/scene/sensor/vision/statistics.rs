@@ -28,7 +28,7 @@ impl Statistics {
 }
 
 impl VisionSensor {
-    /// What the simulator itself reports about a picture: its statistics, unless they are switched off.
+    /// First packet of a picture, made by the simulator: its statistics, unless they are switched off.
     pub fn first_packet(&self) -> Vec<f32> {
         if self.omit_statistics { Vec::new() } else { self.statistics() }
     }

@@ -65,7 +65,7 @@ impl<'a> Cx<'a> {
         &self.sim.options
     }
 
-    /// What scripts may do outside of the simulator. Functions check it before they call the operating system for a script.
+    /// Permissions of the script. Functions check them before they call the operating system for it.
     pub(crate) fn permissions(&self) -> &Permissions {
         &self.sim.options.permissions
     }

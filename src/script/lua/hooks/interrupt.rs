@@ -58,7 +58,7 @@ impl Running {
 impl Drop for Running {
     fn drop(&mut self) {
         RUNNING.set(self.outer);
-        // What was interrupted has ended; what called it may clean up.
+        // The interrupted function has ended; its caller may clean up.
         REQUESTED.set(false);
     }
 }

@@ -21,7 +21,7 @@ use crate::script::video::Videos;
 /// Data that scripts store in the application.
 #[derive(Default)]
 pub(crate) struct AppData {
-    /// What outlives the program, its custom data among it.
+    /// Persistent data beyond the life of the program, including its custom data.
     pub storage: AppStorage,
     /// Raw custom data: it ends with the program.
     pub raw_data: CustomData,

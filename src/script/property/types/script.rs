@@ -6,7 +6,7 @@ use crate::scene::{Field, SceneResult};
 use crate::script::error::ApiResult;
 use crate::script::lifecycle::instance::Detached;
 
-/// What `sim.getStringProperty(.., 'scriptName')` leaves out of the log name of an add-on.
+/// Suffix of an add-on's log name that `sim.getStringProperty(.., 'scriptName')` omits.
 const ADD_ON_SUFFIX: &str = "@addOnScript";
 
 impl Subject<'_> {
