@@ -19,6 +19,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("api_macro", "src/api"),
     ("api_macro", "src/modules"),
     ("articulation", "src/dynamics"),
+    ("arrayvec", "src/script/property"),
     ("base64", "src/api/data"),
     ("base64", "src/format"),
     ("base64", "src/testing/report"),

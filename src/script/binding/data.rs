@@ -4,7 +4,7 @@ use std::ffi::{CStr, c_int, c_void};
 
 use crate::scene::{Data, Key};
 use crate::script::error::{ApiError, ApiResult};
-use crate::script::lua::{Stack, Type};
+use crate::script::lua::{Room, Scalar, Stack, Type};
 use crate::script::runtime::FunctionRef;
 
 /// Registry key of the metatable of all buffers of a state.
@@ -131,44 +131,42 @@ fn read_key(stack: Stack<'_>, index: c_int) -> Key {
     }
 }
 
-/// Pushes `data`.
+/// Pushes `data`. Where Lua's stack is full, a nested table becomes nil, so that the program goes on.
 pub(crate) fn push_data(stack: Stack<'_>, data: &Data) {
-    // One level of nesting takes three slots; when Lua's stack is full the inner value is dropped rather than the program.
-    let nests = matches!(data, Data::Array(_) | Data::Map(_) | Data::Buffer(_));
-    if nests && !stack.reserve(8) {
-        return stack.push_nil();
-    }
-    match data {
-        Data::Nil => stack.push_nil(),
-        Data::Bool(b) => stack.push_bool(*b),
-        Data::Int(i) => stack.push_int(*i),
-        Data::Float(f) => stack.push_number(*f),
-        Data::Text(bytes) => stack.push_bytes(bytes),
-        Data::Buffer(bytes) => push_buffer(stack, bytes),
-        Data::Array(items) => {
-            stack.new_table(items.len(), 0);
-            for (i, item) in items.iter().enumerate() {
-                push_data(stack, item);
-                stack.raw_set_index(-2, i as i64 + 1);
-            }
-        }
-        Data::Map(entries) => {
-            stack.new_table(0, entries.len());
-            for (key, value) in entries {
-                push_key(stack, key);
-                push_data(stack, value);
-                stack.raw_set(-3);
-            }
-        }
-    }
+    push(stack, stack.room(), data);
 }
 
-fn push_key(stack: Stack<'_>, key: &Key) {
-    match key {
-        Key::Bool(b) => stack.push_bool(*b),
-        Key::Int(i) => stack.push_int(*i),
-        Key::Float(f) => stack.push_number(*f),
-        Key::Text(text) => stack.push_bytes(text),
+fn push<'a>(stack: Stack<'a>, room: Room<'a>, data: &Data) {
+    match data {
+        Data::Nil => room.push(Scalar::Nil),
+        Data::Bool(b) => room.push(Scalar::Bool(*b)),
+        Data::Int(i) => room.push(Scalar::Int(*i)),
+        Data::Float(f) => room.push(Scalar::Number(*f)),
+        Data::Text(bytes) => room.push_bytes(bytes),
+        Data::Buffer(bytes) if stack.reserve(8) => push_buffer(stack, bytes),
+        Data::Buffer(_) => room.push(Scalar::Nil),
+        Data::Array(items) => match room.new_table(items.len(), 0) {
+            Ok(table) => {
+                for (i, item) in (1..).zip(items) {
+                    table.set_item(i, |room| push(stack, room, item));
+                }
+            }
+            Err(room) => room.push(Scalar::Nil),
+        },
+        Data::Map(entries) => match room.new_table(0, entries.len()) {
+            Ok(table) => {
+                for (key, value) in entries {
+                    let value = |room| push(stack, room, value);
+                    match key {
+                        Key::Bool(b) => table.set_entry(Scalar::Bool(*b), value),
+                        Key::Int(i) => table.set_entry(Scalar::Int(*i), value),
+                        Key::Float(f) => table.set_entry(Scalar::Number(*f), value),
+                        Key::Text(text) => table.set_field(text, value),
+                    }
+                }
+            }
+            Err(room) => room.push(Scalar::Nil),
+        },
     }
 }
 

@@ -31,6 +31,7 @@ mod stack;
 mod state;
 mod tables;
 
+pub(crate) use api::{Room, Scalar};
 pub(crate) use bytecode::{Bytecode, Prototype};
 pub(crate) use callback::{Callback, push_callback};
 pub(crate) use calls::{LuaError, MULTIPLE};

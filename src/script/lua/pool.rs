@@ -61,9 +61,23 @@ impl Pool {
     ///
     /// # Safety
     /// A block is from this function, or from `base` before; it has `old_size` bytes, and is not used any more.
+    #[inline]
     pub(super) unsafe fn allocate(&mut self, old: *mut c_void, old_size: usize, size: usize) -> *mut c_void {
         let Some(block) = NonNull::new(old.cast::<u8>()) else { return self.new_block(size) };
         let pooled = is_pooled(block, old_size);
+        if size == 0 && pooled {
+            // SAFETY: as promised by the caller.
+            unsafe { self.release(block, old_size) };
+            return null_mut();
+        }
+        // SAFETY: as promised by the caller.
+        unsafe { self.resize(block, old_size, size, pooled) }
+    }
+
+    /// # Safety
+    /// As for `allocate`; `pooled` is true for a block of this pool.
+    unsafe fn resize(&mut self, block: NonNull<u8>, old_size: usize, size: usize, pooled: bool) -> *mut c_void {
+        let old = block.as_ptr().cast();
         // SAFETY: as promised by the caller. `pooled` says who made the block, which alone resizes and frees it; a new block has the smaller
         // of both sizes at least, and is apart from the old one.
         unsafe {
@@ -84,6 +98,7 @@ impl Pool {
         }
     }
 
+    #[inline]
     fn new_block(&mut self, size: usize) -> *mut c_void {
         match size {
             0 => null_mut(),
@@ -107,6 +122,7 @@ impl Pool {
     }
 
     /// A block of at least `size` bytes, 1 to [`LARGEST`].
+    #[inline]
     fn acquire(&mut self, size: usize) -> NonNull<u8> {
         let class = class_of(size);
         if let Some(block) = self.free[class] {
@@ -114,6 +130,11 @@ impl Pool {
             self.free[class] = unsafe { block.read().0 };
             return block.cast();
         }
+        self.cut_block(class)
+    }
+
+    /// A block from the rest of the newest chunk.
+    fn cut_block(&mut self, class: usize) -> NonNull<u8> {
         let size = (class + 1) * STEP;
         if self.rest_len < size {
             self.add_chunk();
@@ -129,6 +150,7 @@ impl Pool {
     ///
     /// # Safety
     /// It came from `acquire` of this pool with a size of the same class, and is not used any more.
+    #[inline]
     unsafe fn release(&mut self, block: NonNull<u8>, size: usize) {
         let class = class_of(size);
         let block = block.cast::<Free>();

@@ -10,9 +10,6 @@ use super::api::Slot;
 use super::{Budget, api};
 use crate::script::lifecycle::env::Env;
 
-/// Longer strings are cut: Lua would raise where it cannot have the memory.
-const LONGEST_STRING: usize = 1 << 29;
-
 /// The stack of one coroutine of a living state. Indices are Lua's: 1 is the bottom, -1 the top.
 #[repr(transparent)]
 #[derive(Clone, Copy)]
@@ -178,10 +175,7 @@ impl<'a> Stack<'a> {
 
     /// Pushes a string; one that is too long for Lua's allocator is cut.
     pub(crate) fn push_bytes(self, bytes: &[u8]) {
-        let bytes = &bytes[..bytes.len().min(LONGEST_STRING)];
-        let _room = self.room();
-        // SAFETY: there is room, and the bytes are copied.
-        unsafe { ffi::lua_pushlstring(self.raw, bytes.as_ptr().cast(), bytes.len()) };
+        self.room().push_bytes(bytes);
     }
 
     pub(crate) fn push_value(self, index: c_int) {

@@ -9,7 +9,7 @@ use super::stack::{Stack, Type};
 use crate::script::runtime::FunctionRef;
 
 /// Size hints beyond this are not worth their memory: tables grow by themselves.
-const MAX_HINT: usize = 1 << 16;
+pub(super) const MAX_HINT: usize = 1 << 16;
 
 /// Items of the longest list Rust pushes; where the items, of 16 bytes each, do not fit one block, Lua raises.
 pub(crate) const LONGEST_LIST: usize = 1 << 26;
@@ -102,6 +102,18 @@ impl Stack<'_> {
         let kind = self.raw_get_field(-1, name);
         self.remove(-2);
         kind
+    }
+
+    /// Pushes `table[name]`. The name is made a string of Lua's once for the state.
+    pub(crate) fn raw_get_static_field(self, table: c_int, name: &'static CStr) -> Type {
+        let (table, key) = self.table_and_value(table);
+        if self.push_registry(name) == Type::Nil {
+            self.pop(1);
+            self.push_bytes(name.to_bytes());
+            self.push_value(-1);
+            self.set_registry(name);
+        }
+        Type::from_raw(api::lua_rawget(key, table))
     }
 
     /// Pops a value into the global `name`.

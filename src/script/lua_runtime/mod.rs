@@ -111,7 +111,7 @@ impl Interpreter for LuaInterpreter {
             let handler = stack.push_message_handler();
             stack.push_globals();
             let base = stack.top();
-            if stack.raw_get_field(base, call.name()) != Type::Function {
+            if stack.raw_get_static_field(base, call.c_name()) != Type::Function {
                 return Ok(CallbackResult::NotDefined);
             }
             stack.call_above(handler, push_args(stack, args)?, MULTIPLE)?;

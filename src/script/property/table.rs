@@ -79,6 +79,9 @@ impl Class {
 
     /// The name without a prefix for the class.
     pub(crate) fn without_words<'a>(&self, name: &'a str) -> &'a str {
+        if !name.contains('.') {
+            return name;
+        }
         let strip = |name: &'a str, word: &str| name.strip_prefix(word)?.strip_prefix('.');
         let words = self.outer.iter().copied().chain([self.word]);
         words.fold(name, |name, word| strip(name, word).unwrap_or(name))

@@ -1,5 +1,7 @@
 //! Property values in Rust, on the Lua stack and in storage.
 
+use arrayvec::ArrayString;
+
 use crate::scene::{Data, Key, ValueType};
 use crate::script::binding::args::{Args, Bytes, FromScript, Table};
 use crate::script::binding::returns::IntoScript;
@@ -21,27 +23,22 @@ pub trait PropertyValue: Sized {
 
 /// The name of a property, which costs no allocation unless it is long.
 pub enum PropertyName {
-    Short { bytes: [u8; PropertyName::SHORT], length: usize },
+    Short(ArrayString<56>),
     Long(String),
 }
 
 impl PropertyName {
-    const SHORT: usize = 56;
-
     /// The name.
     pub fn as_str(&self) -> &str {
         match self {
-            Self::Short { bytes, length } => std::str::from_utf8(&bytes[..*length]).unwrap_or_default(),
+            Self::Short(name) => name,
             Self::Long(name) => name,
         }
     }
-}
 
-impl PropertyName {
+    /// None for a name that is too long, or not UTF-8.
     fn short(name: &[u8]) -> Option<Self> {
-        let mut bytes = [0; Self::SHORT];
-        bytes.get_mut(..name.len())?.copy_from_slice(name);
-        std::str::from_utf8(name).is_ok().then_some(Self::Short { bytes, length: name.len() })
+        ArrayString::from(std::str::from_utf8(name).ok()?).ok().map(Self::Short)
     }
 }
 
