@@ -7,8 +7,8 @@ use std::ffi::{c_char, c_int, c_void};
 
 use mlua::ffi;
 
+use super::stack::tables::MAX_HINT;
 use super::stack::{Stack, Type};
-use super::tables::MAX_HINT;
 
 /// Longer strings are cut: Lua would raise where it cannot have the memory.
 const LONGEST_STRING: usize = 1 << 29;

@@ -9,7 +9,7 @@ use std::ptr::NonNull;
 
 use mlua::ffi;
 
-use super::guard::{Next, guarded, install};
+use super::calls::guard::{Next, guarded, install};
 use super::stack::{Stack, Type};
 use crate::io::FileLock;
 

@@ -10,18 +10,14 @@
 //! - [`api`] declares Lua's functions that cannot fail, with argument types that prove it; so they need no `unsafe` where they are called.
 //! - What reads the bytes of a string in place ([`Stack::with_bytes`]) is `Send`, so it has no access to the state that could free them.
 //! - Lua raises errors by `longjmp`. Only [`Stack::protected_call`] runs code that may raise; functions of ours raise as their very last
-//!   act, from a frame that owns nothing ([`entry`]). Going through a table ([`Entries`]) looks whether the table still has the key, since Lua
+//!   act, from a frame that owns nothing ([`calls::entry`]). Going through a table ([`Entries`]) looks whether the table still has the key, since Lua
 //!   raises where it has not. Allocation failure aborts (see `Pool`), so that pushing never raises as long as what is pushed fits
 //!   Lua's largest block: strings are cut to it, longer lists are refused before they are pushed ([`LONGEST_LIST`], `Data::MAX_ITEMS`).
 
 mod api;
 mod bytecode;
-mod callback;
 mod calls;
-mod entry;
 mod file;
-mod frame;
-mod guard;
 mod hooks;
 mod object;
 mod permissions;
@@ -29,11 +25,10 @@ mod pool;
 mod seal;
 mod stack;
 mod state;
-mod tables;
 
 pub(crate) use api::{Room, Scalar};
 pub(crate) use bytecode::{Bytecode, Prototype};
-pub(crate) use callback::{Callback, push_callback};
+pub(crate) use calls::callback::{Callback, push_callback};
 pub(crate) use calls::{LuaError, MULTIPLE};
 pub(crate) use file::report_closed_pipes;
 pub(crate) use hooks::count::{HOOK_INTERVAL, HookAction, hasten_count_hook, install_coroutine_hooks, set_count_hook};
@@ -42,9 +37,9 @@ pub(crate) use hooks::interrupt::{calls_begun, interrupt_running_code, place_of_
 pub(crate) use object::Object;
 pub(crate) use permissions::restrict_libraries;
 pub(crate) use seal::seal_argument;
+pub(crate) use stack::tables::LONGEST_LIST;
 pub(crate) use stack::{Stack, Type};
 pub(crate) use state::State;
-pub(crate) use tables::LONGEST_LIST;
 
 use super::lifecycle::budget::Budget;
 

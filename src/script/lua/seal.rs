@@ -8,7 +8,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use mlua::{Error, FromLua, Value};
 
-use super::callback::panic_text;
+use super::calls::callback::panic_text;
 use super::{Budget, Stack, Type};
 
 /// Name of the registry value by which values are exchanged with mlua.

@@ -3,8 +3,8 @@
 use std::any::Any;
 use std::ffi::c_int;
 
-use super::Stack;
 use super::entry::{Exit, push_function};
+use crate::script::lua::Stack;
 
 /// A Rust function Lua can call: gets the stack with its arguments and the number given to [`push_callback`], returns how many
 /// results it pushed, or the text of the error to raise. It is a function, not a closure with values.
@@ -29,12 +29,12 @@ pub(crate) fn push_callback<F: Callback>(stack: Stack<'_>, callback: F, number: 
 }
 
 /// The error a script gets for a mistake of ours.
-pub(super) fn panic_message(panic: &(dyn Any + Send)) -> String {
+pub(in crate::script::lua) fn panic_message(panic: &(dyn Any + Send)) -> String {
     format!("internal error in Swanilda, please report it: {}", panic_text(panic))
 }
 
 /// The message of a panic.
-pub(super) fn panic_text(panic: &(dyn Any + Send)) -> &str {
+pub(in crate::script::lua) fn panic_text(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
     text.unwrap_or("panic")
 }

@@ -6,11 +6,11 @@
 use std::ffi::{CStr, c_int};
 use std::sync::OnceLock;
 
-use super::Stack;
 use super::entry::{Exit, Original, push_function};
+use crate::script::lua::Stack;
 
 /// Functions of Lua's with a guard.
-pub(super) mod guarded {
+pub(in crate::script::lua) mod guarded {
     pub const COROUTINE_CREATE: usize = 0;
     pub const COROUTINE_WRAP: usize = 1;
     pub const GET_LOCAL: usize = 2;
@@ -41,7 +41,7 @@ pub(super) mod guarded {
 }
 
 /// The action after a guard.
-pub(super) enum Next {
+pub(in crate::script::lua) enum Next {
     /// Lua's function continues.
     Original,
     /// The same, then the function sees its results.
@@ -55,7 +55,7 @@ pub(super) enum Next {
 }
 
 /// A function that looks at the arguments of a call before Lua's function does; not a closure with values.
-pub(super) trait Guard: Fn(Stack<'_>) -> Next + Copy + 'static {}
+pub(in crate::script::lua) trait Guard: Fn(Stack<'_>) -> Next + Copy + 'static {}
 
 impl<F: Fn(Stack<'_>) -> Next + Copy + 'static> Guard for F {}
 
@@ -63,7 +63,7 @@ impl<F: Fn(Stack<'_>) -> Next + Copy + 'static> Guard for F {}
 static ORIGINALS: [OnceLock<Original>; guarded::COUNT] = [const { OnceLock::new() }; _];
 
 /// Puts a guard in front of the function `name` of the table on top.
-pub(super) fn install<const FUNCTION: usize, F: Guard>(stack: Stack<'_>, name: &str, guard: F) {
+pub(in crate::script::lua) fn install<const FUNCTION: usize, F: Guard>(stack: Stack<'_>, name: &str, guard: F) {
     stack.raw_get_field(-1, name);
     let original = Original::at(stack, -1);
     stack.pop(1);

@@ -1,15 +1,19 @@
 //! Calling Lua code, and inspecting the call stack.
 
+pub(super) mod callback;
+pub(super) mod entry;
+pub(super) mod guard;
+
 use std::ffi::c_int;
 
 use mlua::{Error, ffi};
 
 use super::api;
-use super::entry::{Exit, push_function};
-use super::frame::Facts;
 use super::hooks::interrupt::Running;
 use super::seal::seal_top;
 use super::stack::Stack;
+use super::stack::frame::Facts;
+use entry::{Exit, push_function};
 
 /// "All results", for [`Stack::protected_call`].
 pub(crate) const MULTIPLE: c_int = ffi::LUA_MULTRET;

@@ -10,7 +10,7 @@ use mlua::ffi;
 use super::count::{HOOK_INTERVAL, Step, hook, next_step};
 use crate::script::lua::Stack;
 use crate::script::lua::api::{self, Hook, Slot};
-use crate::script::lua::guard::{Next, guarded, install};
+use crate::script::lua::calls::guard::{Next, guarded, install};
 
 /// The hook of Lua's library, which calls the function of the script.
 static OF_LIBRARY: OnceLock<Hook> = OnceLock::new();

@@ -8,8 +8,8 @@ use mlua::ffi;
 use super::interrupt::{is_requested, place_of_interruption};
 use crate::script::lua::Stack;
 use crate::script::lua::api::{self, Hook};
-use crate::script::lua::callback::panic_message;
-use crate::script::lua::guard::{Next, guarded, install};
+use crate::script::lua::calls::callback::panic_message;
+use crate::script::lua::calls::guard::{Next, guarded, install};
 
 /// Virtual machine instructions between two checks of the budget.
 pub(crate) const HOOK_INTERVAL: c_int = 1000;

@@ -10,8 +10,8 @@ use mlua::{Lua, Table, ffi};
 
 use super::beside::keep_watch;
 use crate::script::lua::api::{self, Slot};
-use crate::script::lua::frame::Facts;
-use crate::script::lua::guard::{Next, guarded, install};
+use crate::script::lua::calls::guard::{Next, guarded, install};
+use crate::script::lua::stack::frame::Facts;
 use crate::script::lua::{Stack, Type};
 
 /// Replaces the functions of `debug` that reach into native functions.

@@ -15,7 +15,7 @@ use mlua::ffi;
 use super::count::restore_count_hook;
 use crate::script::lua::Stack;
 use crate::script::lua::api::{self, Hook, Slot};
-use crate::script::lua::frame::Facts;
+use crate::script::lua::stack::frame::Facts;
 
 /// Coroutines within coroutines that are looked at.
 const LONGEST_CHAIN: usize = 250;

@@ -4,8 +4,8 @@
 use std::ffi::c_int;
 use std::fs::File;
 
-use super::super::callback::push_callback;
-use super::super::guard::{Next, guarded, install as guard};
+use super::super::calls::callback::push_callback;
+use super::super::calls::guard::{Next, guarded, install as guard};
 use super::super::{Stack, Type};
 use super::{c_text, or_raise, path, permissions, unless_denied};
 use crate::permissions::c_path;

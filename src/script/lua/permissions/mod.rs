@@ -9,7 +9,7 @@ mod loading;
 use std::ffi::c_int;
 use std::path::PathBuf;
 
-use super::guard::Next;
+use super::calls::guard::Next;
 use super::{Stack, Type};
 use crate::permissions::{Denied, Permissions, c_path};
 

@@ -1,5 +1,8 @@
 //! A view of the stack of one coroutine.
 
+pub(super) mod frame;
+pub(super) mod tables;
+
 use std::ffi::{c_int, c_void};
 use std::marker::PhantomData;
 use std::ops::Deref;

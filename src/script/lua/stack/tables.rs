@@ -4,12 +4,12 @@ use std::ffi::{CStr, c_int};
 
 use mlua::ffi;
 
-use super::api::{self, Table};
-use super::stack::{Stack, Type};
+use super::{Stack, Type};
+use crate::script::lua::api::{self, Table};
 use crate::script::runtime::FunctionRef;
 
 /// Size hints beyond this are not worth their memory: tables grow by themselves.
-pub(super) const MAX_HINT: usize = 1 << 16;
+pub(in crate::script::lua) const MAX_HINT: usize = 1 << 16;
 
 /// Items of the longest list Rust pushes; where the items, of 16 bytes each, do not fit one block, Lua raises.
 pub(crate) const LONGEST_LIST: usize = 1 << 26;
@@ -146,7 +146,7 @@ impl Stack<'_> {
     }
 
     /// Pushes upvalue `number` of the function at `index`, if it has that many.
-    pub(super) fn push_upvalue(self, index: c_int, number: c_int) -> bool {
+    pub(in crate::script::lua) fn push_upvalue(self, index: c_int, number: c_int) -> bool {
         let slot = self.slot(index);
         !api::lua_getupvalue(self.room(), slot, number).is_null()
     }
