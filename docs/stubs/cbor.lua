@@ -16,18 +16,32 @@
 local cbor = {}
 
 --- value, next position
+---@param data string|table
+---@param pos? integer
+---@return any value
+---@return integer next
 function cbor.decode(data, pos) end
 
 --- the next value of an open file
+---@param file any
+---@return any value
 function cbor.decode_file(file) end
 
 --- bytes; strings become byte strings, also those that are text
+---@param value any
+---@return string bytes
 function cbor.encode(value) end
 
 --- simple values and tagged values, as objects
+---@param number integer
+---@param name? string
+---@return any simple
 function cbor.simple(number, name) end
 
 --- simple values and tagged values, as objects
+---@param tag integer
+---@param value any
+---@return any tagged
 function cbor.tagged(tag, value) end
 
 return cbor

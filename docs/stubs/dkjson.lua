@@ -16,14 +16,30 @@
 --- decode have a __jsontype. Comments as in JavaScript are skipped.
 local json = {}
 
+---@param text string
+---@param pos? integer
+---@param nullval? any
+---@param ... any
+---@return any value
+---@return integer next
+---@return string error
 function json.decode(text, pos, nullval, ...) end
 
 --- text; state: {indent = true, keyorder = {...}, level = 0, exception = function(reason, value,
+---@param value any
+---@param state? table
+---@return string text
 function json.encode(value, state) end
 
 --- For state.exception: encodes the message as a string.
-function json.encodeexception(_, _, _, message) end
+---@param reason any
+---@param value any
+---@param state table
+---@param message string
+---@return string text
+function json.encodeexception(reason, value, state, message) end
 
+---@return table json
 function json.use_lpeg() end
 
 return json

@@ -14,6 +14,9 @@
 local middleclass = {}
 
 --- a new class; super is optional
+---@param name string
+---@param super? table
+---@return table class
 function middleclass.class(name, super) end
 
 return middleclass

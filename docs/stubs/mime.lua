@@ -11,8 +11,11 @@
 --- The low-level functions take what the last call left over and a chunk, and return text and what is left over now.
 local mime = {}
 
+---@param marker? string
+---@return function filter
 function mime.normalize(marker) end
 
+---@return function filter
 function mime.stuff() end
 
 return mime

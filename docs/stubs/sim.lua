@@ -2446,7 +2446,7 @@ function sim.readCustomTableData(handle, tag, options) end
 ---@return number[] torqueVector newton metres
 function sim.readForceSensor(objectHandle) end
 
---- What a sensor detected when it was last handled.
+--- Result of the last handling of a sensor.
 ---@param sensorHandle integer the sensor
 ---@return integer result 1 if something was detected, 0 if not, -1 if it was not handled since the start of the simulation
 ---@return number distance from the sensor, metres

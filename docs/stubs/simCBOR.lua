@@ -12,9 +12,15 @@
 local simCBOR = {}
 
 --- byte strings become buffers (not as keys of maps), typed arrays tables of numbers, a matrix (tag 40) an object
+---@param data string|table
+---@return any value
+---@return integer next
+---@return string ctype
 function simCBOR.decode(data) end
 
 --- as in org.conman.cbor; objects that have a __tocbor encode themselves
+---@param value any
+---@return string|table bytes
 function simCBOR.encode(value) end
 
 return simCBOR

@@ -25,24 +25,55 @@
 local socket = {}
 
 --- A server at the first address of the host that is free.
+---@param host string
+---@param port any
+---@param backlog? integer
+---@return table server
+---@return string error
 function socket.bind(host, port, backlog) end
 
 --- A function that picks an entry of a table by the name it gets first.
+---@param makers table
+---@return function choice
 function socket.choose(makers) end
 
 --- a connected object
+---@param host string
+---@param port any
+---@param ownHost? string
+---@param ownPort? any
+---@param family? string
+---@return table object
+---@return string error
 function socket.connect(host, port, ownHost, ownPort, family) end
 
 --- the same, for IPv4 or IPv6
+---@param host string
+---@param port any
+---@param ownHost? string
+---@param ownPort? any
+---@return table object
+---@return string error
 function socket.connect4(host, port, ownHost, ownPort) end
 
 --- the same, for IPv4 or IPv6
+---@param host string
+---@param port any
+---@param ownHost? string
+---@param ownPort? any
+---@return table object
+---@return string error
 function socket.connect6(host, port, ownHost, ownPort) end
 
+---@return number seconds
 function socket.gettime() end
 
+---@param f? function
+---@return function try
 function socket.newtry(f) end
 
+---@param f function
+---@return function protected
 function socket.protect(f) end
 
 --- UDP
@@ -52,6 +83,12 @@ function socket.receive(size) end
 function socket.receivefrom(size) end
 
 --- waits for objects: those ready to be read, those ready to be written, 'timeout'
+---@param readers table
+---@param writers table
+---@param seconds? number
+---@return table readable
+---@return table writable
+---@return string error
 function socket.select(readers, writers, seconds) end
 
 --- UDP
@@ -60,28 +97,46 @@ function socket.send(data) end
 --- UDP
 function socket.sendto(data, ip, port) end
 
+---@param n integer
+---@param ... any
+---@return any rest
 function socket.skip(n, ...) end
 
+---@param seconds number
 function socket.sleep(seconds) end
 
 --- new objects
+---@return table object
+---@return string error
 function socket.tcp() end
 
 --- new objects
+---@return table object
+---@return string error
 function socket.tcp4() end
 
 --- new objects
+---@return table object
+---@return string error
 function socket.tcp6() end
 
+---@param ... any
+---@return any results
 function socket.try(...) end
 
 --- new objects
+---@return table object
+---@return string error
 function socket.udp() end
 
 --- new objects
+---@return table object
+---@return string error
 function socket.udp4() end
 
 --- new objects
+---@return table object
+---@return string error
 function socket.udp6() end
 
 return socket

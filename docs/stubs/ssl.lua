@@ -13,9 +13,16 @@
 local ssl = {}
 
 --- params that wrap takes, checked
+---@param params table
+---@return table context
+---@return string error
 function ssl.newcontext(params) end
 
 --- an object that takes over the connection; call dohandshake() next
+---@param object table
+---@param params table
+---@return table object
+---@return string error
 function ssl.wrap(object, params) end
 
 return ssl

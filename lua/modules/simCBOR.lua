@@ -56,11 +56,14 @@ end
 -- Tags whose values are made here; data without them are decoded natively.
 local OWN = {[25] = true, [28] = true, [29] = true, [256] = true, [40] = true, [4294970000] = true, [4294999999] = true}
 
+-- @api any value, int next, string ctype = simCBOR.decode(buffer data)
 function simCBOR.decode(data)
     data = tostring(data)
     local ctype, nextPos, value = native.decode(data, 1, OWN, true)
     if ctype then return value, nextPos, ctype end
     return cbor.decode(data, 1, conversions)
 end
+
+-- @api buffer bytes = simCBOR.encode(any value)
 
 return simCBOR

@@ -41,8 +41,10 @@ end
 
 mime.encode, mime.decode, mime.wrap = choose(mime.encodet), choose(mime.decodet), choose(mime.wrapt)
 
+-- @api func filter = mime.normalize(string marker = '\r\n')
 function mime.normalize(marker) return cycle(mime.eol, 0, marker) end
 
+-- @api func filter = mime.stuff()
 function mime.stuff() return cycle(mime.dot, 2) end
 
 return mime

@@ -25,9 +25,12 @@ local socket = require('socket.core')
 
 socket.BLOCKSIZE = 2048
 socket.sinkt, socket.sourcet = {}, {}
+-- @api any results = socket.try(...)
 socket.try = socket.newtry()
 
+-- @api table object, string error = socket.connect4(string host, any port, string ownHost = nil, any ownPort = nil)
 function socket.connect4(host, port, ownHost, ownPort) return socket.connect(host, port, ownHost, ownPort, 'inet') end
+-- @api table object, string error = socket.connect6(string host, any port, string ownHost = nil, any ownPort = nil)
 function socket.connect6(host, port, ownHost, ownPort) return socket.connect(host, port, ownHost, ownPort, 'inet6') end
 
 local function listening(make, address, port, backlog)
@@ -43,6 +46,7 @@ local function listening(make, address, port, backlog)
 end
 
 -- A server at the first address of the host that is free.
+-- @api table server, string error = socket.bind(string host, any port, int backlog = 32)
 function socket.bind(host, port, backlog)
     if host == '*' then host = '0.0.0.0' end
     local addresses, message = socket.dns.getaddrinfo(host)
@@ -58,6 +62,7 @@ function socket.bind(host, port, backlog)
 end
 
 -- A function that picks an entry of a table by the name it gets first.
+-- @api func choice = socket.choose(table makers)
 function socket.choose(makers)
     return function(name, first, second)
         if type(name) ~= 'string' then name, first, second = 'default', name, first end
@@ -119,5 +124,19 @@ end
 
 socket.sourcet.default = socket.sourcet['until-closed']
 socket.source = socket.choose(socket.sourcet)
+
+-- @api table object, string error = socket.connect(string host, any port, string ownHost = nil, any ownPort = nil, string family = nil)
+-- @api table object, string error = socket.tcp()
+-- @api table object, string error = socket.tcp4()
+-- @api table object, string error = socket.tcp6()
+-- @api table object, string error = socket.udp()
+-- @api table object, string error = socket.udp4()
+-- @api table object, string error = socket.udp6()
+-- @api table readable, table writable, string error = socket.select(table readers, table writers, float seconds = nil)
+-- @api float seconds = socket.gettime()
+-- @api socket.sleep(float seconds)
+-- @api any rest = socket.skip(int n, ...)
+-- @api func try = socket.newtry(func f = nil)
+-- @api func protected = socket.protect(func f)
 
 return socket

@@ -59,6 +59,7 @@ local function verification(given)
     return #words > 0 and 'none' or 'peer'
 end
 
+-- @api table context, string error = ssl.newcontext(table params)
 function ssl.newcontext(params)
     if type(params) ~= 'table' then return nil, 'invalid parameters' end
     if params.mode ~= nil and params.mode ~= 'client' and params.mode ~= 'server' then return nil, 'invalid mode (' .. tostring(params.mode) .. ')' end
@@ -69,6 +70,7 @@ function ssl.newcontext(params)
     return context
 end
 
+-- @api table object, string error = ssl.wrap(table object, table params)
 function ssl.wrap(object, params)
     local context, message = ssl.newcontext(params)
     if not context then return nil, message end

@@ -23,11 +23,13 @@ local Simple = {__tostring = function(value) return value.name or ('simple(%d)')
 Simple.__index = Simple
 function Simple.__tocbor(value) return head.encode(0xE0, value.value) end
 
+-- @api any simple = cbor.simple(int number, string name = nil)
 function cbor.simple(number, name) return setmetatable({value = number, name = name}, Simple) end
 
 local Tagged = {__tostring = function(value) return ('%d(%s)'):format(value.tag, tostring(value.value)) end}
 Tagged.__index = Tagged
 
+-- @api any tagged = cbor.tagged(int tag, any value)
 function cbor.tagged(tag, value) return setmetatable({tag = tag, value = value}, Tagged) end
 
 cbor.null, cbor.undefined = cbor.simple(22, 'null'), cbor.simple(23, 'undefined')
@@ -39,6 +41,7 @@ local function encodeAt(value, depth)
     return encoder(value, depth)
 end
 
+-- @api string bytes = cbor.encode(any value)
 function cbor.encode(value) return encodeAt(value, 1) end
 
 function Tagged.__tocbor(value) return head.encode(0xC0, value.tag) .. cbor.encode(value.value) end
@@ -89,11 +92,13 @@ setmetatable(conversions, {__index = function(_, ctype)
     return decoder or function(value) return cbor.tagged(number, value) end
 end})
 
+-- @api any value, int next = cbor.decode(buffer data, int pos = 1)
 function cbor.decode(data, pos)
     local value, nextPos = conman.decode(data, pos, conversions)
     return value, nextPos
 end
 
+-- @api any value = cbor.decode_file(any file)
 function cbor.decode_file(file)
     local start = file:seek()
     local value, nextPos = cbor.decode(file:read('a'))

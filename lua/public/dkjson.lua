@@ -23,9 +23,11 @@ local json = {version = 'dkjson 2.5', quotestring = scanner.quote}
 
 json.null = setmetatable({}, {__tojson = function() return 'null' end, __tostring = function() return 'null' end})
 
+-- @api table json = dkjson.use_lpeg()
 function json.use_lpeg() return json end
 
 --- For state.exception: encodes the message as a string.
+-- @api string text = dkjson.encodeexception(any reason, any value, table state, string message)
 function json.encodeexception(_, _, _, message) return scanner.quote('<' .. message .. '>') end
 
 -- Whether a table is written as an array, and how long.
@@ -170,6 +172,7 @@ local function encodingState(caller)
     }
 end
 
+-- @api string text = dkjson.encode(any value, table state = nil)
 function json.encode(value, state)
     local caller = state or {}
     local ownBuffer = not caller.buffer
@@ -183,6 +186,7 @@ end
 
 local OBJECT, ARRAY = {__jsontype = 'object'}, {__jsontype = 'array'}
 
+-- @api any value, int next, string error = dkjson.decode(string text, int pos = 1, any nullval = nil, ...)
 function json.decode(text, pos, nullval, ...)
     local objectmeta, arraymeta = OBJECT, ARRAY
     if select('#', ...) > 0 then objectmeta, arraymeta = ... end

@@ -133,4 +133,6 @@ function middleclass.class(name, super)
     return super and super:subclass(name) or includeMixin(createClass(name), Root)
 end
 
+-- @api table class = middleclass.class(string name, table super = nil)
+
 return setmetatable(middleclass, {__call = function(_, ...) return middleclass.class(...) end})

@@ -179,7 +179,7 @@ fn declared(source: &str, table: &str) -> Stubs {
         let declaration = line.strip_prefix("function ").and_then(|rest| rest.strip_prefix(table));
         if let Some(text) = line.strip_prefix("---").filter(|text| !text.starts_with('-')).or(line.strip_prefix("-- "))
         {
-            comment.push(text.trim());
+            comment.extend(Some(text.trim()).filter(|text| !text.starts_with("@api ")));
         } else if let Some(signature) = declaration.and_then(|rest| rest.strip_prefix(['.', ':'])) {
             let is_method = declaration.is_some_and(|rest| rest.starts_with(':'));
             if let Some((name, parameters)) = signature_of(signature.split(')').next().unwrap_or_default()) {

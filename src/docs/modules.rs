@@ -52,6 +52,7 @@ const INNER: &[&str] = &[
     "swanilda/pathmodel",
     "swanilda/quaternion",
     "swanilda/test/recordings",
+    "swanilda/test/scripts",
     "swanilda/trajectory",
 ];
 

@@ -29,7 +29,7 @@ fn hull(cx: &mut Cx, object_handles: Handles, #[default(0.0)] growth: f64) -> Re
     let mut points = Vec::new();
     for raw in object_handles.0 {
         let handle = Handle::from_raw(raw).ok_or(SceneError::NoSuchObject)?;
-        points.extend(cx.scene().outline_points(handle)?);
+        points.extend(cx.scene().points_for_hull(handle)?);
     }
     if points.is_empty() {
         return Err(refused("empty input"));

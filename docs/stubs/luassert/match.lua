@@ -17,10 +17,15 @@
 --- Own matchers: see assert:register in luassert.
 local match = {}
 
+---@param value any
+---@return boolean result
 function match.is_matcher(value) end
 
+---@param value any
+---@return boolean result
 function match.is_ref_matcher(value) end
 
+---@return table state
 function match.state() end
 
 return match

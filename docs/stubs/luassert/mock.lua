@@ -11,10 +11,18 @@
 ---     mock.clear(m), mock.revert(m)
 local mock = {}
 
+---@param object table
+---@return table object
 function mock.clear(object) end
 
+---@param object table
+---@param doStubs? boolean
+---@param ... any
+---@return table mock
 function mock.new(object, doStubs, ...) end
 
+---@param object table
+---@return table object
 function mock.revert(object) end
 
 return mock

@@ -20,15 +20,29 @@
 local spy = {}
 
 --- Puts the spy in place of an element. What the table had only through its metatable is not left in it by `revert`.
+---@param new table
+---@param t table
+---@param key any
+---@return table spy
 function spy.install(new, t, key) end
 
+---@param value any
+---@return boolean result
 function spy.is_spy(value) end
 
 --- Whether recorded values are what a list of values and matchers says.
+---@param recorded table
+---@param expected table
+---@return boolean result
 function spy.matches(recorded, expected) end
 
+---@param callback? function
+---@return table spy
 function spy.new(callback) end
 
+---@param t table
+---@param key any
+---@return table spy
 function spy.on(t, key) end
 
 return spy

@@ -14,6 +14,8 @@
 ---     assert.stub(t.name).was.called()            all that spies can; t.name:revert() puts the function back
 local stub = {}
 
+---@param ... any
+---@return table stub
 function stub.new(...) end
 
 return stub

@@ -15,23 +15,49 @@
 ---     util.tinsert(list [, index], value), util.tremove(list [, index])       for such lists
 local util = {}
 
+---@param value any
+---@return boolean result
 function util.callable(value) end
 
+---@param a any
+---@param b any
+---@param ignore_mt? boolean
+---@return boolean equal
 function util.deepcompare(a, b, ignore_mt) end
 
+---@param t any
+---@param deepmt? boolean
+---@return any copy
 function util.deepcopy(t, deepmt) end
 
+---@param value any
+---@return boolean result
 function util.hastostring(value) end
 
+---@param t any
+---@param deepmt? boolean
+---@return any copy
 function util.shallowcopy(t, deepmt) end
 
+---@param list table
+---@param ... any
 function util.tinsert(list, ...) end
 
+---@param list table
+---@param index? integer
+---@return any value
 function util.tremove(list, index) end
 
 --- Whether no value of a table is there twice. With `deep`, tables are the same that are alike.
+---@param t table
+---@param deep? boolean
+---@return table list
 function util.unique(t, deep) end
 
+---@param list table
+---@param first? integer
+---@param last? integer
+---@return any values
 function util.unpack(list, first, last) end
 
 return util

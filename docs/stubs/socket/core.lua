@@ -8,6 +8,13 @@
 local core = {}
 
 --- A connected object. The own address may be given.
+---@param host string
+---@param port any
+---@param ownHost? string
+---@param ownPort? any
+---@param family? string
+---@return table object
+---@return string error
 function core.connect(host, port, ownHost, ownPort, family) end
 
 --- Unix time in seconds.
@@ -15,13 +22,26 @@ function core.connect(host, port, ownHost, ownPort, family) end
 function core.gettime() end
 
 --- A function that returns its arguments, or raises the second when the first is nothing, after calling `finalizer`.
+---@param finalizer? function
+---@return function try
 function core.newtry(finalizer) end
 
 --- A function whose exceptions become results.
+---@param f function
+---@return function protected
 function core.protect(f) end
 
+---@param readers table
+---@param writers table
+---@param seconds? number
+---@return table readable
+---@return table writable
+---@return string error
 function core.select(readers, writers, seconds) end
 
+---@param count integer
+---@param ... any
+---@return any rest
 function core.skip(count, ...) end
 
 --- Blocks the script.

@@ -14,6 +14,10 @@
 local ftp = {}
 
 --- the commands one by one
+---@param server string
+---@param port? any
+---@param create? function
+---@return table session
 function ftp.open(server, port, create) end
 
 return ftp

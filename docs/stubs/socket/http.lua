@@ -14,9 +14,19 @@
 local http = {}
 
 --- the parts of a request one by one
+---@param host string
+---@param port? any
+---@param create? function
+---@return table exchange
 function http.open(host, port, create) end
 
 --- body, code, headers (names in small letters), status line; a POST when there is a body
+---@param url any
+---@param body? string
+---@return any body
+---@return integer code
+---@return table headers
+---@return string status
 function http.request(url, body) end
 
 return http

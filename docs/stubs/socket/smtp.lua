@@ -12,9 +12,15 @@
 local smtp = {}
 
 --- A source for the whole message; date, mailer and version are added.
+---@param message table
+---@return function source
 function smtp.message(message) end
 
 --- the commands one by one
+---@param server string
+---@param port? any
+---@param create? function
+---@return table session
 function smtp.open(server, port, create) end
 
 return smtp

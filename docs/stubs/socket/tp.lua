@@ -8,6 +8,12 @@
 local tp = {}
 
 --- an object with command(cmd, arg), check(ok), send, receive, sink, source, skip, close
+---@param host string
+---@param port any
+---@param timeout? number
+---@param create? function
+---@return table connection
+---@return string error
 function tp.connect(host, port, timeout, create) end
 
 return tp

@@ -10,9 +10,13 @@
 local unix = {}
 
 --- new objects; tcp and udp are other names of these
+---@return table object
+---@return string error
 function unix.dgram() end
 
 --- new objects; tcp and udp are other names of these
+---@return table object
+---@return string error
 function unix.stream() end
 
 return unix

@@ -12,22 +12,39 @@
 local url = {}
 
 --- base and relative may be tables of parse
+---@param base any
+---@param relative any
+---@return string url
 function url.absolute(base, relative) end
 
 --- the other way
+---@param parsed table
+---@return string url
 function url.build(parsed) end
 
 --- is_absolute and is_directory are fields of the list
+---@param segments table
+---@param unsafe? boolean
+---@return string path
 function url.build_path(segments, unsafe) end
 
+---@param text string
+---@return string escaped
 function url.escape(text) end
 
 --- table of scheme, authority, userinfo, user, password, host, port, path, params, query, fragment
-function url.parse(text, default) end
+---@param url string
+---@param default? table
+---@return table parsed
+function url.parse(url, default) end
 
 --- is_absolute and is_directory are fields of the list
+---@param path string
+---@return table segments
 function url.parse_path(path) end
 
+---@param text string
+---@return string text
 function url.unescape(text) end
 
 return url

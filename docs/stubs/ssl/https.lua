@@ -11,9 +11,17 @@
 local https = {}
 
 --- as http.request; the certificate of the server is verified
+---@param request any
+---@param body? string
+---@return any body
+---@return integer code
+---@return table headers
+---@return string status
 function https.request(request, body) end
 
 --- A function that makes connections, as http's `create` is.
-function https.tcp(given) end
+---@param params table
+---@return function create
+function https.tcp(params) end
 
 return https

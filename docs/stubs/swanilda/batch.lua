@@ -11,8 +11,13 @@
 --- without this file, for example in CoppeliaSim. Outside a batch, `-D name=value` sets parameters.
 local batch = {}
 
+---@param name string
+---@param default? any
+---@return any value
 function batch.param(name, default) end
 
+---@param name string
+---@param value any
 function batch.result(name, value) end
 
 return batch

@@ -53,21 +53,33 @@
 ---     t.image(sensor, options)                    compares what a vision sensor or camera sees with the picture beside the test
 local t = {}
 
+---@param allowed? boolean
 function t.allow_script_errors(allowed) end
 
+---@param time number
+---@param fn function
 function t.at(time, fn) end
 
 --- Number of uncaught script errors.
 ---@return integer count
 function t.errors() end
 
+---@param name string
+---@return string path
 function t.file(name) end
 
 --- A number of the standard normal distribution, by the method of Box and Muller.
+---@return number number
 function t.gauss() end
 
+---@param name string
+---@param quantities table
+---@param options? table
+---@return table recording
 function t.golden(name, quantities, options) end
 
+---@param sensor any
+---@param options? table
 function t.image(sensor, options) end
 
 --- Captured prints and log lines.
@@ -76,36 +88,63 @@ function t.image(sensor, options) end
 ---@return any lines each with text, level, time and, of the log, origin
 function t.lines(first, unfinished) end
 
+---@param file string
 function t.load(file) end
 
+---@param pattern? string
+---@return table lines
 function t.logs(pattern) end
 
+---@param data any
+---@param options? table
 function t.message(data, options) end
 
+---@param path string
+---@return integer handle
 function t.object(path) end
 
+---@return table prints
 function t.prints() end
 
+---@return number number
 function t.random() end
 
+---@param file string
+---@param options? table
+---@return table result
 function t.run(file, options) end
 
+---@param seconds number
+---@return integer made
 function t.run_for(seconds) end
 
+---@param timeout? number
+---@return number time
 function t.run_to_end(timeout) end
 
+---@param condition function
+---@param timeout? number
+---@return number time
 function t.run_until(condition, timeout) end
 
+---@param script any
+---@return table script
 function t.script(script) end
 
+---@param name string
+---@param ... any
+---@return any value
 function t.signal(name, ...) end
 
 function t.start() end
 
+---@param count? integer
+---@return integer made
 function t.step(count) end
 
 function t.stop() end
 
+---@return number time
 function t.time() end
 
 return t

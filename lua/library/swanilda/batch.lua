@@ -12,6 +12,7 @@ local sim = require('sim')
 
 local batch = {}
 
+-- @api any value = swanilda.batch.param(string name, any default = nil)
 function batch.param(name, default)
     local text = sim.getNamedStringParam(name)
     if not text or text == '' then return default end
@@ -27,6 +28,7 @@ local function digits(value)
     return tostring(value)
 end
 
+-- @api swanilda.batch.result(string name, any value)
 function batch.result(name, value)
     sim.setNamedStringParam('result.' .. name, math.type(value) == 'float' and digits(value) or tostring(value))
 end

@@ -53,6 +53,7 @@ Recordings
 local _, native = ...
 local sim = require('sim')
 local recorder = require('swanilda.test.recordings')
+local Script = require('swanilda.test.scripts')
 
 local t = { faults = {} }
 
@@ -80,16 +81,20 @@ local function loaded(result)
     return result
 end
 
+-- @api swanilda.test.load(string file)
 function t.load(file)
     local name = located(file)
     if name:find('%.ttm$') or name:find('%.simmodel%.xml$') then return loaded(sim.loadModel(name)) end
     return loaded(sim.loadScene(name))
 end
 
+-- @api int handle = swanilda.test.object(string path)
 function t.object(path) return sim.getObject(path) end
 
+-- @api string path = swanilda.test.file(string name)
 function t.file(name) return located(name) end
 
+-- @api table result = swanilda.test.run(string file, table options = {})
 function t.run(file, options) return native.run(located(file), options) end
 
 ---------------------------------------------------------------- time
@@ -114,12 +119,15 @@ function t._checkErrors()
     error('a script raised an error.', 0)
 end
 
+-- @api swanilda.test.allow_script_errors(bool allowed = true)
 function t.allow_script_errors(allowed) allowErrors = allowed ~= false end
 
+-- @api float time = swanilda.test.time()
 function t.time() return sim.getSimulationTime() end
 
 local function isAdvancing() return sim.getSimulationState() & sim.simulation_advancing ~= 0 end
 
+-- @api swanilda.test.start()
 function t.start()
     hasRun = true
     if sim.getSimulationState() == sim.simulation_stopped then
@@ -129,6 +137,7 @@ function t.start()
     end
 end
 
+-- @api swanilda.test.stop()
 function t.stop()
     hasRun = false
     if sim.getSimulationState() == sim.simulation_stopped then return end
@@ -166,6 +175,7 @@ local function step()
     return true
 end
 
+-- @api int made = swanilda.test.step(int count = 1)
 function t.step(count)
     for made = 1, count or 1 do
         if not step() then return made - 1 end
@@ -173,8 +183,10 @@ function t.step(count)
     return count or 1
 end
 
+-- @api int made = swanilda.test.run_for(float seconds)
 function t.run_for(seconds) return t.step(math.ceil(seconds / sim.getSimulationTimeStep() - 1e-9)) end
 
+-- @api float time = swanilda.test.run_until(func condition, float timeout = 10)
 function t.run_until(condition, timeout)
     timeout = timeout or 10
     local begin = t.time()
@@ -188,6 +200,7 @@ function t.run_until(condition, timeout)
     return t.time()
 end
 
+-- @api float time = swanilda.test.run_to_end(float timeout = 60)
 function t.run_to_end(timeout)
     timeout = timeout or 60
     local last = t.time()
@@ -200,6 +213,7 @@ function t.run_to_end(timeout)
     return last
 end
 
+-- @api swanilda.test.at(float time, func fn)
 function t.at(time, fn)
     local place = #scheduled + 1
     while place > 1 and scheduled[place - 1].time > time do place = place - 1 end
@@ -208,78 +222,17 @@ end
 
 ---------------------------------------------------------------- scripts
 
-local Script = {}
-Script.__index = Script
-
--- What scripts call when a function of theirs is wrapped: by number, with the script that calls.
-local wrappers = {}
-function _swanilda_test_wrapper(number, ...) return wrappers[number](...) end
-
+-- @api table script = swanilda.test.script(any script)
 function t.script(script)
     local handle = type(script) == 'string' and sim.getObject(script) or script
     return setmetatable({ handle = handle, wrapped = {} }, Script)
-end
-
-function Script:call(name, ...) return sim.callScriptFunction(name, self.handle, ...) end
-
-function Script:run(code)
-    local results = table.pack(sim.executeScriptString(code, self.handle))
-    if results[1] ~= 0 then error(("script %d: %s"):format(self.handle, tostring(results[2])), 2) end
-    return table.unpack(results, 2, results.n)
-end
-
-function Script:get(expression) return self:run('return ' .. expression) end
-
-function Script:set(name, value)
-    self:run('function _swanilda_test_set(value) ' .. name .. ' = value end')
-    self:call('_swanilda_test_set', value)
-end
-
-local WRAP = [[
-    local number, test = %d, %d
-    local original = %s
-    _swanilda_test_originals = _swanilda_test_originals or {}
-    _swanilda_test_originals[number] = original
-    function _swanilda_test_call(number, ...) return _swanilda_test_originals[number](...) end
-    %s = function(...) return sim.callScriptFunction('_swanilda_test_wrapper', test, number, ...) end
-]]
-
-function Script:wrap(name, fn)
-    local number = #wrappers + 1
-    local function call(...) return self:call('_swanilda_test_call', number, ...) end
-    wrappers[number] = function(...) return fn(call, ...) end
-    self:run(WRAP:format(number, sim_script_handle, name, name))
-    self.wrapped[name] = number
-end
-
-function Script:unwrap(name)
-    local number = self.wrapped[name]
-    if not number then error(("'%s' is not wrapped."):format(name), 2) end
-    self:run(('%s = _swanilda_test_originals[%d]'):format(name, number))
-    self.wrapped[name] = nil
-end
-
-function Script:stub(name, ...)
-    local results = table.pack(...)
-    local watched = require('luassert.spy').new(function() return table.unpack(results, 1, results.n) end)
-    self:wrap(name, function(_, ...) return watched(...) end)
-    return watched
-end
-
-function Script:spy(name)
-    local original
-    local watched = require('luassert.spy').new(function(...) return original(...) end)
-    self:wrap(name, function(call, ...)
-        original = call
-        return watched(...)
-    end)
-    return watched
 end
 
 function Script:kill() native.kill(self.handle) end
 
 ---------------------------------------------------------------- messages and logs
 
+-- @api any value = swanilda.test.signal(string name, ...)
 function t.signal(name, ...)
     if select('#', ...) == 0 then
         return sim.getFloatSignal(name) or sim.getInt32Signal(name) or sim.getStringSignal(name)
@@ -296,10 +249,12 @@ function t.signal(name, ...)
     end
 end
 
+-- @api swanilda.test.message(any data, table options = nil)
 function t.message(data, options) return sim.broadcastMsg(data, options) end
 
 function t.lines() return native.lines(0, true) end
 
+-- @api table prints = swanilda.test.prints()
 function t.prints()
     local texts = {}
     for _, line in ipairs(t.lines()) do
@@ -308,6 +263,7 @@ function t.prints()
     return texts
 end
 
+-- @api table lines = swanilda.test.logs(string pattern = nil)
 function t.logs(pattern)
     local found = {}
     for _, line in ipairs(native.lines()) do
@@ -318,9 +274,11 @@ end
 
 ---------------------------------------------------------------- faults
 
+-- @api float number = swanilda.test.random()
 function t.random() return math.random() end
 
 -- A number of the standard normal distribution, by the method of Box and Muller.
+-- @api float number = swanilda.test.gauss()
 function t.gauss()
     return math.sqrt(-2 * math.log(1 - math.random())) * math.cos(2 * math.pi * math.random())
 end
@@ -378,6 +336,7 @@ end
 
 recorder.time, recorder.signal = t.time, t.signal
 
+-- @api table recording = swanilda.test.golden(string name, table quantities, table options = nil)
 function t.golden(name, quantities, options)
     local recording = recorder.begin(name, quantities, options)
     recordings[#recordings + 1] = recording
@@ -387,6 +346,7 @@ end
 
 local IMAGE_OPTIONS <const> = { name = 'string', tolerance = 'number', share = 'number' }
 
+-- @api swanilda.test.image(any sensor, table options = nil)
 function t.image(sensor, options)
     options = options or {}
     for option, value in pairs(options) do

@@ -57,6 +57,7 @@ group('dns', core.dns)
 local MAKERS <const> = {inet = core.tcp4, inet6 = core.tcp6, unspec = core.tcp}
 
 -- A connected object. The own address may be given.
+-- @api table object, string error = socket.core.connect(string host, any port, string ownHost = nil, any ownPort = nil, string family = nil)
 function core.connect(host, port, ownHost, ownPort, family)
     local make = MAKERS[family or 'unspec']
     if not make then
@@ -104,6 +105,7 @@ local function ready(objects, flags, dirty)
     return found, count
 end
 
+-- @api table readable, table writable, string error = socket.core.select(table readers, table writers, float seconds = nil)
 function core.select(readers, writers, seconds)
     local readNumbers, readObjects = descriptors(readers, 1)
     local writeNumbers, writeObjects = descriptors(writers, 2)
@@ -128,6 +130,7 @@ end
 local Exception = {}
 
 -- A function that returns its arguments, or raises the second when the first is nothing, after calling `finalizer`.
+-- @api func try = socket.core.newtry(func finalizer = nil)
 function core.newtry(finalizer)
     return function(...)
         if ... then return ... end
@@ -143,10 +146,12 @@ local function unprotect(ok, first, ...)
 end
 
 -- A function whose exceptions become results.
+-- @api func protected = socket.core.protect(func f)
 function core.protect(f)
     return function(...) return unprotect(pcall(f, ...)) end
 end
 
+-- @api any rest = socket.core.skip(int count, ...)
 function core.skip(count, ...) return select(count + 1, ...) end
 
 function core.__unload() end

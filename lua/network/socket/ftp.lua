@@ -107,6 +107,7 @@ function Session:send(request)
     return sent
 end
 
+-- @api table session = socket.ftp.open(string server, any port = 21, func create = nil)
 function ftp.open(server, port, create)
     local connection = socket.try(tp.connect(server, port or ftp.PORT, ftp.TIMEOUT, create))
     local session = setmetatable({tp = connection}, Session)

@@ -153,6 +153,7 @@ end
 
 function Exchange:close() return self.c:close() end
 
+-- @api table exchange = socket.http.open(string host, any port = 80, func create = nil)
 function http.open(host, port, create)
     local c = socket.try((create or socket.tcp)())
     local exchange = setmetatable({c = c}, Exchange)
@@ -296,6 +297,7 @@ end
 
 http.genericform = simple
 
+-- @api any body, int code, table headers, string status = socket.http.request(any url, string body = nil)
 http.request = socket.protect(function(address, body)
     if type(address) ~= 'string' then return perform(address) end
     local request = simple(address, body)

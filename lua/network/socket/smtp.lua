@@ -89,6 +89,7 @@ function Session:send(mail)
     return self:data(ltn12.source.chain(mail.source, mime.stuff()), mail.step)
 end
 
+-- @api table session = socket.smtp.open(string server, any port = 25, func create = nil)
 function smtp.open(server, port, create)
     local connection = socket.try(tp.connect(server or smtp.SERVER, port or smtp.PORT, smtp.TIMEOUT, create))
     local session = setmetatable({tp = connection}, Session)
@@ -157,6 +158,7 @@ function yieldMessage(message)
 end
 
 -- A source for the whole message; date, mailer and version are added.
+-- @api func source = socket.smtp.message(table message)
 function smtp.message(message)
     local headers = {}
     for name, value in pairs(message.headers or {}) do headers[name:lower()] = value end

@@ -65,6 +65,7 @@ function Connection:close()
     return 1
 end
 
+-- @api table connection, string error = socket.tp.connect(string host, any port, float timeout = 60, func create = nil)
 function tp.connect(host, port, timeout, create)
     local c, message = (create or socket.tcp)()
     if not c then return nil, message end

@@ -10,10 +10,12 @@ URLs: taken apart, put together, made absolute.
 
 local url = {_VERSION = 'URL 1.0.3'}
 
+-- @api string escaped = socket.url.escape(string text)
 function url.escape(text)
     return (text:gsub('[^A-Za-z0-9_]', function(letter) return ('%%%02x'):format(letter:byte()) end))
 end
 
+-- @api string text = socket.url.unescape(string text)
 function url.unescape(text)
     return (text:gsub('%%(%x%x)', function(digits) return string.char(tonumber('0x' .. digits)) end))
 end
@@ -46,6 +48,7 @@ local function parseAuthority(parsed)
     parsed.user = parsed.user or info
 end
 
+-- @api table parsed = socket.url.parse(string url, table default = nil)
 function url.parse(text, default)
     local parsed = {}
     for name, value in pairs(default or {}) do parsed[name] = value end
@@ -69,6 +72,7 @@ local function buildAuthority(parsed)
     return info and info .. '@' .. authority or authority
 end
 
+-- @api string url = socket.url.build(table parsed)
 function url.build(parsed)
     local text = parsed.path or ''
     if parsed.params then text = text .. ';' .. parsed.params end
@@ -126,6 +130,7 @@ local function inherit(relative, base)
     relative.query = relative.query or base.query
 end
 
+-- @api string url = socket.url.absolute(any base, any relative)
 function url.absolute(base, relative)
     local parsedBase = type(base) == 'table' and base or url.parse(base)
     local baseText = type(base) == 'table' and url.build(base) or base
@@ -139,6 +144,7 @@ end
 
 ---------------------------------------------------------------- paths
 
+-- @api table segments = socket.url.parse_path(string path)
 function url.parse_path(path)
     local segments = {}
     path = path or ''
@@ -148,6 +154,7 @@ function url.parse_path(path)
     return segments
 end
 
+-- @api string path = socket.url.build_path(table segments, bool unsafe = false)
 function url.build_path(segments, unsafe)
     local escaped = {}
     for i, segment in ipairs(segments) do escaped[i] = unsafe and segment or escapeSegment(segment) end

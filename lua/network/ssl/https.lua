@@ -49,6 +49,7 @@ end
 local NAMES <const> = {'verify', 'cafile', 'capath', 'certificate', 'key', 'password'}
 
 -- A function that makes connections, as http's `create` is.
+-- @api func create = ssl.https.tcp(table params)
 function https.tcp(given)
     local params = {mode = 'client'}
     for _, name in ipairs(NAMES) do params[name] = given and given[name] end
@@ -67,6 +68,7 @@ local function secure(address)
     return url.build(parsed)
 end
 
+-- @api any body, int code, table headers, string status = ssl.https.request(any request, string body = nil)
 function https.request(request, body)
     local parts = {}
     local isSimple = type(request) == 'string'

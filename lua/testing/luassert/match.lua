@@ -23,7 +23,9 @@ function Matcher:__call(...) return not self.callback(...) == not self.mod end
 
 local match = {_ = setmetatable({mod = true, callback = function() return true end}, Matcher)}
 
+-- @api bool result = luassert.match.is_matcher(any value)
 function match.is_matcher(value) return type(value) == 'table' and getmetatable(value) == Matcher end
+-- @api bool result = luassert.match.is_ref_matcher(any value)
 function match.is_ref_matcher(value) return match.is_matcher(value) and value.name == 'ref' end
 
 local USER_LEVEL <const> = 3
@@ -40,6 +42,7 @@ end
 
 local State = chain.metatable(callState)
 
+-- @api table state = luassert.match.state()
 function match.state() return chain.start(State) end
 
 return setmetatable(match, {__index = function(_, key) return chain.extend(chain.start(State), key) end})

@@ -25,6 +25,7 @@ local function walk(t, visit, met)
     end
 end
 
+-- @api table mock = luassert.mock.new(table object, bool doStubs = false, ...)
 function mock.new(object, doStubs, ...)
     local answer = table.pack(...)
     local function replace(t, key, value)
@@ -47,10 +48,12 @@ local function forSpies(object, f)
     return object
 end
 
+-- @api table object = luassert.mock.clear(table object)
 function mock.clear(object)
     return forSpies(object, function(s) s:clear() end)
 end
 
+-- @api table object = luassert.mock.revert(table object)
 function mock.revert(object)
     return forSpies(object, function(s) s:revert() end)
 end

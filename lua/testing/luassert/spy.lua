@@ -50,6 +50,7 @@ local function hasValue(expected, recorded, index)
 end
 
 -- Whether recorded values are what a list of values and matchers says.
+-- @api bool result = luassert.spy.matches(table recorded, table expected)
 function spy.matches(recorded, expected)
     local count = expected.n or #expected
     if recorded.vals.n ~= count then return false end
@@ -105,11 +106,14 @@ local function new(callback, level)
     return setmetatable({calls = {}, returnvals = {}, callback = callback or nothing}, Spy)
 end
 
+-- @api table spy = luassert.spy.new(func callback = nil)
 function spy.new(callback) return (new(callback, 2)) end
 
+-- @api bool result = luassert.spy.is_spy(any value)
 function spy.is_spy(value) return type(value) == 'table' and getmetatable(value) == Spy end
 
 -- Puts the spy in place of an element. What the table had only through its metatable is not left in it by `revert`.
+-- @api table spy = luassert.spy.install(table new, table t, any key)
 function spy.install(new, t, key)
     local original = t[key]
     local isInherited = type(t) == 'table' and rawget(t, key) == nil
@@ -121,6 +125,7 @@ function spy.install(new, t, key)
     return new
 end
 
+-- @api table spy = luassert.spy.on(table t, any key)
 function spy.on(t, key)
     if type(t) ~= 'table' and type(t) ~= 'userdata' then
         error(("bad argument #1 to 'on' (table expected, got %s)"):format(type(t)), 2)

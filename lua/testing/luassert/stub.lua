@@ -73,6 +73,7 @@ local function new(t, key, ...)
     return object.returns(...)
 end
 
+-- @api table stub = luassert.stub.new(...)
 function stub.new(...) return (new(...)) end
 
 return setmetatable(stub, {__call = function(_, ...) return (new(...)) end})

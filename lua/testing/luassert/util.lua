@@ -21,8 +21,10 @@ local util = {}
 
 util.pack = table.pack
 
+-- @api any values = luassert.util.unpack(table list, int first = 1, int last = nil)
 function util.unpack(list, first, last) return table.unpack(list, first or 1, last or list.n or #list) end
 
+-- @api luassert.util.tinsert(table list, ...)
 function util.tinsert(list, ...)
     local index, value = ...
     list.n = (list.n or #list) + 1
@@ -31,6 +33,7 @@ function util.tinsert(list, ...)
     list[index] = value
 end
 
+-- @api any value = luassert.util.tremove(table list, int index = nil)
 function util.tremove(list, index)
     local count = list.n or #list
     index = index or count
@@ -40,12 +43,14 @@ function util.tremove(list, index)
     return value
 end
 
+-- @api bool result = luassert.util.callable(any value)
 function util.callable(value)
     if type(value) == 'function' then return true end
     local metatable = metatableOf(value)
     return metatable ~= nil and util.callable(rawget(metatable, '__call'))
 end
 
+-- @api bool result = luassert.util.hastostring(any value)
 function util.hastostring(value)
     local metatable = metatableOf(value)
     return metatable ~= nil and type(rawget(metatable, '__tostring')) == 'function'
@@ -103,6 +108,7 @@ local function inOrder(t)
     end
 end
 
+-- @api bool equal = luassert.util.deepcompare(any a, any b, bool ignore_mt = false)
 function util.deepcompare(a, b, ignore_mt)
     if compare(a, b, {each = inAnyOrder, met = {}, ignoresMetatables = ignore_mt}) then return true end
     local path = {}
@@ -120,6 +126,7 @@ local function isAmong(value, others, deep)
 end
 
 --- Whether no value of a table is there twice. With `deep`, tables are the same that are alike.
+-- @api table list = luassert.util.unique(table t, bool deep = false)
 function util.unique(t, deep)
     local plain, objects = {}, {}
     for _, value in next, t do
@@ -134,6 +141,7 @@ function util.unique(t, deep)
     return true
 end
 
+-- @api any copy = luassert.util.shallowcopy(any t, bool deepmt = false)
 function util.shallowcopy(t, deepmt)
     if type(t) ~= 'table' then return t end
     local copy = {}
@@ -157,6 +165,7 @@ local function copyDeep(value, deepmt, copies)
     return setmetatable(copy, deepmt and copyDeep(metatable, deepmt, copies) or metatable)
 end
 
+-- @api any copy = luassert.util.deepcopy(any t, bool deepmt = false)
 function util.deepcopy(t, deepmt) return copyDeep(t, deepmt, {}) end
 
 return util

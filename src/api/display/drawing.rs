@@ -83,7 +83,7 @@ fn add_drawing_object_item(
     let mut numbers = numbers(&item_data)?;
     let mut scene = cx.scene_mut();
     if numbers.is_empty() {
-        scene.clear_drawing(handle)?;
+        scene.drawings_mut().clear(handle)?;
         return Ok(0);
     }
     if drawing_object_handle.0 & flag::ADD_MULTIPLE == 0 {
@@ -112,9 +112,9 @@ fn numbers(data: &Data) -> Result<Vec<f64>> {
 fn remove_drawing_object(cx: &mut Cx, drawing_object_handle: Number) -> Result<i64> {
     let mut scene = cx.scene_mut();
     if drawing_object_handle.0 == special::ALL {
-        scene.remove_all_drawings();
+        scene.drawings_mut().remove_all();
     } else {
-        scene.remove_drawing(drawing_object_handle.0)?;
+        scene.drawings_mut().remove(drawing_object_handle.0)?;
     }
     Ok(1)
 }

@@ -28,6 +28,25 @@ impl Drawings {
         self.by_handle.get_mut(&handle).ok_or(SceneError::NoSuchObject)
     }
 
+    /// Removes all items of a drawing object.
+    ///
+    /// # Errors
+    /// When there is none with that handle.
+    pub fn clear(&mut self, handle: i64) -> SceneResult<()> {
+        self.get_mut(handle).map(DrawingObject::clear)
+    }
+
+    /// # Errors
+    /// When there is no drawing object with that handle.
+    pub fn remove(&mut self, handle: i64) -> SceneResult<()> {
+        self.by_handle.remove(&handle).map(drop).ok_or(SceneError::NoSuchObject)
+    }
+
+    /// Removes all drawing objects.
+    pub fn remove_all(&mut self) {
+        self.by_handle.clear();
+    }
+
     /// Removes those that move with objects which are being removed.
     pub(in crate::scene) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
         self.by_handle.retain(|_, drawing| drawing.style.parent.is_none_or(|parent| !doomed.contains(&parent)));
@@ -41,6 +60,10 @@ impl Drawings {
 impl Scene {
     pub fn drawings(&self) -> &Drawings {
         &self.drawings
+    }
+
+    pub fn drawings_mut(&mut self) -> &mut Drawings {
+        &mut self.drawings
     }
 
     /// Adds an empty drawing object; without the persistent flag it ends with the script `owner`.
@@ -66,25 +89,6 @@ impl Scene {
         let frame = parent.map_or(Ok(super::Pose::identity()), |parent| self.world_pose(parent))?;
         let drawing = self.drawings.get_mut(handle)?;
         Ok(numbers.chunks(drawing.item_len()).filter(|item| drawing.add(item, &frame)).count())
-    }
-
-    /// Removes all items of a drawing object.
-    ///
-    /// # Errors
-    /// When there is none with that handle.
-    pub fn clear_drawing(&mut self, handle: i64) -> SceneResult<()> {
-        self.drawings.get_mut(handle).map(DrawingObject::clear)
-    }
-
-    /// # Errors
-    /// When there is no drawing object with that handle.
-    pub fn remove_drawing(&mut self, handle: i64) -> SceneResult<()> {
-        self.drawings.by_handle.remove(&handle).map(drop).ok_or(SceneError::NoSuchObject)
-    }
-
-    /// Removes all drawing objects.
-    pub fn remove_all_drawings(&mut self) {
-        self.drawings.by_handle.clear();
     }
 
     /// Removes what ends with the script `owner`: its collections, and its drawing objects that are not persistent.

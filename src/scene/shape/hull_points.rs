@@ -10,7 +10,7 @@ impl Scene {
     ///
     /// # Errors
     /// When there is no such object.
-    pub fn outline_points(&self, handle: Handle) -> SceneResult<Vec<[f64; 3]>> {
+    pub fn points_for_hull(&self, handle: Handle) -> SceneResult<Vec<[f64; 3]>> {
         let object = self.object(handle)?;
         let points = match &object.kind {
             Kind::Shape(shape) => shape.mesh().vertices.clone(),

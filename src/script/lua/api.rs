@@ -3,12 +3,14 @@
 //! A [`Stack`] is a living coroutine and a [`Slot`] an index Lua can look at. The other types say what is on the stack at the moment:
 //! they are made and used in one expression, and only in `script/lua`.
 
+mod new_table;
+
 use std::ffi::{c_char, c_int, c_void};
 
 use mlua::ffi;
 
-use super::stack::tables::MAX_HINT;
 use super::stack::{Stack, Type};
+pub(crate) use new_table::Scalar;
 
 /// Longer strings are cut: Lua would raise where it cannot have the memory.
 const LONGEST_STRING: usize = 1 << 29;
@@ -248,83 +250,6 @@ impl<'a> Room<'a> {
         let bytes = &bytes[..bytes.len().min(LONGEST_STRING)];
         // SAFETY: there is room, and the bytes are copied.
         unsafe { ffi::lua_pushlstring(self.0.raw(), bytes.as_ptr().cast(), bytes.len()) };
-    }
-
-    /// Pushes a value that is no table, string or function.
-    pub(crate) fn push(self, value: Scalar) {
-        match value {
-            Scalar::Nil => lua_pushnil(self),
-            Scalar::Bool(value) => lua_pushboolean(self, c_int::from(value)),
-            Scalar::Int(value) => lua_pushinteger(self, value),
-            Scalar::Number(value) => lua_pushnumber(self, value),
-        }
-    }
-
-    /// Pushes a new table, to be filled; gives the room back when Lua's stack is full. The numbers of list items and other entries are hints.
-    pub(crate) fn new_table(self, items: usize, fields: usize) -> Result<NewTable<'a>, Self> {
-        let stack = self.0;
-        // For the table, a key, a value, and room in which nested values find that there is no more.
-        if lua_checkstack(stack, 4) == 0 {
-            return Err(self);
-        }
-        let hint = |count: usize| count.min(MAX_HINT) as c_int;
-        lua_createtable(self, hint(items), hint(fields));
-        Ok(NewTable { stack, table: Table(lua_gettop(stack)) })
-    }
-}
-
-/// A value without memory of its own.
-pub(crate) enum Scalar {
-    Nil,
-    Bool(bool),
-    Int(i64),
-    Number(f64),
-}
-
-/// A new table on top of the stack, with room for a key and a value.
-pub(crate) struct NewTable<'a> {
-    stack: Stack<'a>,
-    table: Table,
-}
-
-impl<'a> NewTable<'a> {
-    /// Sets item `i` to the value that `push` pushes.
-    pub(crate) fn set_item(&self, i: i64, push: impl FnOnce(Room<'a>)) {
-        push(self.room(0));
-        self.check(1);
-        lua_rawseti(Top(self.stack), self.table, i);
-    }
-
-    /// Sets a field to the value that `push` pushes.
-    pub(crate) fn set_field(&self, name: &[u8], push: impl FnOnce(Room<'a>)) {
-        self.room(0).push_bytes(name);
-        self.set(push);
-    }
-
-    /// The same for a key of another type; nothing for one that no table can have.
-    pub(crate) fn set_entry(&self, key: Scalar, push: impl FnOnce(Room<'a>)) {
-        if matches!(key, Scalar::Nil) || matches!(key, Scalar::Number(number) if number.is_nan()) {
-            return;
-        }
-        self.room(0).push(key);
-        self.set(push);
-    }
-
-    /// The key is on top.
-    fn set(&self, push: impl FnOnce(Room<'a>)) {
-        push(self.room(1));
-        self.check(2);
-        lua_rawset(Pair(self.stack), self.table);
-    }
-
-    /// Room for a value behind `used` others.
-    fn room(&self, used: c_int) -> Room<'a> {
-        self.check(used);
-        Room(self.stack)
-    }
-
-    fn check(&self, values: c_int) {
-        assert_eq!(lua_gettop(self.stack), self.table.0 + values, "each entry is a key and a value");
     }
 }
 

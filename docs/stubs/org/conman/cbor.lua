@@ -23,24 +23,56 @@
 local M = {}
 
 --- value, next position, type; raises an error for malformed data
+---@param packet string|table
+---@param pos? integer
+---@param conv? table
+---@param ref? table
+---@param iskey? boolean
+---@return any value
+---@return integer next
+---@return string ctype
 function M.decode(packet, pos, conv, ref, iskey) end
 
 --- bytes; raises an error for what CBOR cannot hold
+---@param value any
+---@param sref? table
+---@param stref? table
+---@return string bytes
 function M.encode(value, sref, stref) end
 
 --- about a type that decode returned
+---@param ctype string
+---@return boolean result
 function M.isfloat(ctype) end
 
 --- about a type that decode returned
+---@param ctype string
+---@return boolean result
 function M.isinteger(ctype) end
 
 --- about a type that decode returned
+---@param ctype string
+---@return boolean result
 function M.isnumber(ctype) end
 
 --- the same, returning nil and a message: bytes | nil, message and
+---@param packet string|table
+---@param pos? integer
+---@param conv? table
+---@param ref? table
+---@param iskey? boolean
+---@return any value
+---@return integer next
+---@return string ctype
+---@return string error
 function M.pdecode(packet, pos, conv, ref, iskey) end
 
 --- the same, returning nil and a message: bytes | nil, message and
+---@param value any
+---@param sref? table
+---@param stref? table
+---@return string bytes
+---@return string error
 function M.pencode(value, sref, stref) end
 
 return M

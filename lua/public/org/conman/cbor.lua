@@ -33,8 +33,11 @@ local TYPE, TAG, ENCODE = M.TYPE, M.TAG, M.__ENCODE_MAP
 
 local NUMBERS = {UINT = 'integer', NINT = 'integer', half = 'float', single = 'float', double = 'float'}
 
+-- @api bool result = org.conman.cbor.isnumber(string ctype)
 function M.isnumber(ctype) return NUMBERS[ctype] ~= nil end
+-- @api bool result = org.conman.cbor.isinteger(string ctype)
 function M.isinteger(ctype) return NUMBERS[ctype] == 'integer' end
+-- @api bool result = org.conman.cbor.isfloat(string ctype)
 function M.isfloat(ctype) return NUMBERS[ctype] == 'float' end
 
 ---------------------------------------------------------------- encoding
@@ -138,6 +141,7 @@ local function isChanged()
         or ENCODE.boolean ~= ofBoolean or ENCODE['nil'] ~= ofNil
 end
 
+-- @api string bytes = org.conman.cbor.encode(any value, table sref = nil, table stref = nil)
 function M.encode(value, sref, stref)
     if stref and not stref.SEEN then
         stref.SEEN = true
@@ -151,6 +155,7 @@ function M.encode(value, sref, stref)
     return encodeAny(value, sref, stref)
 end
 
+-- @api string bytes, string error = org.conman.cbor.pencode(any value, table sref = nil, table stref = nil)
 function M.pencode(value, sref, stref)
     local ok, result = pcall(M.encode, value, sref, stref)
     if ok then return result end
@@ -283,12 +288,14 @@ local function tryDecode(packet, pos, conv, ref, iskey)
     return false, reason.message, reason.pos
 end
 
+-- @api any value, int next, string ctype = org.conman.cbor.decode(buffer packet, int pos = 1, table conv = nil, table ref = nil, bool iskey = false)
 function M.decode(packet, pos, conv, ref, iskey)
     local ok, value, nextPos, ctype = tryDecode(packet, pos, conv, ref, iskey)
     if not ok then error(('%s at byte %d'):format(value, nextPos), 2) end
     return value, nextPos, ctype
 end
 
+-- @api any value, int next, string ctype, string error = org.conman.cbor.pdecode(buffer packet, int pos = 1, table conv = nil, table ref = nil, bool iskey = false)
 function M.pdecode(packet, pos, conv, ref, iskey)
     local ok, value, nextPos, ctype = tryDecode(packet, pos, conv, ref, iskey)
     if ok then return value, nextPos, ctype end
