@@ -1,6 +1,7 @@
 //! The wall between the layers, and between the rooms of a layer: imports point inwards only (docs/ARCHITECTURE.md).
 
 mod imports;
+mod page;
 mod rules;
 
 use std::path::{Path, PathBuf};

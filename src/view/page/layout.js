@@ -95,6 +95,7 @@ export class Layout {
     if (name === 'contacts') source.request('show', { contacts: on }).catch(() => {});
     else if (name === 'frames' || name === 'hidden') {
       renderer.view.options[name] = on;
+      renderer.view.dirtyLines = true;
       renderer.view.rebuild();
     } else renderer.options[name] = on;
     if (name === 'contacts' && !on) this.page.store.contacts = [];

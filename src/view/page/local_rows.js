@@ -4,11 +4,13 @@ const SCENE = -12;
 const GROUPS = { jointPosition: 'joint', jointType: 'joint', interval: 'joint', cyclic: 'joint', size: 'shape', layer: 'object' };
 const HIDDEN = new Set(['meshes', 'volume', 'boundingBox', 'blob', 'handle', 'parent', 'childOrder', 'selectable', 'modelSelectable']);
 
-const kind = (value) => (Array.isArray(value) ? `vector${value.length}` : { boolean: 'bool', number: 'float' }[typeof value] ?? typeof value);
+const INTEGERS = new Set(['handle', 'uid', 'layer', 'linkedDummy']);
+
+const kind = (name, value) => (INTEGERS.has(name) ? 'int' : Array.isArray(value) ? `vector${value.length}` : { boolean: 'bool', number: 'float' }[typeof value] ?? typeof value);
 
 /** @param {import('./store.js').Store} store @param {number} handle */
 export function localRows(store, handle) {
-  const row = (name, value, group = 'object', unit = '') => ({ name, type: kind(value), value, writable: false, group, unit, label: name });
+  const row = (name, value, group = 'object', unit = '') => ({ name, type: kind(name, value), value, writable: false, group, unit, label: name });
   if (handle === SCENE) return [row('name', store.scene.name), row('state', store.scene.state), row('time', store.scene.time, 'simulation', 's'), row('timeStep', store.scene.timeStep, 'simulation', 's')];
   const object = store.objects.get(handle);
   if (!object) return [];

@@ -15,7 +15,7 @@ import { WindowsPane } from './panes/windows.js';
 import { Controls } from './render/controls.js';
 import { Renderer } from './render/renderer.js';
 import { ReplaySource } from './replay.js';
-import { Store } from './store.js';
+import { poseIn, Store } from './store.js';
 
 const at = (id) => document.getElementById(id);
 
@@ -210,9 +210,17 @@ class Page {
 
   /** A value over the whole recording. */
   async showCurve(handle, { name, label }) {
+    const title = `${this.store.objects.get(handle)?.alias} ${label}`;
+    if (name === 'absolutePose') return this._showPositions(handle, title);
     const read = (message, kind) => (kind === 'text' ? message.objects?.find((object) => object.handle === handle)?.[name] : undefined);
-    const curve = await this.source.curve(read);
-    this.curves.add({ name: `${this.store.objects.get(handle)?.alias} ${label}`, ...curve });
+    this.curves.add({ name: title, ...(await this.source.curve(read)) });
+  }
+
+  async _showPositions(handle, title) {
+    for (const [i, axis] of ['x', 'y', 'z'].entries()) {
+      const read = (message, kind) => (kind === 'binary' ? poseIn(message, handle)?.[i] : undefined);
+      this.curves.add({ name: `${title} ${axis}`, ...(await this.source.curve(read)) });
+    }
   }
 
   frame(now) {

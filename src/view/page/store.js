@@ -3,7 +3,18 @@
 
 /** @typedef {Object<string, any>} SceneObject as in the protocol */
 
+const POSE = 32; // bytes of a pose in a message: a handle and seven numbers
 const LINES = 5000; // of the console; older ones are dropped
+
+/** The position of an object in a message of poses; undefined if it is not there. @param {ArrayBuffer} buffer */
+export function poseIn(buffer, handle) {
+  const view = new DataView(buffer);
+  if (view.getUint8(0) !== 1) return undefined;
+  for (let at = 16; at + POSE <= buffer.byteLength; at += POSE) {
+    if (view.getInt32(at, true) === handle) return [4, 8, 12].map((by) => view.getFloat32(at + by, true));
+  }
+  return undefined;
+}
 
 export class Store {
   constructor() {
@@ -146,7 +157,7 @@ export class Store {
 
   _poses(view) {
     const count = view.getUint32(4, true);
-    for (let i = 0, at = 16; i < count; i++, at += 32) {
+    for (let i = 0, at = 16; i < count; i++, at += POSE) {
       const handle = view.getInt32(at, true);
       let pose = this.poses.get(handle);
       if (!pose) this.poses.set(handle, (pose = new Float32Array(7)));

@@ -60,6 +60,9 @@ export class InspectorPane {
 
   _head() {
     const object = this.store.objects.get(this.handle);
+    const head = `${this.handle} ${object?.alias} ${object?.objectType}`;
+    if (head === this.head) return;
+    this.head = head;
     const names = { [-12]: 'Scene', [-13]: 'Application' };
     setText(this.title, object ? object.alias : names[this.handle] ?? 'Nothing selected');
     this.title.title = object ? `${this.store.path(this.handle)} (${object.objectType}, handle ${this.handle})` : '';
@@ -121,6 +124,8 @@ export class InspectorPane {
     const element = el('div', { class: wide ? 'property wide' : 'property', 'data-name': row.name }, el('span', { class: 'label', title: row.name }, label), shown, el('span', { class: 'unit' }, row.unit ?? ''), copy);
     const entry = { row, editor, shown, element, history: [] };
     if (typeof row.value === 'number') this._watchHistory(element, entry);
+    const hasCurve = typeof row.value === 'number' || row.name === 'absolutePose';
+    if (hasCurve && !this.page.source.live) element.append(iconButton('curve', 'Curve over the recording', () => this.page.showCurve(this.handle, row), { class: 'icon-button copy' }));
     this.rows.set(row.name, entry);
     return element;
   }
@@ -128,7 +133,6 @@ export class InspectorPane {
   _watchHistory(element, entry) {
     element.addEventListener('pointerenter', () => this.sparkline.show(element, entry));
     element.addEventListener('pointerleave', () => this.sparkline.hide());
-    if (!this.page.source.live) element.append(iconButton('curve', 'Curve over the recording', () => this.page.showCurve(this.handle, entry.row), { class: 'icon-button copy' }));
   }
 
   _set(row, value) {

@@ -10,6 +10,7 @@ export class TreePane {
   constructor(pane, page) {
     Object.assign(this, { page, store: page.store });
     this.expanded = new Map(); // by handle; the others are open when they are no models
+    this.shown = new Map(); // by handle: what rows say of objects
     this.rows = [];
     this.active = null;
     this.search = el('input', { type: 'search', placeholder: 'Search objects', 'aria-label': 'Search objects', oninput: () => this._refresh() });
@@ -26,9 +27,23 @@ export class TreePane {
     this.tree.addEventListener('click', (event) => this._click(event));
     this.tree.addEventListener('dblclick', (event) => this._doubleClick(event));
     new ResizeObserver(() => this._draw()).observe(this.tree);
-    this.store.on('objects', () => this._refresh());
+    this.store.on('objects', (changed) => this._objectsChanged(changed));
     this.store.on('selection', () => this._selectionChanged());
     this.store.on('connection', () => this._refresh());
+  }
+
+  /** Most changes, such as of positions of joints, do not concern the tree. */
+  _objectsChanged(changed) {
+    let differs = false;
+    for (const handle of changed) {
+      const object = this.store.objects.get(handle);
+      const shown = object && JSON.stringify([object.alias, object.parent, object.childOrder, object.objectType, object.visible, object.modelBase, object.error?.message]);
+      if (this.shown.get(handle) === shown) continue;
+      differs = true;
+      if (shown) this.shown.set(handle, shown);
+      else this.shown.delete(handle);
+    }
+    if (differs) this._refresh();
   }
 
   _children() {

@@ -16,7 +16,7 @@ export function text(value, type) {
   if (typeof value === 'number') return number(value, type);
   if (typeof value === 'boolean') return value ? 'true' : 'false';
   if (typeof value === 'string') return value;
-  if (Array.isArray(value)) return value.map((x) => text(x, type)).join(', ');
+  if (Array.isArray(value)) return value.map((x) => (typeof x === 'number' && Math.abs(x) < 1e-4 && !Number.isInteger(x) ? (0).toFixed(4) : text(x, type))).join(', ');
   if (typeof value.bytes === 'number') return `${value.bytes} bytes`;
   return JSON.stringify(value);
 }

@@ -5,10 +5,17 @@ import { CopySet, LineSet, PointSet } from './gpu/sets.js';
 
 const IDENTITY = [0, 0, 0, 0, 0, 0, 1];
 
+const GHOST = 0.3; // opacity of hidden objects, when they are shown
+
+/** Members that say where something is or what it does, not how it looks. */
+const NOT_LOOKS = new Set(['alias', 'parent', 'childOrder', 'jointPosition', 'interval', 'intrinsicPose', 'error']);
+
+const looksOf = (object, chosen) => JSON.stringify([chosen, object], (name, value) => (NOT_LOOKS.has(name) ? undefined : value));
+
 /** What is kept for an object that is drawn. */
 class Entry {
-  constructor(number, handle) {
-    Object.assign(this, { number, handle, parts: [], lines: [], sets: [], keys: [], current: true });
+  constructor(number, handle, looks) {
+    Object.assign(this, { number, handle, looks, parts: [], lines: [], sets: [], keys: [], current: true });
   }
 }
 
@@ -29,12 +36,15 @@ export class SceneView {
   /** @param {Set<number>} changed handles */
   objectsChanged(changed) {
     for (const handle of changed) {
-      this._discard(handle);
       const object = this.store.objects.get(handle);
-      if (object && (object.visible || this.options.hidden)) this._create(object);
+      const drawn = object && (object.visible || this.options.hidden);
+      const looks = drawn ? looksOf(object, this.chosen.has(handle)) : '';
+      if (looks === (this.entries.get(handle)?.looks ?? '')) continue;
+      this._discard(handle);
+      if (drawn) this._create(object, looks);
+      this.dirtyLines = true;
+      this.version++;
     }
-    this.dirtyLines = true;
-    this.version++;
   }
 
   /** After an option or the selection changed. */
@@ -59,17 +69,17 @@ export class SceneView {
     this.version++;
   }
 
-  _create(object) {
-    const entry = new Entry(this.numbers.push(object.handle) - 1, object.handle);
+  _create(object, looks) {
+    const entry = new Entry(this.numbers.push(object.handle) - 1, object.handle, looks);
     this.entries.set(object.handle, entry);
     entry.slot = this.slots.take(entry.number); // of the object's own frame, for lines and sets
-    if (object.objectType === 'shape') object.meshes?.forEach((mesh, order) => this._addMesh(entry, mesh, order));
+    if (object.objectType === 'shape') object.meshes?.forEach((mesh, order) => this._addMesh(entry, mesh, { order, ghost: object.visible === false }));
     else if (object.blob) this._addPoints(entry, object);
     else this._addSymbol(entry, object);
     this._place(entry);
   }
 
-  async _addMesh(entry, { blob, color, transparency, texture, culling, wireframe, showEdges, edgeColor }, order) {
+  async _addMesh(entry, { blob, color, transparency, texture, culling, wireframe, showEdges, edgeColor }, { order, ghost }) {
     const mesh = this.resources.mesh(blob);
     const picture = texture && this.resources.texture(texture);
     entry.keys.push(mesh.key, ...(picture ? [picture.key] : []));
@@ -77,7 +87,7 @@ export class SceneView {
       const look = { order, culling, wireframe, decal: !!texture?.decal, edgeColor: showEdges ? edgeColor ?? [0, 0, 0] : null, texture: picture ? await picture.value : null };
       const loaded = await mesh.value;
       if (!entry.current) return;
-      const part = { mesh: loaded, look, opacity: 1 - (transparency ?? 0), symbol: false };
+      const part = { mesh: loaded, look, opacity: (1 - (transparency ?? 0)) * (ghost ? GHOST : 1), symbol: ghost };
       this._addPart(entry, part, { color: color?.diffuse ?? [0.7, 0.7, 0.7], emission: color?.emission, shine: Math.max(...(color?.specular ?? [0])) });
       this._place(entry);
       this.version++;
@@ -148,7 +158,9 @@ export class SceneView {
   /** Numbers are used once; after very many of them everything is made anew. */
   _renumber() {
     this.numbers = [-1];
-    this.rebuild();
+    const drawn = [...this.entries.keys()];
+    drawn.forEach((handle) => this._discard(handle));
+    this.rebuild(drawn);
   }
 
   /** Brings the lines of all symbols and frames up to date. */
