@@ -96,7 +96,7 @@ export class ConsolePane {
     this.recalled = this.history.length;
     this.input.value = '';
     this.say('print', `> ${code}`);
-    this.page.source.request('run', { code }).then((result) => result && this.say('print', String(result).trimEnd()), (error) => this.say('error', error.message));
+    this.page.source.request('run', { code }).catch((error) => this.say('error', error.message)); // what it prints is in the log
   }
 
   _recall(by, event) {
