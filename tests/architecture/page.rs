@@ -43,7 +43,7 @@ fn modules_can_be_joined_by_text() {
             let is_import = line.starts_with("import") && imported(line).is_none();
             let is_export = line.starts_with("export") && !EXPORTS.iter().any(|form| line.starts_with(form));
             if is_import || is_export {
-                wrong.push(format!("{}: {line}", relative(&file)));
+                wrong.push(format!("{}: {line}", relative(&file).display()));
             }
         }
     }
@@ -74,7 +74,10 @@ fn no_text_becomes_html_or_code() {
     for file in modules() {
         let text = read(&file);
         wrong.extend(
-            FORBIDDEN.iter().filter(|word| text.contains(**word)).map(|word| format!("{}: {word}", relative(&file))),
+            FORBIDDEN
+                .iter()
+                .filter(|word| text.contains(**word))
+                .map(|word| format!("{}: {word}", relative(&file).display())),
         );
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
