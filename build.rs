@@ -1,17 +1,31 @@
-//! Lists the Lua files of `lua/` for embedding: module name and path. The folders right below `lua/` are rooms; they are not part of names.
+//! Lists the files that are embedded: the Lua files of `lua/`, by module name, and those of the viewer's page, compressed.
+//! The folders right below `lua/` are rooms; they are not part of names.
 
 use std::fmt::Write as _;
+use std::hash::{DefaultHasher, Hasher};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
 
 #[allow(clippy::disallowed_methods, reason = "cargo tells a build script its folders through the environment")]
 fn main() {
     println!("cargo:rerun-if-changed=lua");
+    println!("cargo:rerun-if-changed=src/view/page");
     export_lua();
-    let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it")).join("lua");
+    let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
+    list_lua(&package.join("lua"), &out);
+    compress_page(&package.join("src/view/page"), &out);
+}
+
+fn list_lua(root: &Path, out: &Path) {
     let mut files = Vec::new();
-    for room in fs::read_dir(&root).expect("lua/ is part of the package").flatten() {
-        collect(&room.path(), &room.path(), &mut files);
+    for room in fs::read_dir(root).expect("lua/ is part of the package").flatten() {
+        let lua = collect(&room.path(), &room.path(), &["lua"]);
+        files.extend(lua.into_iter().map(|(name, path)| (name.trim_end_matches(".lua").to_owned(), path)));
     }
     files.sort();
     let mut table = String::from("&[\n");
@@ -19,8 +33,28 @@ fn main() {
         writeln!(table, "({name:?}, include_str!({path:?})),").expect("strings take all");
     }
     table.push(']');
-    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it")).join("lua_files.rs");
-    fs::write(out, table).expect("the output folder is writable");
+    fs::write(out.join("lua_files.rs"), table).expect("the output folder is writable");
+}
+
+/// Every file of the page as gzip, and a table of them by name.
+fn compress_page(root: &Path, out: &Path) {
+    let mut files = collect(root, root, &["html", "js", "css", "svg", "png", "json"]);
+    files.sort();
+    let mut table = String::from("&[\n");
+    for (at, (name, path)) in files.iter().enumerate() {
+        let content = fs::read(path).expect("the page is part of the package");
+        let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
+        gzip.write_all(&content).expect("memory takes all");
+        let compressed = out.join(format!("page_file_{at}.gz"));
+        fs::write(&compressed, gzip.finish().expect("memory takes all")).expect("the output folder is writable");
+        let mut hasher = DefaultHasher::new();
+        hasher.write(&content);
+        let (path, tag) = (compressed.display().to_string(), format!("{:016x}", hasher.finish()));
+        writeln!(table, "Asset {{ name: {name:?}, gzip: include_bytes!({path:?}), tag: {tag:?} }},")
+            .expect("strings take all");
+    }
+    table.push(']');
+    fs::write(out.join("page_files.rs"), table).expect("the output folder is writable");
 }
 
 /// Lua modules in C find Lua's functions in the program that loads them: they must be in its table of symbols, used or not.
@@ -38,16 +72,18 @@ fn export_lua() {
     }
 }
 
-/// Module name and path of every Lua file below `dir`, which lies in `room`.
-fn collect(room: &Path, dir: &Path, files: &mut Vec<(String, String)>) {
-    for entry in fs::read_dir(dir).expect("rooms are folders").flatten() {
+/// Name, below `root`, and path of every file below `dir` with one of these extensions.
+fn collect(root: &Path, dir: &Path, extensions: &[&str]) -> Vec<(String, String)> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(dir).expect("what is embedded lies in folders").flatten() {
         let path = entry.path();
         if path.is_dir() {
-            collect(room, &path, files);
-        } else if path.extension().is_some_and(|extension| extension == "lua") {
-            let name = path.strip_prefix(room).expect("collected below the room").with_extension("");
+            files.extend(collect(root, &path, extensions));
+        } else if path.extension().is_some_and(|own| extensions.iter().any(|extension| own == *extension)) {
+            let name = path.strip_prefix(root).expect("collected below the root");
             let name = name.to_str().expect("our file names are ASCII").replace('\\', "/");
             files.push((name, path.display().to_string()));
         }
     }
+    files
 }

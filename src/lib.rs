@@ -13,6 +13,7 @@ pub mod scene;
 pub mod script;
 mod simulator;
 pub mod testing;
+mod view;
 pub(crate) mod wire;
 
 pub use format::scene_file::SceneFile;

@@ -7,6 +7,7 @@ mod journal_tests;
 mod language_tests;
 mod picture;
 mod run;
+mod viewing;
 
 use std::cell::{Ref, RefMut};
 use std::collections::BTreeSet;
@@ -29,11 +30,15 @@ use crate::script::{
 
 pub use builder::Builder;
 pub use run::{RunLimits, RunObserver, RunTotals};
+pub(crate) use viewing::PropertyRow;
 
 /// The add-on that serves clients by ZeroMQ.
 const ZMQ_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.zmq'";
 /// The add-on that serves clients by WebSocket.
 const WS_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.ws'";
+
+/// The add-on that streams events to CoppeliaSim's web front end.
+const VISUALIZATION_ADD_ON: &[u8] = b"sim = require 'sim' require 'remote.visualization'";
 
 /// Why a request to a [`Simulator`] failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -147,6 +152,21 @@ impl Simulator {
             .sim
             .scripts
             .add_detached(ScriptType::AddOn, Detached::of_text("WebSocket remote API server@addOnScript", WS_ADD_ON));
+        self.sim.start_detached(&add_on);
+        Ok(address)
+    }
+
+    /// Streams events (protocol 3) to those that connect by WebSocket, as CoppeliaSim's add-on "Visualization stream" does.
+    ///
+    /// # Errors
+    /// When the listener cannot be used.
+    pub fn serve_visualization_stream(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
+        let address = listener.local_addr()?;
+        modules::remote::set_visualization_listener(&self.sim.modules.states, listener);
+        let port = address.port().to_string().into_bytes();
+        self.sim.app.borrow_mut().named_params.insert("visualizationStream.ws.port".to_owned(), port);
+        let detached = Detached::of_text("Visualization stream@addOnScript", VISUALIZATION_ADD_ON);
+        let add_on = self.sim.scripts.add_detached(ScriptType::AddOn, detached);
         self.sim.start_detached(&add_on);
         Ok(address)
     }

@@ -17,6 +17,7 @@ mod serve;
 mod session;
 mod test;
 mod unpack;
+mod view;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -24,7 +25,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use session::{graphs, interrupt, output, permissions, progress, setup, video};
+use session::{graphs, interrupt, live, output, permissions, progress, setup, video};
 
 /// Exit code for a wrong command line or a file that cannot be read or written; clap uses the same.
 const USAGE: u8 = 2;
@@ -43,6 +44,7 @@ struct Cli {
 enum Command {
     Run(run::Args),
     Render(render::Args),
+    View(view::Args),
     Serve(serve::Args),
     Test(test::Args),
     Batch(batch::Args),
@@ -90,6 +92,7 @@ impl Command {
         match self {
             Self::Run(args) => run::run(&args),
             Self::Render(args) => render::render(&args),
+            Self::View(args) => view::view(&args),
             Self::Serve(args) => serve::serve(&args),
             Self::Test(args) => test::test(&args),
             Self::Batch(args) => batch::batch(&args),

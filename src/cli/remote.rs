@@ -28,6 +28,12 @@ const ZMQ: Api =
     Api { name: "ZeroMQ", first_port: 23_000, param: "zmqRemoteApi.rpcPort", start_param: "zmqRemoteApi.autoStart" };
 const WS: Api =
     Api { name: "WebSocket", first_port: 23_050, param: "wsRemoteApi.port", start_param: "wsRemoteApi.autoStart" };
+const STREAM: Api = Api {
+    name: "Visualization stream",
+    first_port: 23_020,
+    param: "visualizationStream.ws.port",
+    start_param: "visualizationStream.ws.enable",
+};
 
 impl Api {
     fn is_refused(&self, setup: &Setup) -> bool {
@@ -44,6 +50,9 @@ pub(super) struct Remote {
     /// Serve the WebSocket remote API as well [default: first free port from 23050]
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
     ws_remote_api: Option<Option<u16>>,
+    /// Serve CoppeliaSim's visualization stream for its web front end [default: first free port from 23020]
+    #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
+    visualization_stream: Option<Option<u16>>,
     /// Additional web origin that may use the WebSocket remote API (`*`: all); may be repeated
     #[arg(long, value_name = "ORIGIN")]
     allow_origin: Vec<String>,
@@ -65,6 +74,11 @@ impl Remote {
     /// Whether the ZeroMQ remote API is asked for.
     pub(super) fn asks_for_zmq(&self) -> bool {
         self.remote_api.is_some()
+    }
+
+    /// Where servers listen.
+    pub(super) fn address(&self) -> IpAddr {
+        self.bind
     }
 
     /// The options with what scripts may do, which depends on who can connect.
@@ -99,6 +113,10 @@ impl Remote {
         if let Some(port) = self.ws_remote_api.filter(|_| !WS.is_refused(setup)) {
             let listener = self.listener(setup, &WS, port)?;
             output.listening(WS.name, sim.serve_ws(listener).map_err(failed)?);
+        }
+        if let Some(port) = self.visualization_stream.filter(|_| !STREAM.is_refused(setup)) {
+            let listener = self.listener(setup, &STREAM, port)?;
+            output.streaming(sim.serve_visualization_stream(listener).map_err(failed)?);
         }
         Ok(())
     }

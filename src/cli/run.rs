@@ -8,13 +8,15 @@ use std::time::Instant;
 
 use super::graphs::GraphArgs;
 use super::interrupt::Interrupt;
+use super::live::Live;
 use super::progress::Progress;
 use super::remote::Remote;
 use super::session::{Reminder, Session};
 use super::setup::{Setup, seconds};
 use super::video::VideoArgs;
+use super::view::ViewArgs;
 use super::{USAGE, complain, refuse};
-use crate::{RunLimits, RunTotals, ScriptKind, Simulator};
+use crate::{RunLimits, RunTotals, ScriptKind, SimulationState, Simulator};
 
 /// Exit code when a script raised an error.
 const SCRIPT_ERROR: u8 = 1;
@@ -45,6 +47,8 @@ pub(super) struct Args {
     graphs: GraphArgs,
     #[command(flatten)]
     remote: Remote,
+    #[command(flatten)]
+    view: ViewArgs,
     #[command(flatten)]
     setup: Setup,
 }
@@ -89,11 +93,17 @@ pub(super) fn run(args: &Args) -> ExitCode {
         return refuse(&reason);
     }
     args.video.start(&mut sim, &args.scene);
+    let viewer = match args.view.start(&sim, &args.remote, &output) {
+        Ok(viewer) => viewer,
+        Err(reason) => return refuse(&reason),
+    };
     let failed_to_load = sim.errors() > 0;
     // Remote clients and --no-start end a run their own way.
     let reminder = Reminder::new(args.has_end() || args.no_start || zmq || args.setup.json);
     let mut session = Session { interrupt: &interrupt, progress, output: &output, reminder };
-    let totals = if args.no_start {
+    let totals = if let Some(viewer) = viewer {
+        args.run_viewed(&mut sim, Live::new(Some(viewer)), &interrupt)
+    } else if args.no_start {
         sim.loop_freely(args.loops, &mut session)
     } else if failed_to_load && !args.has_end() {
         // Without its script the run might never end.
@@ -132,6 +142,32 @@ fn count(text: &str) -> Result<u64, String> {
 impl Args {
     fn limits(&self) -> RunLimits {
         RunLimits { steps: self.steps, time: self.time, idle: self.loops, once: false }
+    }
+
+    /// The same with pages that look on, which may pause and resume the simulation as long as they like.
+    fn run_viewed(&self, sim: &mut Simulator, mut live: Live, interrupt: &Interrupt) -> RunTotals {
+        let mut totals = RunTotals::default();
+        let mut loops = 0;
+        let mut stops = false;
+        if !self.no_start {
+            sim.start();
+        }
+        while !sim.quit_requested() {
+            let is_over = if self.no_start { loops >= self.loops } else { sim.state() == SimulationState::Stopped };
+            if is_over || interrupt.is_requested() && self.no_start {
+                break;
+            }
+            if !stops && (interrupt.is_requested() || self.limits().are_reached(sim)) {
+                stops = true;
+                sim.request_stop();
+            }
+            let (steps, time) = (sim.steps(), sim.time());
+            live.iterate(sim);
+            loops += 1;
+            totals.steps += sim.steps().saturating_sub(steps);
+            totals.time += (sim.time() - time).max(0.0);
+        }
+        totals
     }
 
     fn has_end(&self) -> bool {

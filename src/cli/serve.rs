@@ -2,19 +2,15 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::Duration;
 
 use super::interrupt::Interrupt;
+use super::live::Live;
 use super::progress::Progress;
 use super::refuse;
 use super::remote::Remote;
 use super::setup::Setup;
+use super::view::ViewArgs;
 use crate::{RunLimits, ScriptKind, Simulator};
-
-/// Longest wait for a request before an idle loop iteration.
-const NAP: Duration = Duration::from_millis(50);
-/// The same while a real-time step is due soon, or while scripts poll their own sockets.
-const SHORT_NAP: Duration = Duration::from_millis(1);
 
 /// Start a simulator that remote API clients control
 #[derive(clap::Args)]
@@ -26,6 +22,8 @@ pub(super) struct Args {
     no_remote_api: bool,
     #[command(flatten)]
     remote: Remote,
+    #[command(flatten)]
+    view: ViewArgs,
     #[command(flatten)]
     setup: Setup,
 }
@@ -45,23 +43,14 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     if let Err(reason) = args.remote.serve(!args.no_remote_api, &args.setup, &mut sim, &output, &interrupt) {
         return refuse(&reason);
     }
+    let mut live = match args.view.start(&sim, &args.remote, &output) {
+        Ok(viewer) => Live::new(viewer),
+        Err(reason) => return refuse(&reason),
+    };
     while !interrupt.is_requested() && !sim.quit_requested() {
-        let steps = sim.steps();
-        sim.iterate();
-        if !sim.state().is_advancing() {
-            nap(&sim, if sim.has_zmq_sockets() { SHORT_NAP } else { NAP });
-        } else if sim.steps() == steps {
-            nap(&sim, SHORT_NAP);
-        }
+        live.iterate(&mut sim);
     }
     sim.stop();
     sim.clear_scene();
     ExitCode::SUCCESS
-}
-
-/// Sleeps until there is something to do.
-fn nap(sim: &Simulator, longest: Duration) {
-    if !sim.wait_for_request(longest) {
-        std::thread::sleep(longest);
-    }
 }

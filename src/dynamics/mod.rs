@@ -34,7 +34,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use rapier3d_f64::math::Vector;
 
 use bodies::Bodies;
-use contact_log::{Contact, ContactLog};
+pub(crate) use contact_log::Contact;
+use contact_log::ContactLog;
 pub(crate) use contacts::{ContactCallback, ContactResponse};
 use frozen::Frozen;
 use links::Links;

@@ -18,4 +18,5 @@ pub(crate) use file_lock::lock_file;
 pub(crate) use process::{Process, ProcessError, Program};
 pub(crate) use serial::SerialPort;
 pub(crate) use ws::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent, WsPages, WsRequest};
+pub(crate) use ws::{Site, SiteMessage, SiteReply, SiteServer, Visitor};
 pub(crate) use zmq_server::{Incoming, ZmqServer};

@@ -31,6 +31,7 @@ pub(crate) static ALL: &[&Module] = &[
     &mime::MODULE,
     &cbor::CBOR,
     &cbor::CBOR_HEADS,
+    &remote::VISUALIZATION,
     &remote::WS,
     &remote::ZMQ,
     &cbor::SIM_CBOR,

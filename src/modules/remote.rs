@@ -15,6 +15,7 @@ use crate::script::{Bytes, FILES, States, Text};
 
 pub(super) static ZMQ: Module = Module { inner: &[FUNCTIONS, NAMES], ..Module::new("remote.zmq") };
 pub(super) static WS: Module = Module { inner: &[sim_ws::REMOTE, NAMES], ..Module::new("remote.ws") };
+pub(super) static VISUALIZATION: Module = Module { inner: &[sim_ws::STREAM], ..Module::new("remote.visualization") };
 
 const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, others, returns];
 /// Functions that every remote API needs.
@@ -25,6 +26,7 @@ const NAMES: &[ApiFn] = functions![members];
 struct Listeners {
     zmq_server: RefCell<Option<Rc<ZmqServer>>>,
     web_socket_listener: RefCell<Option<TcpListener>>,
+    visualization_listener: RefCell<Option<TcpListener>>,
 }
 
 /// Lets programs outside call functions by ZeroMQ.
@@ -37,6 +39,11 @@ pub(crate) fn set_web_socket_listener(states: &States, listener: TcpListener) {
     states.get::<Listeners>().web_socket_listener.replace(Some(listener));
 }
 
+/// Where the visualization stream is to listen.
+pub(crate) fn set_visualization_listener(states: &States, listener: TcpListener) {
+    states.get::<Listeners>().visualization_listener.replace(Some(listener));
+}
+
 fn zmq_server(cx: &Cx) -> Option<Rc<ZmqServer>> {
     cx.module_state::<Listeners>().zmq_server.borrow().clone()
 }
@@ -44,6 +51,11 @@ fn zmq_server(cx: &Cx) -> Option<Rc<ZmqServer>> {
 /// The listener of the WebSocket remote API, if there is one.
 pub(super) fn listener(cx: &Cx) -> Option<std::io::Result<TcpListener>> {
     cx.module_state::<Listeners>().web_socket_listener.borrow().as_ref().map(TcpListener::try_clone)
+}
+
+/// The listener of the visualization stream, if there is one.
+pub(super) fn visualization_listener(cx: &Cx) -> Option<std::io::Result<TcpListener>> {
+    cx.module_state::<Listeners>().visualization_listener.borrow().as_ref().map(TcpListener::try_clone)
 }
 
 /// Longest wait, seconds: the simulator must look after itself from time to time.

@@ -41,7 +41,8 @@ pub trait RunObserver {
 }
 
 impl RunLimits {
-    fn are_reached(self, sim: &Simulator) -> bool {
+    /// Whether a run of that simulator is as long as it may be.
+    pub(crate) fn are_reached(self, sim: &Simulator) -> bool {
         // Time is a sum of steps; it may fall short of a round number by its rounding errors.
         let late = |limit: f64| sim.time() * (1.0 + 1e-12) >= limit;
         self.steps.is_some_and(|limit| sim.steps() >= limit) || self.time.is_some_and(late)

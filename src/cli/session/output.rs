@@ -108,6 +108,26 @@ impl Output {
         }
     }
 
+    /// Reports the address of the visualization stream.
+    pub(in crate::cli) fn streaming(&self, address: SocketAddr) {
+        match self.format {
+            Format::Text | Format::OriginalText => {
+                self.write_line(format!("Visualization stream at {address}").as_bytes())
+            }
+            Format::Json => {
+                self.write_json(&json!({ "type": "streaming", "address": address.ip(), "port": address.port() }));
+            }
+        }
+    }
+
+    /// Reports where the page of the viewer is.
+    pub(in crate::cli) fn viewing(&self, url: &str) {
+        match self.format {
+            Format::Text | Format::OriginalText => self.write_line(format!("Viewer at {url}").as_bytes()),
+            Format::Json => self.write_json(&json!({ "type": "viewing", "url": url })),
+        }
+    }
+
     /// The last line: steps, times and errors of the run.
     pub(in crate::cli) fn summary(&self, totals: RunTotals, wall: Duration, errors: u64, exit_code: u8) {
         if self.quiet || self.interrupt.is_quiet() {

@@ -9,6 +9,7 @@ mod connection;
 mod http;
 mod pages;
 mod server;
+mod site;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -27,6 +28,7 @@ pub(crate) use connection::{Outgoing, SendError};
 pub(crate) use http::Reply as HttpReply;
 use http::Requester;
 pub(crate) use pages::Pages as WsPages;
+pub(crate) use site::{Site, SiteMessage, SiteReply, SiteServer, Visitor};
 
 /// The largest message and the largest body of an HTTP request, bytes.
 const LARGEST_MESSAGE: usize = 32_000_000;

@@ -20,9 +20,9 @@ use super::pages::Pages;
 use super::{Connection, HANDSHAKE, READ_BUFFER, Reports, WsEvent, config, connection};
 
 /// Connections of one server; more wait until one ends.
-const MOST_CONNECTIONS: usize = 1000;
+pub(super) const MOST_CONNECTIONS: usize = 1000;
 /// Pause when the system has no more sockets.
-const REST: Duration = Duration::from_millis(100);
+pub(super) const REST: Duration = Duration::from_millis(100);
 /// Time limit for a client to read an HTTP response.
 const READING: Duration = Duration::from_secs(60);
 
@@ -80,7 +80,7 @@ async fn serve(mut stream: TcpStream, pages: &Pages, reports: &Reports) {
 ///
 /// # Errors
 /// The status to answer with; none when the peer is gone.
-async fn read_head(stream: &mut TcpStream, received: &mut Vec<u8>) -> Result<Head, Option<StatusCode>> {
+pub(super) async fn read_head(stream: &mut TcpStream, received: &mut Vec<u8>) -> Result<Head, Option<StatusCode>> {
     loop {
         if let Some((head, length)) = Head::parse(received)? {
             received.drain(..length);
@@ -103,7 +103,7 @@ async fn read_some(stream: &mut TcpStream, received: &mut Vec<u8>) -> Option<()>
 ///
 /// # Errors
 /// The status to answer with when it is none.
-async fn upgrade(stream: &mut TcpStream, head: &Head) -> Result<(), StatusCode> {
+pub(super) async fn upgrade(stream: &mut TcpStream, head: &Head) -> Result<(), StatusCode> {
     let mut answer = create_response(&head.handshake()?).map_err(|_| StatusCode::BAD_REQUEST)?;
     // Any sub-protocol is accepted; a browser fails unless the reply names one of its own.
     let offered = head.header(SEC_WEBSOCKET_PROTOCOL).and_then(|list| list.split(',').next());

@@ -37,6 +37,8 @@ const FUNCTIONS: &[ApiFn] = functions![
 
 /// The server of the remote API, which brings its own port along.
 pub(super) const REMOTE: &[ApiFn] = functions![start_remote];
+/// And for the visualization stream.
+pub(super) const STREAM: &[ApiFn] = functions![start_stream];
 
 /// Starts a server.
 ///
@@ -69,6 +71,17 @@ fn start_remote(cx: &mut Cx) -> Result<String> {
         remote::listener(cx).ok_or_else(|| ApiError::Other("there is no port for the remote API.".into()))?;
     let pages = WsPages::Own(cx.options().web_origins.clone());
     serve(cx, listener, pages).map_err(|error| unusable("the remote API's port", &error))
+}
+
+/// Starts a server at the port of the visualization stream.
+///
+/// @return serverHandle
+#[api("remote.visualization.start")]
+fn start_stream(cx: &mut Cx) -> Result<String> {
+    let listener = remote::visualization_listener(cx)
+        .ok_or_else(|| ApiError::Other("there is no port for the visualization stream.".into()))?;
+    let pages = WsPages::Own(cx.options().web_origins.clone());
+    serve(cx, listener, pages).map_err(|error| unusable("the port of the visualization stream", &error))
 }
 
 fn serve(cx: &mut Cx, listener: std::io::Result<TcpListener>, pages: WsPages) -> std::io::Result<String> {

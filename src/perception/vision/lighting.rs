@@ -29,11 +29,16 @@ impl Backdrop {
             Self::Colour(colour) => Background::plain(colour),
             Self::Fog => Background::plain(environment.fog.colour.unwrap_or_default()),
             Self::Views => {
-                let [top, bottom] = environment.background.unwrap_or(USUAL_BACKGROUND);
+                let [top, bottom] = views_background(scene);
                 Background { bottom, top }
             }
         }
     }
+}
+
+/// What views of the scene have behind all objects: the colours at the top and at the bottom.
+pub(crate) fn views_background(scene: &Scene) -> [[f32; 3]; 2] {
+    scene.settings().environment.background.unwrap_or(USUAL_BACKGROUND)
 }
 
 /// The lights that are on.

@@ -23,9 +23,11 @@ use crate::scene::sensor::View;
 use crate::scene::{Handle, Pose, Scene};
 use models::{Model, Models};
 
-pub(crate) use lighting::Backdrop;
+pub(crate) use drawings::item_colour;
+pub(crate) use lighting::{Backdrop, views_background};
 pub use rendering::{Channels, Picture};
 pub(crate) use subjects::Subjects;
+pub(crate) use surfaces::texture_coordinates;
 pub(crate) use views::{Viewpoint, first_camera, projection};
 
 /// Draws pictures of a scene, with cached data of its objects.

@@ -116,12 +116,16 @@ impl Surfaces {
 
 fn prepared_mesh(part: &Part) -> Option<Mesh> {
     let mesh = &*part.mesh;
-    let coordinates = match part.texture.as_deref() {
+    Mesh::new(&mesh.vertices, &mesh.triangles, &mesh.normals, &texture_coordinates(part))
+}
+
+/// Texture coordinates of each corner of each triangle of a mesh; none without a texture.
+pub(crate) fn texture_coordinates(part: &Part) -> Vec<[f32; 2]> {
+    match part.texture.as_deref() {
         None => Vec::new(),
         Some(mapping) if !mapping.coordinates.is_empty() => mapping.coordinates.as_chunks().0.to_vec(),
-        Some(mapping) => projection::coordinates(mesh, mapping),
-    };
-    Mesh::new(&mesh.vertices, &mesh.triangles, &mesh.normals, &coordinates)
+        Some(mapping) => projection::coordinates(&part.mesh, mapping),
+    }
 }
 
 fn material(looks: &Appearance, texture: Option<Texture>) -> Material {

@@ -10,6 +10,8 @@ use crate::scene::{Handle, Scene, SceneError, SceneResult};
 pub struct Drawings {
     by_handle: BTreeMap<i64, DrawingObject>,
     created: i64,
+    /// Number of the last change: those who copy drawing objects compare it with what they saw.
+    last_change: u64,
 }
 
 impl Drawings {
@@ -24,8 +26,17 @@ impl Drawings {
         self.by_handle.get(&handle).ok_or(SceneError::NoSuchObject)
     }
 
+    /// Number of the last change of any of them; see [`DrawingObject::changed_at`].
+    pub fn last_change(&self) -> u64 {
+        self.last_change
+    }
+
+    /// One of them, which is about to change.
     fn get_mut(&mut self, handle: i64) -> SceneResult<&mut DrawingObject> {
-        self.by_handle.get_mut(&handle).ok_or(SceneError::NoSuchObject)
+        let drawing = self.by_handle.get_mut(&handle).ok_or(SceneError::NoSuchObject)?;
+        self.last_change += 1;
+        drawing.changed_at = self.last_change;
+        Ok(drawing)
     }
 
     /// Removes all items of a drawing object.
@@ -39,20 +50,24 @@ impl Drawings {
     /// # Errors
     /// When there is no drawing object with that handle.
     pub fn remove(&mut self, handle: i64) -> SceneResult<()> {
+        self.last_change += 1;
         self.by_handle.remove(&handle).map(drop).ok_or(SceneError::NoSuchObject)
     }
 
     /// Removes all drawing objects.
     pub fn remove_all(&mut self) {
+        self.last_change += 1;
         self.by_handle.clear();
     }
 
     /// Removes those that move with objects which are being removed.
     pub(in crate::scene) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
+        self.last_change += 1;
         self.by_handle.retain(|_, drawing| drawing.style.parent.is_none_or(|parent| !doomed.contains(&parent)));
     }
 
     pub(in crate::scene) fn forget_owner(&mut self, owner: i64) {
+        self.last_change += 1;
         self.by_handle.retain(|_, drawing| drawing.owner != Some(owner));
     }
 }
@@ -75,8 +90,10 @@ impl Scene {
             self.object(parent)?;
         }
         self.drawings.created += 1;
+        self.drawings.last_change += 1;
         let handle = self.drawings.created;
-        self.drawings.by_handle.insert(handle, DrawingObject::new(style, owner));
+        let drawing = DrawingObject { changed_at: self.drawings.last_change, ..DrawingObject::new(style, owner) };
+        self.drawings.by_handle.insert(handle, drawing);
         Ok(handle)
     }
 

@@ -37,6 +37,7 @@ pub struct DrawingObject {
     /// The script whose end removes it.
     owner: Option<i64>,
     items: Items,
+    changed_at: u64,
 }
 
 impl DrawingObject {
@@ -46,7 +47,12 @@ impl DrawingObject {
     fn new(mut style: DrawingStyle, owner: Option<i64>) -> Self {
         style.max_items = style.max_items.clamp(1, Self::MOST_ITEMS);
         let owner = owner.filter(|_| !style.flags.contains(DrawingFlags::PERSISTENT));
-        Self { items: Items::new(style.kind, style.flags), style, owner }
+        Self { items: Items::new(style.kind, style.flags), style, owner, changed_at: 0 }
+    }
+
+    /// Number of its last change, among those of all drawing objects of the scene.
+    pub fn changed_at(&self) -> u64 {
+        self.changed_at
     }
 
     /// Numbers per item: coordinates, the normal, then colours, size and transparency where the type has them.

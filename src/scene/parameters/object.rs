@@ -142,7 +142,7 @@ impl Object {
     }
 
     /// Smallest and largest coordinates of the box along the axes of the object.
-    fn extent(&self) -> Extent {
+    pub(crate) fn extent(&self) -> Extent {
         let bounding_box = self.bounding_box();
         let half = Vector3::from(bounding_box.size) * 0.5;
         transformed((-half, half), &bounding_box.pose)

@@ -3,10 +3,19 @@
 use super::instance::Script;
 use crate::scene::Scene;
 use crate::scene::object::script_object::{ScriptObject, ScriptType};
+use crate::script::sim::Sim;
 
 /// A file as Lua shows it in positions: as it is, without quotes.
 fn file_name(path: &str) -> String {
     format!("@{path}")
+}
+
+impl Sim {
+    /// Name in the log, language and text of a script.
+    pub(crate) fn text_of(&self, script: &Script) -> (String, String, Vec<u8>) {
+        let scene = self.scene.borrow();
+        (script.log_name(&scene), script.language(&scene), script.code(&scene).0)
+    }
 }
 
 impl Script {

@@ -3,6 +3,7 @@
 pub(in crate::script) mod auxiliary_consoles;
 pub(in crate::script) mod console;
 mod located;
+mod recent;
 pub mod status;
 pub(crate) mod suggestion;
 pub mod verbosity;
@@ -12,6 +13,8 @@ use std::collections::HashSet;
 
 use console::{Console, LogLine, Stream};
 use located::ScriptFiles;
+use recent::Recent;
+pub(crate) use recent::RecentLine;
 
 /// The way to the console of one simulator.
 pub(crate) struct Log {
@@ -24,6 +27,7 @@ pub(crate) struct Log {
     pub(super) files: RefCell<ScriptFiles>,
     /// The path that the last look-up of an object did not find.
     missing_path: RefCell<Option<String>>,
+    recent: RefCell<Recent>,
 }
 
 impl Log {
@@ -35,6 +39,7 @@ impl Log {
             errors: Cell::new(0),
             files: RefCell::default(),
             missing_path: RefCell::default(),
+            recent: RefCell::default(),
         }
     }
 
@@ -71,16 +76,35 @@ impl Log {
         self.logged_once.borrow_mut().insert((origin.to_owned(), level, text.to_owned()))
     }
 
-    /// Shows a line, unless the verbosity is below its level.
-    pub(super) fn show(&self, line: &LogLine<'_>) {
+    /// Shows a line, unless the verbosity is below its level; `script` is the handle of the script it comes from.
+    pub(super) fn show(&self, line: &LogLine<'_>, script: Option<i64>) {
         if verbosity::plain(line.level) <= self.verbosity() {
+            self.recent.borrow_mut().push(|| RecentLine::of_log(line, script));
             self.console.borrow_mut().log(line);
         }
     }
 
-    /// One call of a script's `print` at that simulated time, seconds.
-    pub(crate) fn print(&self, line: &[u8], time: f64) {
+    /// One call of a script's `print` at that simulated time, seconds. `origin` names the script if that is asked for.
+    pub(crate) fn print(&self, line: &[u8], time: f64, script: i64, origin: impl FnOnce() -> String) {
+        self.recent.borrow_mut().push(|| RecentLine {
+            time,
+            level: None,
+            origin: origin(),
+            script: Some(script),
+            text: String::from_utf8_lossy(line).into_owned(),
+            located: None,
+        });
         self.console.borrow_mut().print(line, time);
+    }
+
+    /// Keeps lines from now on, for [`take_recent`](Self::take_recent).
+    pub(crate) fn keep_recent(&self) {
+        self.recent.borrow_mut().begin();
+    }
+
+    /// The lines since the last call, with the scripts they come from.
+    pub(crate) fn take_recent(&self) -> Vec<RecentLine> {
+        self.recent.borrow_mut().take()
     }
 
     /// A script could not write, since nobody reads the pipe.

@@ -176,7 +176,7 @@ impl Sim {
     }
 
     /// Names of custom data, then of signals, then of named parameters.
-    pub(super) fn stored_names(&self, target: &Target) -> Vec<String> {
+    pub(crate) fn stored_names(&self, target: &Target) -> Vec<String> {
         let Some(holder) = target.holder() else { return Vec::new() };
         let mut names = Vec::new();
         for (namespace, prefix) in [(Namespace::CustomData, "customData"), (Namespace::Signal, "signal")] {

@@ -38,6 +38,8 @@ pub(crate) struct Clock {
     steps: Cell<u64>,
     stop_requested: Cell<bool>,
     pause_requested: Cell<bool>,
+    /// A viewer plays to this number of steps and pauses there at once.
+    pause_at_step: Cell<Option<u64>>,
     /// The pause at a set time happens once per run.
     paused_at_time: Cell<bool>,
     /// True while scripts are notified that the simulation is about to start.
@@ -57,6 +59,7 @@ impl Clock {
             steps: Cell::new(0),
             stop_requested: Cell::new(false),
             pause_requested: Cell::new(false),
+            pause_at_step: Cell::new(None),
             paused_at_time: Cell::new(false),
             starting: Cell::new(false),
             quit_requested: Cell::new(false),
@@ -124,6 +127,16 @@ impl Clock {
         }
     }
 
+    /// The run pauses after that many more steps, without the last steps of a pause that a script asks for.
+    pub(in crate::script) fn pause_after(&self, steps: u64) {
+        self.pause_at_step.set(Some(self.steps().saturating_add(steps)));
+    }
+
+    /// The run goes on where it would have paused.
+    pub(in crate::script) fn cancel_pause_after(&self) {
+        self.pause_at_step.set(None);
+    }
+
     /// Marks the beginning of the start procedure; false when it is in progress already.
     pub(in crate::script) fn begin_start(&self) -> bool {
         !self.starting.replace(true)
@@ -139,6 +152,7 @@ impl Clock {
         self.steps.set(0);
         self.stop_requested.set(false);
         self.pause_requested.set(false);
+        self.pause_at_step.set(None);
         self.paused_at_time.set(false);
         self.state.set(SimulationState::FirstAfterStop);
     }
@@ -165,6 +179,12 @@ impl Clock {
     /// The state after a step (spec: simulation 2). `LastBeforeStop` stays: the caller runs the end procedure. A stop beats a pause.
     pub(in crate::script) fn state_after_step(&self) -> SimulationState {
         use SimulationState as S;
+        let is_stopping = self.state().is_stopping() || self.stop_requested.get();
+        if !is_stopping && self.pause_at_step.get().is_some_and(|at| self.steps() >= at) {
+            self.pause_at_step.set(None);
+            self.pause_requested.set(false);
+            return S::Paused;
+        }
         match self.state.get() {
             S::FirstAfterStop | S::FirstAfterPause => S::Running,
             S::Running if self.stop_requested.get() => S::AboutToStop,

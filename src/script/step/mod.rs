@@ -182,6 +182,29 @@ impl Sim {
         self.clock.request_pause();
     }
 
+    /// Starts or resumes the simulation for that many steps, and pauses it.
+    pub(crate) fn step_and_pause(self: &Rc<Self>, steps: u64) {
+        self.start();
+        self.clock.pause_after(steps);
+    }
+
+    /// Starts or resumes the simulation for as long as it lasts.
+    pub(crate) fn play(self: &Rc<Self>) {
+        self.clock.cancel_pause_after();
+        self.start();
+    }
+
+    /// Runs so many times as fast as the wall clock from now on; as fast as possible if that is 0.
+    pub(crate) fn set_pace(&self, factor: f64) {
+        self.scene.borrow_mut().modify_settings(|settings| {
+            settings.real_time = factor > 0.0;
+            if settings.real_time {
+                settings.real_time_factor = factor;
+            }
+        });
+        self.restart_real_time();
+    }
+
     /// Asks for the end of the program, or withdraws that.
     pub(crate) fn request_quit(&self, on: bool) {
         self.clock.set_quit_requested(on);

@@ -5,6 +5,7 @@
 
 mod bounding_box;
 mod decomposition;
+mod edges;
 mod extrusion;
 mod hull;
 mod islands;

@@ -52,7 +52,7 @@ fn model(drawing: &DrawingObject, towards_camera: Vector3<f64>) -> Model {
     let style = &drawing.style;
     let overlay = style.flags.contains(DrawingFlags::OVERLAY);
     let auxiliary = vec![style.colour.auxiliary];
-    let colours = || drawing.items().map(|item| colour(drawing, item)).collect();
+    let colours = || drawing.items().map(|item| item_colour(drawing, item)).collect();
     let lines = |segments: Vec<[[f64; 3]; 2]>, colours| ModelLines {
         segments,
         colours,
@@ -73,7 +73,7 @@ fn model(drawing: &DrawingObject, towards_camera: Vector3<f64>) -> Model {
         DrawingKind::LineStrip => {
             let points: Vec<[f64; 3]> = drawing.items().map(|item| item.points()[0]).collect();
             let segments = points.windows(2).map(|ends| [ends[0], ends[1]]).collect();
-            let colours = drawing.items().skip(1).map(|item| colour(drawing, item)).collect();
+            let colours = drawing.items().skip(1).map(|item| item_colour(drawing, item)).collect();
             Model { lines: Some(lines(segments, colours)), ..Model::default() }
         }
         _ => Model { parts: solids(drawing, towards_camera), ..Model::default() },
@@ -93,7 +93,7 @@ fn solids(drawing: &DrawingObject, towards_camera: Vector3<f64>) -> Vec<super::m
             item,
             size,
             facing,
-            colour(drawing, item),
+            item_colour(drawing, item),
         );
     }
     let parts = by_opacity.into_iter();
@@ -101,7 +101,7 @@ fn solids(drawing: &DrawingObject, towards_camera: Vector3<f64>) -> Vec<super::m
 }
 
 /// The colour of an item: its own, the mean of those of its points, or that of the drawing object.
-fn colour(drawing: &DrawingObject, item: Item) -> [f32; 3] {
+pub(crate) fn item_colour(drawing: &DrawingObject, item: Item) -> [f32; 3] {
     let style = &drawing.style;
     let own = item.colours();
     if own.is_empty() {

@@ -9,7 +9,8 @@ use crate::script::test_bench::TestBench;
 impl Cx<'_> {
     /// A line of a script's `print`.
     pub(crate) fn print(&self, line: &[u8]) {
-        self.sim.log.print(line, self.sim.clock.time());
+        let origin = || self.script().log_name(&self.sim.scene.borrow());
+        self.sim.log.print(line, self.sim.clock.time(), self.script().id, origin);
     }
 
     /// Remembers a path that leads to no object, for the hint beside the error.

@@ -53,7 +53,7 @@ impl Sim {
     }
 
     /// Distinguishes this scene from earlier ones.
-    fn scene_uid(&self) -> i64 {
+    pub(crate) fn scene_uid(&self) -> i64 {
         self.app.borrow().closed_scenes + 1
     }
 

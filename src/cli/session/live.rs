@@ -1,0 +1,49 @@
+//! The loop of a simulator that others drive: remote clients, pages of the viewer, its own scripts.
+
+use std::time::Duration;
+
+use crate::Simulator;
+use crate::view::Viewer;
+
+/// Longest wait for a request before an idle loop iteration.
+const NAP: Duration = Duration::from_millis(50);
+/// The same while a page is to see what scripts do.
+const FRAME: Duration = Duration::from_millis(16);
+/// The same while a real-time step is due soon, or while scripts poll their own sockets.
+const SHORT_NAP: Duration = Duration::from_millis(1);
+
+/// A simulator's loop, with a viewer or without.
+pub(in crate::cli) struct Live {
+    viewer: Option<Viewer>,
+}
+
+impl Live {
+    pub(in crate::cli) fn new(viewer: Option<Viewer>) -> Self {
+        Self { viewer }
+    }
+
+    /// One loop iteration, then a rest until there is something to do.
+    pub(in crate::cli) fn iterate(&mut self, sim: &mut Simulator) {
+        let steps = sim.steps();
+        sim.iterate();
+        let longest = if !sim.state().is_advancing() {
+            let idle = if self.viewer.is_some() { FRAME } else { NAP };
+            if sim.has_zmq_sockets() { SHORT_NAP } else { idle }
+        } else if sim.steps() == steps {
+            SHORT_NAP
+        } else {
+            Duration::ZERO
+        };
+        self.rest(sim, longest);
+    }
+
+    fn rest(&mut self, sim: &mut Simulator, longest: Duration) {
+        let has_rested = !longest.is_zero() && sim.wait_for_request(longest);
+        let rest = if has_rested { Duration::ZERO } else { longest };
+        match &mut self.viewer {
+            Some(viewer) => viewer.attend(sim, rest),
+            None if !rest.is_zero() => std::thread::sleep(rest),
+            None => {}
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! `swanilda view`: a scene in a browser; and the options about that of `run` and `serve`.
+
+use std::net::TcpListener;
+use std::path::PathBuf;
+use std::process::{Command, ExitCode, Stdio};
+
+use super::interrupt::Interrupt;
+use super::live::Live;
+use super::output::Output;
+use super::progress::Progress;
+use super::refuse;
+use super::remote::Remote;
+use super::run::Kind;
+use super::setup::Setup;
+use crate::view::Viewer;
+use crate::{RunLimits, Simulator};
+
+/// Show a scene in a browser
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Scene: a Lua file, a CoppeliaSim file, or a folder made by unpack [default: the default scene]
+    scene: Option<PathBuf>,
+    /// Script type to load the file as
+    #[arg(long = "as", value_name = "KIND", default_value = "customization")]
+    kind: Kind,
+    /// Do not start the simulation: the play button does
+    #[arg(long)]
+    paused: bool,
+    /// So many times as fast as the wall clock; 0: as fast as possible
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = factor, allow_negative_numbers = true)]
+    speed: f64,
+    /// Do not open a browser
+    #[arg(long)]
+    no_open: bool,
+    /// What pages may do
+    #[arg(long, value_name = "MODE", default_value = "full", require_equals = true)]
+    view: Mode,
+    /// Port of the page [default: any free one]
+    #[arg(long, value_name = "PORT", default_value_t = 0)]
+    port: u16,
+    #[command(flatten)]
+    remote: Remote,
+    #[command(flatten)]
+    setup: Setup,
+}
+
+/// Viewer options
+#[derive(clap::Args)]
+pub(super) struct ViewArgs {
+    /// Show the scene in browsers, at an address that is printed; read-only: pages can change nothing
+    #[arg(long, value_name = "MODE", num_args = 0..=1, require_equals = true, default_missing_value = "full")]
+    view: Option<Mode>,
+    /// Port of the page [default: any free one]
+    #[arg(long = "view-port", value_name = "PORT", default_value_t = 0)]
+    port: u16,
+}
+
+/// What pages may do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Mode {
+    Full,
+    ReadOnly,
+}
+
+impl ViewArgs {
+    /// Starts the viewer, if it is asked for.
+    ///
+    /// # Errors
+    /// When the port is not free.
+    pub(super) fn start(&self, sim: &Simulator, remote: &Remote, output: &Output) -> Result<Option<Viewer>, String> {
+        self.view.map(|mode| start(sim, mode, self.port, remote, output)).transpose()
+    }
+}
+
+/// Starts a viewer and prints its address.
+fn start(sim: &Simulator, mode: Mode, port: u16, remote: &Remote, output: &Output) -> Result<Viewer, String> {
+    let failed = |error: std::io::Error| format!("the viewer cannot start at port {port}: {error}");
+    let listener = TcpListener::bind((remote.address(), port)).map_err(failed)?;
+    let viewer = Viewer::start(sim, listener, mode == Mode::ReadOnly).map_err(failed)?;
+    output.viewing(&viewer.url());
+    Ok(viewer)
+}
+
+/// Shows the scene until ctrl-c, SIGTERM or `quitSimulator()`.
+pub(super) fn view(args: &Args) -> ExitCode {
+    let scene = args.scene.as_deref();
+    let sources = match args.setup.sources(scene) {
+        Ok(sources) => sources,
+        Err(reason) => return refuse(&reason),
+    };
+    let interrupt = Interrupt::of_scripts_here();
+    let output = args.setup.output(&Progress::new(RunLimits::default(), true), &interrupt);
+    let options = args.remote.guard(args.setup.options(scene, &interrupt));
+    let mut sim = Simulator::with_console(options, Box::new(output.clone()));
+    // Before the scripts, so that pages have their first lines as well.
+    let viewer = match start(&sim, args.view, args.port, &args.remote, &output) {
+        Ok(viewer) => viewer,
+        Err(reason) => return refuse(&reason),
+    };
+    args.setup.fill(&mut sim, sources, args.kind.into(), scene);
+    let zmq = args.remote.asks_for_zmq();
+    if let Err(reason) = args.remote.serve(zmq, &args.setup, &mut sim, &output, &interrupt) {
+        return refuse(&reason);
+    }
+    sim.set_pace(args.speed);
+    if !args.no_open && !args.setup.json {
+        open_browser(&viewer.url());
+    }
+    if !args.paused {
+        sim.start();
+    }
+    let mut live = Live::new(Some(viewer));
+    while !interrupt.is_requested() && !sim.quit_requested() {
+        live.iterate(&mut sim);
+    }
+    sim.stop();
+    sim.clear_scene();
+    ExitCode::SUCCESS
+}
+
+/// Opens the page where there is a desktop. Without one, or when that fails, the address has been printed.
+fn open_browser(url: &str) {
+    let has_desktop = cfg!(target_os = "macos")
+        || ["DISPLAY", "WAYLAND_DISPLAY"]
+            .iter()
+            .any(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty()));
+    if !has_desktop {
+        return;
+    }
+    let opener = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
+    let opened = Command::new(opener).arg(url).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+    if let Ok(mut child) = opened {
+        // Somebody has to wait for it, or it stays in the table of processes.
+        drop(std::thread::spawn(move || drop(child.wait())));
+    }
+}
+
+/// A pace beside the wall clock.
+fn factor(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(factor) if factor == 0.0 || (0.001..=100.0).contains(&factor) => Ok(factor),
+        _ => Err("0, or a number from 0.001 to 100 is needed".into()),
+    }
+}

@@ -1,0 +1,362 @@
+//! A web site with live pages, on a thread of its own: plain files, and WebSocket connections that are sent what is new whenever there is something.
+//!
+//! What the pages show and say is the business of a [`Site`]. Each connection asks for its messages when it can send them, so that a
+//! slow page is handed fewer of them, and nothing queues up.
+
+use std::io;
+use std::net::{IpAddr, SocketAddr, TcpListener};
+use std::sync::Arc;
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use futures::stream::{SplitSink, SplitStream};
+use futures::{SinkExt, StreamExt};
+use tokio::io::AsyncWriteExt;
+use tokio::net::TcpStream;
+use tokio::sync::{Semaphore, watch};
+use tokio::task::JoinSet;
+use tokio::time::{sleep, timeout};
+use tokio_tungstenite::WebSocketStream;
+use tokio_tungstenite::tungstenite::http::StatusCode;
+use tokio_tungstenite::tungstenite::http::header::{
+    CONNECTION, CONTENT_LENGTH, HOST, IF_NONE_MATCH, ORIGIN, TRANSFER_ENCODING,
+};
+use tokio_tungstenite::tungstenite::protocol::{Role, WebSocketConfig};
+use tokio_tungstenite::tungstenite::{Message, Utf8Bytes};
+
+use super::http::Head;
+use super::server::{MOST_CONNECTIONS, REST, read_head, upgrade};
+use super::{HANDSHAKE, READ_BUFFER, connection};
+
+/// The largest message of a page, bytes.
+const LARGEST_REQUEST: usize = 1 << 20;
+/// How long a page may take to read what it was sent, and a connection may be silent between two requests.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// How long open pages are waited for at the end.
+const FAREWELL: Duration = Duration::from_millis(500);
+
+/// What a server shows.
+pub(crate) trait Site: Send + Sync + 'static {
+    /// The answer to a GET for a path (with its query); `known` is what the browser has of it, by the tag of an earlier answer.
+    fn get(&self, path: &str, known: Option<&str>) -> SiteReply;
+
+    /// The other side of a WebSocket at that path; none where there is none.
+    fn open(&self, path: &str) -> Option<Box<dyn Visitor>>;
+}
+
+/// The site's side of one WebSocket connection. Dropped when that ends.
+pub(crate) trait Visitor: Send {
+    /// A message of the page.
+    fn receive(&mut self, message: &[u8]);
+
+    /// What to send now. Called after each wake-up, when the messages before have been sent.
+    fn messages(&mut self) -> Vec<SiteMessage>;
+}
+
+/// A message to a page.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum SiteMessage {
+    Text(String),
+    Binary(Vec<u8>),
+}
+
+/// The answer to a GET.
+pub(crate) struct SiteReply {
+    pub status: u16,
+    /// Besides the length and the connection.
+    pub headers: Vec<(&'static str, String)>,
+    pub body: Arc<dyn AsRef<[u8]> + Send + Sync>,
+}
+
+/// A running server. It ends when this is dropped.
+pub(crate) struct SiteServer {
+    address: SocketAddr,
+    wake: Arc<watch::Sender<Signal>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// Wakes the connections of a server.
+#[derive(Clone)]
+pub(crate) struct SiteWaker(Arc<watch::Sender<Signal>>);
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+struct Signal {
+    count: u64,
+    ends: bool,
+}
+
+impl SiteWaker {
+    /// There may be something new for the pages.
+    pub(crate) fn wake(&self) {
+        self.0.send_modify(|signal| signal.count += 1);
+    }
+}
+
+impl SiteServer {
+    /// Serves those who connect to `listener`. The site is made with what wakes the connections.
+    ///
+    /// # Errors
+    /// When the listener cannot be used, or there is no thread for the server.
+    pub(crate) fn start<S: Site>(listener: TcpListener, site: impl FnOnce(SiteWaker) -> S) -> io::Result<Self> {
+        listener.set_nonblocking(true)?;
+        let address = listener.local_addr()?;
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        let (wake, signals) = watch::channel(Signal::default());
+        let wake = Arc::new(wake);
+        let site = Arc::new(site(SiteWaker(Arc::clone(&wake))));
+        let serve = move || {
+            let listener = {
+                let _context = runtime.enter();
+                tokio::net::TcpListener::from_std(listener)
+            };
+            if let Ok(listener) = listener {
+                runtime.block_on(accept_all(listener, site, signals));
+            }
+        };
+        let thread = std::thread::Builder::new().name("view server".into()).spawn(serve)?;
+        Ok(Self { address, wake, thread: Some(thread) })
+    }
+
+    pub(crate) fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    pub(crate) fn waker(&self) -> SiteWaker {
+        SiteWaker(Arc::clone(&self.wake))
+    }
+}
+
+impl Drop for SiteServer {
+    /// Pages are sent the last messages, and are not waited for longer than a moment.
+    fn drop(&mut self) {
+        self.wake.send_modify(|signal| signal.ends = true);
+        if let Some(thread) = self.thread.take() {
+            // A server that has panicked serves nobody; there is nothing to add.
+            let _ = thread.join();
+        }
+    }
+}
+
+async fn accept_all<S: Site>(listener: tokio::net::TcpListener, site: Arc<S>, mut signals: watch::Receiver<Signal>) {
+    let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    let mut tasks = JoinSet::new();
+    loop {
+        let accepted = async {
+            let place = places.clone().acquire_owned().await.ok()?;
+            Some((listener.accept().await, place))
+        };
+        let accepted = tokio::select! {
+            accepted = accepted => accepted,
+            _ = signals.wait_for(|signal| signal.ends) => break,
+        };
+        while tasks.try_join_next().is_some() {}
+        match accepted {
+            Some((Ok((stream, _)), place)) => {
+                let (site, signals) = (Arc::clone(&site), signals.clone());
+                tasks.spawn(async move {
+                    serve(stream, &*site, signals).await;
+                    drop(place);
+                });
+            }
+            _ => sleep(REST).await,
+        }
+    }
+    let _ = timeout(FAREWELL, async { while tasks.join_next().await.is_some() {} }).await;
+}
+
+/// The requests of one connection, one after the other.
+async fn serve<S: Site>(mut stream: TcpStream, site: &S, mut signals: watch::Receiver<Signal>) {
+    let local = stream.local_addr().map(|address| address.ip()).ok();
+    let _ = stream.set_nodelay(true);
+    let mut received = Vec::new();
+    loop {
+        let head = tokio::select! {
+            head = timeout(PATIENCE, read_head(&mut stream, &mut received)) => head,
+            _ = signals.wait_for(|signal| signal.ends) => return,
+        };
+        let Ok(Ok(head)) = head else {
+            if let Ok(Err(Some(status))) = head {
+                refuse(&mut stream, status, "").await;
+            }
+            return;
+        };
+        if let Err(status) = check(&head, local) {
+            return refuse(&mut stream, status, &head.method).await;
+        }
+        if head.is_upgrade() {
+            return open(stream, site, &head, received, signals).await;
+        }
+        let reply = site.get(&head.target, head.header(IF_NONE_MATCH));
+        let goes_on =
+            head.is_current && head.header(CONNECTION).is_none_or(|value| !value.eq_ignore_ascii_case("close"));
+        if !respond(&mut stream, &reply, &head.method, goes_on).await || !goes_on {
+            return connection::linger(&mut stream).await;
+        }
+    }
+}
+
+/// Whether a request may be answered: a GET without a body, to a name that means this machine, of a page of this server or of none. A page of another server
+/// cannot pretend to be one of this by a name of its own that leads here.
+fn check(head: &Head, local: Option<IpAddr>) -> Result<(), StatusCode> {
+    let host = head.header(HOST).ok_or(StatusCode::BAD_REQUEST)?;
+    if !is_this_machine(host, local) {
+        return Err(StatusCode::FORBIDDEN);
+    }
+    let own = |origin: &str| origin.split_once("://").is_some_and(|(_, authority)| authority == host);
+    if head.headers.contains_key(ORIGIN) && !head.header(ORIGIN).is_some_and(own) {
+        return Err(StatusCode::FORBIDDEN);
+    }
+    if !matches!(head.method.as_str(), "GET" | "HEAD") {
+        return Err(StatusCode::METHOD_NOT_ALLOWED);
+    }
+    let has_body = head.headers.contains_key(TRANSFER_ENCODING)
+        || head.header(CONTENT_LENGTH).is_some_and(|length| length.trim() != "0");
+    if has_body { Err(StatusCode::BAD_REQUEST) } else { Ok(()) }
+}
+
+/// Whether a `Host` is this machine by a local name or by an address: its own, or the one connected to.
+fn is_this_machine(host: &str, local: Option<IpAddr>) -> bool {
+    let name = match host.strip_prefix('[') {
+        Some(rest) => rest.split(']').next().unwrap_or_default(),
+        None => host.split(':').next().unwrap_or_default(),
+    };
+    let is_own = |address: IpAddr| address.is_loopback() || Some(address) == local;
+    name.eq_ignore_ascii_case("localhost") || name.parse().is_ok_and(is_own)
+}
+
+async fn refuse(stream: &mut TcpStream, status: StatusCode, method: &str) {
+    let reply = SiteReply { status: status.as_u16(), headers: Vec::new(), body: Arc::new(Vec::new()) };
+    respond(stream, &reply, method, false).await;
+    connection::linger(stream).await;
+}
+
+/// Sends an answer; false when the browser is gone or too slow.
+async fn respond(stream: &mut TcpStream, reply: &SiteReply, method: &str, goes_on: bool) -> bool {
+    let reason =
+        StatusCode::from_u16(reply.status).ok().and_then(|status| status.canonical_reason()).unwrap_or_default();
+    let body = (*reply.body).as_ref();
+    let connection = if goes_on { "keep-alive" } else { "close" };
+    let mut head = format!("HTTP/1.1 {} {reason}\r\nConnection: {connection}\r\n", reply.status);
+    if reply.status != StatusCode::NOT_MODIFIED.as_u16() {
+        head.push_str(&format!("Content-Length: {}\r\n", body.len()));
+    }
+    for (name, value) in &reply.headers {
+        head.push_str(&format!("{name}: {value}\r\n"));
+    }
+    head.push_str("\r\n");
+    let sent = async {
+        stream.write_all(head.as_bytes()).await?;
+        if method != "HEAD" {
+            stream.write_all(body).await?;
+        }
+        stream.flush().await
+    };
+    matches!(timeout(PATIENCE, sent).await, Ok(Ok(())))
+}
+
+/// A WebSocket connection, until it ends.
+async fn open<S: Site>(
+    mut stream: TcpStream,
+    site: &S,
+    head: &Head,
+    received: Vec<u8>,
+    signals: watch::Receiver<Signal>,
+) {
+    let Some(visitor) = site.open(&head.target) else {
+        return refuse(&mut stream, StatusCode::NOT_FOUND, &head.method).await;
+    };
+    if let Err(status) = upgrade(&mut stream, head).await {
+        return refuse(&mut stream, status, &head.method).await;
+    }
+    let config = WebSocketConfig::default()
+        .read_buffer_size(READ_BUFFER)
+        .max_message_size(Some(LARGEST_REQUEST))
+        .max_frame_size(Some(LARGEST_REQUEST));
+    let socket = WebSocketStream::from_partially_read(stream, received, Role::Server, Some(config)).await;
+    let (sink, source) = socket.split();
+    converse(sink, source, visitor, signals).await;
+}
+
+async fn converse(
+    mut sink: SplitSink<WebSocketStream<TcpStream>, Message>,
+    mut source: SplitStream<WebSocketStream<TcpStream>>,
+    mut visitor: Box<dyn Visitor>,
+    mut signals: watch::Receiver<Signal>,
+) {
+    loop {
+        let ends = signals.borrow_and_update().ends;
+        // A page that is not there any more is noticed here at the latest.
+        let Ok(Ok(())) = timeout(PATIENCE, send_all(&mut sink, visitor.messages())).await else { return };
+        if ends {
+            let _ = timeout(HANDSHAKE, sink.close()).await;
+            return;
+        }
+        tokio::select! {
+            changed = signals.changed() => if changed.is_err() { return },
+            message = source.next() => match message {
+                Some(Ok(Message::Text(text))) => visitor.receive(text.as_bytes()),
+                Some(Ok(Message::Binary(bytes))) => visitor.receive(&bytes),
+                Some(Ok(Message::Close(_)) | Err(_)) | None => return,
+                // Pings are answered by the library.
+                Some(Ok(_)) => {}
+            },
+        }
+    }
+}
+
+async fn send_all(
+    sink: &mut SplitSink<WebSocketStream<TcpStream>, Message>,
+    messages: Vec<SiteMessage>,
+) -> Result<(), tokio_tungstenite::tungstenite::Error> {
+    for message in messages {
+        sink.feed(match message {
+            SiteMessage::Text(text) => Message::Text(Utf8Bytes::from(text)),
+            SiteMessage::Binary(bytes) => Message::Binary(bytes.into()),
+        })
+        .await?;
+    }
+    sink.flush().await
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn head(text: &str) -> Head {
+        Head::parse(text.as_bytes()).expect("a good head").expect("a complete head").0
+    }
+
+    fn status(request: &str) -> u16 {
+        check(&head(&format!("{request}\r\n\r\n")), "10.0.0.7".parse().ok())
+            .map_or_else(|status| status.as_u16(), |()| 200)
+    }
+
+    #[test]
+    fn only_names_of_this_machine_are_answered() {
+        for host in ["127.0.0.1:80", "localhost:9", "LOCALHOST", "[::1]:7", "10.0.0.7:80"] {
+            assert_eq!(status(&format!("GET / HTTP/1.1\r\nHost: {host}")), 200, "{host}");
+        }
+        for host in ["evil.example", "127.0.0.1.evil.example", "localhost.evil.example:80", "10.0.0.8", "", "[", "[]:1"]
+        {
+            assert_eq!(status(&format!("GET / HTTP/1.1\r\nHost: {host}")), 403, "{host}");
+        }
+        assert_eq!(status("GET / HTTP/1.1"), 400);
+    }
+
+    #[test]
+    fn pages_of_others_are_not_answered() {
+        let with = |origin: &str| status(&format!("GET / HTTP/1.1\r\nHost: 127.0.0.1:80\r\nOrigin: {origin}"));
+        assert_eq!(with("http://127.0.0.1:80"), 200);
+        for origin in ["http://127.0.0.1:81", "http://evil.example", "null", "", "http://localhost:80"] {
+            assert_eq!(with(origin), 403, "{origin}");
+        }
+    }
+
+    #[test]
+    fn only_reading_is_allowed() {
+        assert_eq!(status("POST / HTTP/1.1\r\nHost: localhost"), 405);
+        assert_eq!(status("GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3"), 400);
+        assert_eq!(status("GET / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked"), 400);
+        assert_eq!(status("HEAD / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0"), 200);
+    }
+}

@@ -1,0 +1,133 @@
+//! What viewers and recorders see of a simulator, and do to it.
+
+use super::Simulator;
+use crate::dynamics::Contact;
+use crate::scene::object::script_object::ScriptType;
+use crate::scene::{Data, ValueType};
+use crate::script::ApiError;
+use crate::script::log::RecentLine;
+use crate::script::property_table::flags;
+
+/// A property of an object, of the scene or of the application.
+pub(crate) struct PropertyRow {
+    pub name: String,
+    /// The class it belongs to.
+    pub class: &'static str,
+    pub ty: ValueType,
+    pub value: Data,
+    pub is_writable: bool,
+}
+
+/// Properties whose value is long, or expensive, or is another one each time it is read.
+const NOT_SHOWN: &[&str] = &[
+    "randomQuaternion",
+    "randomFloat",
+    "randomString",
+    "modelHash",
+    "voxels",
+    "points",
+    "colors",
+    "imageBuffer",
+    "depthBuffer",
+    "volume_edges",
+    "volume_closeEdges",
+    "code",
+    "dna",
+];
+
+impl Simulator {
+    /// Keeps lines of the log from now on, for [`take_recent_lines`](Self::take_recent_lines).
+    pub(crate) fn keep_recent_lines(&self) {
+        self.sim.log.keep_recent();
+    }
+
+    /// Lines of the log and prints since the last call.
+    pub(crate) fn take_recent_lines(&self) -> Vec<RecentLine> {
+        self.sim.log.take_recent()
+    }
+
+    /// Another one after another scene was loaded.
+    pub(crate) fn scene_uid(&self) -> i64 {
+        self.sim.scene_uid()
+    }
+
+    /// The properties of an object, or of what else has properties (`sim.handle_app`, `sim.handle_scene`), without those that are long.
+    ///
+    /// # Errors
+    /// When there is nothing with that handle.
+    pub(crate) fn property_rows(&self, handle: i64) -> Result<Vec<PropertyRow>, ApiError> {
+        let sim = &self.sim;
+        let target = sim.property_target(handle, &self.the(ScriptType::Sandbox).0)?;
+        let (before, after) = sim.rows_of(&target)?;
+        let is_shown = |name: &str| !NOT_SHOWN.contains(&name);
+        let statics = before.iter().chain(after).filter(|row| row.flags & flags::DEPRECATED == 0 && is_shown(row.name));
+        let mut rows: Vec<PropertyRow> = statics
+            .filter_map(|row| {
+                let value = sim.read_row(&target, row).ok()?;
+                let is_writable = row.flags & flags::NOT_WRITABLE == 0;
+                Some(PropertyRow { name: row.name.to_owned(), class: row.class, ty: row.ty, value, is_writable })
+            })
+            .collect();
+        for name in sim.stored_names(&target) {
+            let Some((ty, _)) = sim.property_info(&target, &name) else { continue };
+            let Ok(value) = sim.read_property(&target, &name, ty) else { continue };
+            rows.push(PropertyRow { name, class: "data", ty, value, is_writable: true });
+        }
+        Ok(rows)
+    }
+
+    /// The type of a property.
+    ///
+    /// # Errors
+    /// When there is nothing with that handle, or it has no such property.
+    pub(crate) fn property_type(&self, handle: i64, name: &str) -> Result<ValueType, ApiError> {
+        let target = self.sim.property_target(handle, &self.the(ScriptType::Sandbox).0)?;
+        self.sim.property_info(&target, name).map(|(ty, _)| ty).ok_or(ApiError::UnknownProperty)
+    }
+
+    /// Name, language and text of a script.
+    ///
+    /// # Errors
+    /// When there is no script with that handle.
+    pub(crate) fn script_text(&self, handle: i64) -> Result<(String, String, Vec<u8>), ApiError> {
+        let script = self.sim.script(handle).ok_or(ApiError::NoSuchScript)?;
+        Ok(self.sim.text_of(&script))
+    }
+
+    /// Starts or resumes the simulation, beyond a pause that [`step_and_pause`](Self::step_and_pause) has set.
+    pub(crate) fn play(&mut self) {
+        self.sim.play();
+    }
+
+    /// Starts or resumes the simulation for that many steps, and pauses it.
+    pub(crate) fn step_and_pause(&mut self, steps: u64) {
+        self.sim.step_and_pause(steps);
+    }
+
+    /// Runs so many times as fast as the wall clock from now on; as fast as possible if that is 0.
+    pub(crate) fn set_pace(&mut self, factor: f64) {
+        self.sim.set_pace(factor);
+    }
+
+    /// Evaluates what a person has typed, as the commander does: an expression is printed.
+    ///
+    /// # Errors
+    /// When the sandbox cannot run.
+    pub(crate) fn evaluate(&mut self, code: &str) -> Result<(), super::Error> {
+        let sandbox = self.the(ScriptType::Sandbox);
+        self.call(&sandbox, "_evalExec", &[Data::text(code)]).map(drop)
+    }
+
+    /// The handle of the sandbox.
+    pub(crate) fn sandbox(&self) -> i64 {
+        self.the(ScriptType::Sandbox).handle()
+    }
+
+    /// The contacts of the last sub-step of the physics.
+    pub(crate) fn last_contacts(&self) -> Vec<Contact> {
+        let dynamics = self.sim.dynamics.borrow();
+        let all: Vec<Contact> = dynamics.iter().flat_map(|dynamics| dynamics.contacts()).collect();
+        let last = all.last().map(|contact| contact.sub_step);
+        all.into_iter().filter(|contact| Some(contact.sub_step) == last).collect()
+    }
+}

@@ -1,0 +1,266 @@
+//! What changed in a simulator since it was last looked at. Runs on the simulation's thread.
+//!
+//! The journal says which objects changed; those are described anew, and what hangs below moved ones is placed anew. What the journal leaves out, or
+//! would have to hold at every step, is compared each time: readings of proximity sensors, images of vision sensors on shapes, drawing objects.
+
+mod describe;
+mod drawings;
+mod log;
+mod members;
+mod meshes;
+mod moved;
+mod scene;
+#[cfg(test)]
+mod tests;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use crate::scene::{Change, Cursor, Field, Handle, Kind, Scene, Topic, Topics, Unread};
+use crate::script::log::RecentLine;
+
+use super::blobs::Blob;
+use meshes::Meshes;
+use moved::Moved;
+pub(crate) use scene::Source;
+
+/// Changes of what pages show.
+const SHOWN: Topics = Topics::TREE.with(Topic::Selection).with(Topic::Settings).with_fields(&[
+    Field::Alias,
+    Field::Pose,
+    Field::Layer,
+    Field::ObjectProperty,
+    Field::ModelProperty,
+    Field::Geometry,
+    Field::Appearance,
+    Field::Texture,
+    Field::Joint,
+    Field::JointPosition,
+    Field::Sensor,
+    Field::Script,
+    Field::Other,
+]);
+
+/// What changed. Lists are in the order of handles.
+#[derive(Debug, Default)]
+pub(crate) struct Observation {
+    /// Nothing that was seen before is true any more.
+    pub is_another_scene: bool,
+    /// Objects and drawing objects are all there are.
+    pub is_complete: bool,
+    pub objects: Vec<(i64, ObservedObject)>,
+    pub removed: Vec<i64>,
+    /// World poses: position and quaternion (x, y, z, w).
+    pub poses: Vec<(i64, [f32; 7])>,
+    /// JSON, by identifier.
+    pub drawings: Vec<(i64, Arc<str>)>,
+    pub removed_drawings: Vec<i64>,
+    /// JSON.
+    pub scene: Option<String>,
+    /// Seconds.
+    pub time: f64,
+    pub selection: Option<Vec<i64>>,
+    /// JSON.
+    pub log: Vec<String>,
+}
+
+/// An object as pages show it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ObservedObject {
+    /// JSON.
+    pub text: Arc<str>,
+    /// What the text refers to.
+    pub blobs: Vec<Arc<Blob>>,
+}
+
+/// The last error of a script.
+#[derive(Debug, Clone, PartialEq)]
+struct ScriptError {
+    line: Option<u64>,
+    message: String,
+}
+
+/// A reader of one simulator.
+#[derive(Default)]
+pub(crate) struct Observer {
+    cursor: Option<Cursor>,
+    /// The scene it has read, by its identifier.
+    scene_uid: Option<i64>,
+    /// Places of objects among their siblings.
+    places: BTreeMap<Handle, usize>,
+    /// Objects whose looks change without the journal saying so: proximity sensors, and shapes that show what a vision sensor sees.
+    restless: BTreeSet<Handle>,
+    meshes: Meshes,
+    moved: Moved,
+    script_errors: BTreeMap<i64, ScriptError>,
+    visibility_layers: u16,
+    drawings_seen: u64,
+    known_drawings: BTreeSet<i64>,
+}
+
+/// Which objects to look at.
+#[derive(Default)]
+struct Concerned {
+    is_complete: bool,
+    objects: BTreeSet<Handle>,
+    /// Those that moved, perhaps with all below them.
+    moved: BTreeSet<Handle>,
+    removed: BTreeSet<i64>,
+    /// They got another place in the tree; new ones are the last of their siblings.
+    new: BTreeSet<Handle>,
+    replaced: BTreeSet<Handle>,
+    selection: bool,
+}
+
+impl Observer {
+    /// What changed since the last call; everything at first. Takes time in proportion to that.
+    pub(crate) fn observe(&mut self, source: &Source<'_>, lines: &[RecentLine]) -> Observation {
+        let scene = source.scene;
+        let is_another_scene = self.scene_uid.replace(source.scene_uid) != Some(source.scene_uid);
+        if is_another_scene {
+            *self = Self { scene_uid: self.scene_uid, ..Self::default() };
+        }
+        let failed = self.note_errors(lines);
+        let mut concerned = self.read_journal(scene);
+        concerned.objects.extend(failed.into_iter().filter(|handle| scene.exists(*handle)));
+        concerned.objects.extend(self.restless.iter().copied().filter(|handle| scene.exists(*handle)));
+        let layers = scene.settings().visibility_layers.bits();
+        if std::mem::replace(&mut self.visibility_layers, layers) != layers {
+            concerned.objects.extend(scene.objects().map(crate::scene::Object::handle));
+        }
+        self.place_in_tree(scene, &mut concerned);
+        let complete = concerned.is_complete;
+        let (drawings, removed_drawings) = self.observe_drawings(scene, complete);
+        Observation {
+            is_another_scene,
+            is_complete: complete,
+            poses: self.moved.poses(scene, &concerned.moved, complete),
+            objects: self.describe_all(scene, &concerned.objects),
+            removed: concerned.removed.into_iter().collect(),
+            drawings,
+            removed_drawings,
+            scene: Some(source.describe()),
+            time: source.time,
+            selection: (complete || concerned.selection)
+                .then(|| scene.selection().iter().map(|handle| handle.raw()).collect()),
+            log: lines.iter().map(log::describe).collect(),
+        }
+    }
+
+    /// The journal need not keep anything for this reader until it looks again; then it looks at everything.
+    pub(crate) fn pause(&mut self) {
+        self.cursor = None;
+    }
+
+    /// What the journal says.
+    fn read_journal(&mut self, scene: &Scene) -> Concerned {
+        let mut concerned = Concerned::default();
+        let cursor = self.cursor.get_or_insert_with(|| scene.journal().follow(SHOWN));
+        match scene.journal().read(cursor) {
+            Unread::Everything => {
+                concerned.is_complete = true;
+                concerned.objects.extend(scene.objects().map(crate::scene::Object::handle));
+                self.places.clear();
+                self.restless.retain(|handle| scene.exists(*handle));
+            }
+            Unread::Changes(changes) => changes.for_each(|change| concerned.note(change)),
+        }
+        concerned.objects.retain(|handle| scene.exists(*handle));
+        concerned
+    }
+
+    /// Brings places among siblings up to date; siblings that got another one are concerned, too. After one is gone the others keep theirs,
+    /// since only their order counts.
+    fn place_in_tree(&mut self, scene: &Scene, concerned: &mut Concerned) {
+        if concerned.is_complete {
+            let parents = scene.objects().filter(|object| !object.children().is_empty());
+            let families = parents.map(crate::scene::Object::children).chain([scene.roots()]);
+            self.places = families.flat_map(|family| family.iter().copied().zip(0..)).collect();
+            return;
+        }
+        for &handle in &concerned.new {
+            let Ok(siblings) = scene.siblings(handle) else { continue };
+            let place = siblings.iter().rposition(|sibling| *sibling == handle).unwrap_or(0);
+            self.places.insert(handle, place);
+        }
+        for handle in &concerned.replaced {
+            for (&sibling, place) in scene.siblings(*handle).unwrap_or(&[]).iter().zip(0..) {
+                if self.places.insert(sibling, place) != Some(place) {
+                    concerned.objects.insert(sibling);
+                }
+            }
+        }
+    }
+
+    /// Remembers the last errors of scripts; returns whose.
+    fn note_errors(&mut self, lines: &[RecentLine]) -> Vec<Handle> {
+        let failures = lines.iter().filter(|line| line.is_script_error());
+        let errors = failures.filter_map(|line| {
+            let error = ScriptError { line: log::line_of(&line.text), message: line.text.clone() };
+            Some((line.script?, error))
+        });
+        let mut failed = Vec::new();
+        for (script, error) in errors {
+            failed.extend(Handle::from_raw(script));
+            self.script_errors.insert(script, error);
+        }
+        failed
+    }
+
+    fn describe_all(&mut self, scene: &Scene, handles: &BTreeSet<Handle>) -> Vec<(i64, ObservedObject)> {
+        let described = handles.iter().filter_map(|&handle| {
+            let object = scene.object(handle).ok()?;
+            if is_restless(&object.kind) {
+                self.restless.insert(handle);
+            } else {
+                self.restless.remove(&handle);
+            }
+            let error = self.script_errors.get(&handle.raw());
+            let place = self.places.get(&handle).copied().unwrap_or(0);
+            Some((handle.raw(), describe::object(scene, object, place, error, &mut self.meshes)))
+        });
+        let described = described.collect();
+        self.meshes.drop_unused();
+        described
+    }
+}
+
+/// Whether the looks of such an object change without the journal saying so.
+fn is_restless(kind: &Kind) -> bool {
+    match kind {
+        Kind::ProximitySensor(_) => true,
+        Kind::Shape(shape) => shape.parts.iter().any(meshes::is_screen),
+        _ => false,
+    }
+}
+
+impl Concerned {
+    fn note(&mut self, change: &Change) {
+        match *change {
+            Change::Added(handle) => {
+                self.objects.insert(handle);
+                self.moved.insert(handle);
+                self.new.insert(handle);
+            }
+            Change::Removed(handle, _) => drop(self.removed.insert(handle.raw())),
+            Change::Modified(handle, field) => self.note_field(handle, field),
+            Change::Selection => self.selection = true,
+            Change::Settings | Change::Stored { .. } => {}
+        }
+    }
+
+    fn note_field(&mut self, handle: Handle, field: Field) {
+        if field != Field::Pose {
+            self.objects.insert(handle);
+        }
+        if field == Field::Parent {
+            self.replaced.insert(handle);
+        }
+        if matches!(
+            field,
+            Field::Parent | Field::Pose | Field::Geometry | Field::Joint | Field::JointPosition | Field::Other
+        ) {
+            self.moved.insert(handle);
+        }
+    }
+}

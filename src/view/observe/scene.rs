@@ -1,0 +1,89 @@
+//! What an observer looks at, and the description of the scene as a whole.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use crate::Simulator;
+use crate::perception::vision::views_background;
+use crate::scene::Scene;
+use crate::scene::appearance::environment::{Fog, FogType};
+use crate::script::SimulationState;
+
+/// The present state of a simulator.
+pub(crate) struct Source<'a> {
+    pub scene: &'a Scene,
+    /// Another one after another scene was loaded.
+    pub scene_uid: i64,
+    pub state: SimulationState,
+    /// Seconds.
+    pub time: f64,
+    pub steps: u64,
+    /// Uncaught errors of scripts.
+    pub errors: u64,
+    /// Pages may only read.
+    pub is_read_only: bool,
+    /// What is shown is being recorded or viewed live.
+    pub mode: &'static str,
+}
+
+impl<'a> Source<'a> {
+    /// A simulator as it is now, with its scene.
+    pub(crate) fn of(sim: &Simulator, scene: &'a Scene) -> Self {
+        Self {
+            scene,
+            scene_uid: sim.scene_uid(),
+            state: sim.state(),
+            time: sim.time(),
+            steps: sim.steps(),
+            errors: sim.errors(),
+            is_read_only: false,
+            mode: "live",
+        }
+    }
+    /// The scene as JSON.
+    pub(super) fn describe(&self) -> String {
+        let settings = self.scene.settings();
+        let path = &settings.path;
+        json!({
+            "name": Path::new(path).file_name().map_or_else(|| "untitled".into(), |name| name.to_string_lossy()),
+            "path": path,
+            "state": state_name(self.state),
+            "time": self.time,
+            "steps": self.steps,
+            "timeStep": settings.time_step,
+            "realTime": settings.real_time,
+            "speed": if settings.real_time { settings.real_time_factor } else { 0.0 },
+            "visibilityLayers": settings.visibility_layers.bits(),
+            "background": views_background(self.scene),
+            "ambient": settings.environment.ambient_light,
+            "fog": fog(&settings.environment.fog),
+            "mode": self.mode,
+            "readOnly": self.is_read_only,
+            "errors": self.errors,
+        })
+        .to_string()
+    }
+}
+
+fn state_name(state: SimulationState) -> &'static str {
+    match state {
+        SimulationState::Stopped => "stopped",
+        SimulationState::Paused => "paused",
+        _ => "running",
+    }
+}
+
+fn fog(fog: &Fog) -> Value {
+    if !fog.enabled {
+        return Value::Null;
+    }
+    let kind = match fog.fog_type {
+        FogType::EXPONENTIAL => "exponential",
+        FogType::EXPONENTIAL_SQUARED => "exponentialSquared",
+        _ => "linear",
+    };
+    json!({
+        "type": kind, "color": fog.colour.unwrap_or_default(), "start": fog.start, "end": fog.end, "density": fog.density,
+    })
+}

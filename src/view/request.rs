@@ -1,0 +1,216 @@
+//! Requests of pages, from any bytes: each is checked before the simulation's thread sees it.
+
+use serde_json::{Map, Value};
+
+/// Code and texts of a page, bytes.
+const LONGEST_TEXT: usize = 100_000;
+/// Handles in one request.
+const MOST_HANDLES: usize = 100_000;
+/// Steps of one request.
+const MOST_STEPS: u64 = 1_000_000;
+
+/// What a page asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Action {
+    Play,
+    Pause,
+    Stop,
+    Step(u64),
+    /// Beside the wall clock; 0 for as fast as possible.
+    Speed(f64),
+    Select(Vec<i64>),
+    /// None for no object.
+    Inspect(Option<i64>),
+    Set {
+        handle: i64,
+        name: String,
+        value: Value,
+    },
+    Script(i64),
+    Watch(Vec<i64>),
+    Show {
+        contacts: bool,
+    },
+    Graph(i64),
+    Ui {
+        window: Value,
+        widget: Value,
+        input: Value,
+    },
+    Run(String),
+}
+
+/// A request with the number that its reply has.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Request {
+    pub id: Value,
+    pub action: Action,
+}
+
+/// A request that is none.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Refusal {
+    /// Null where there was none.
+    pub id: Value,
+    pub reason: String,
+}
+
+impl Action {
+    /// Whether it may change something, which pages that only read must not.
+    pub(crate) fn changes_something(&self) -> bool {
+        !matches!(self, Self::Inspect(_) | Self::Script(_) | Self::Watch(_) | Self::Show { .. } | Self::Graph(_))
+    }
+}
+
+impl Request {
+    /// The request in a message.
+    ///
+    /// # Errors
+    /// When it is no JSON object with a number and known, well-formed members.
+    pub(crate) fn parse(message: &[u8]) -> Result<Self, Refusal> {
+        let refuse = |id: Value, reason: &str| Refusal { id, reason: reason.to_owned() };
+        let value: Value =
+            serde_json::from_slice(message).map_err(|_| refuse(Value::Null, "a request is a JSON object"))?;
+        let Value::Object(members) = value else { return Err(refuse(Value::Null, "a request is a JSON object")) };
+        let id = members.get("id").filter(|id| id.is_number()).cloned();
+        let id = id.ok_or_else(|| refuse(Value::Null, "a request has an `id`, a number"))?;
+        match action(&members) {
+            Ok(action) => Ok(Self { id, action }),
+            Err(reason) => Err(Refusal { id, reason }),
+        }
+    }
+}
+
+type Members = Map<String, Value>;
+
+fn action(members: &Members) -> Result<Action, String> {
+    let name = members.get("do").and_then(Value::as_str).ok_or("a request says in `do` what to do")?;
+    Ok(match name {
+        "play" => Action::Play,
+        "pause" => Action::Pause,
+        "stop" => Action::Stop,
+        "step" => Action::Step(count(members)?),
+        "speed" => Action::Speed(factor(members)?),
+        "select" => Action::Select(handles(members)?),
+        "inspect" => Action::Inspect(Some(handle(members)?).filter(|handle| *handle != -1)),
+        "set" => Action::Set {
+            handle: handle(members)?,
+            name: text(members, "name")?,
+            value: members.get("value").cloned().ok_or("`value` is missing")?,
+        },
+        "script" => Action::Script(handle(members)?),
+        "watch" => Action::Watch(handles(members)?),
+        "show" => Action::Show { contacts: flag(members, "contacts")? },
+        "graph" => Action::Graph(handle(members)?),
+        "ui" => {
+            let member = |name: &str| members.get(name).cloned().unwrap_or(Value::Null);
+            Action::Ui { window: member("window"), widget: member("widget"), input: member("input") }
+        }
+        "run" => Action::Run(text(members, "code")?),
+        other => return Err(format!("unknown request: {}", shortened(other))),
+    })
+}
+
+fn shortened(text: &str) -> &str {
+    text.char_indices().nth(50).map_or(text, |(end, _)| &text[..end])
+}
+
+fn count(members: &Members) -> Result<u64, String> {
+    match members.get("count") {
+        None => Ok(1),
+        Some(count) => {
+            let count = count.as_u64().filter(|count| (1..=MOST_STEPS).contains(count));
+            count.ok_or_else(|| format!("`count` is a whole number, 1 to {MOST_STEPS}"))
+        }
+    }
+}
+
+fn factor(members: &Members) -> Result<f64, String> {
+    let factor = members.get("factor").and_then(Value::as_f64);
+    let factor = factor.filter(|factor| *factor == 0.0 || (0.001..=100.0).contains(factor));
+    factor.ok_or_else(|| "`factor` is 0, or a number from 0.001 to 100".to_owned())
+}
+
+fn handle(members: &Members) -> Result<i64, String> {
+    members.get("handle").and_then(Value::as_i64).ok_or_else(|| "`handle` is a whole number".to_owned())
+}
+
+fn handles(members: &Members) -> Result<Vec<i64>, String> {
+    let wrong = || "`handles` is a list of whole numbers".to_owned();
+    let list = members.get("handles").and_then(Value::as_array).ok_or_else(wrong)?;
+    if list.len() > MOST_HANDLES {
+        return Err(format!("`handles` has at most {MOST_HANDLES} items"));
+    }
+    list.iter().map(Value::as_i64).collect::<Option<_>>().ok_or_else(wrong)
+}
+
+fn text(members: &Members, name: &str) -> Result<String, String> {
+    let text = members.get(name).and_then(Value::as_str).ok_or_else(|| format!("`{name}` is a text"))?;
+    if text.len() > LONGEST_TEXT {
+        return Err(format!("`{name}` is too long"));
+    }
+    Ok(text.to_owned())
+}
+
+fn flag(members: &Members, name: &str) -> Result<bool, String> {
+    members.get(name).and_then(Value::as_bool).ok_or_else(|| format!("`{name}` is true or false"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Action, String> {
+        Request::parse(text.as_bytes()).map(|request| request.action).map_err(|refusal| refusal.reason)
+    }
+
+    #[test]
+    fn requests_of_the_protocol() {
+        assert_eq!(parse(r#"{"id":1,"do":"play"}"#), Ok(Action::Play));
+        assert_eq!(parse(r#"{"id":1,"do":"step"}"#), Ok(Action::Step(1)));
+        assert_eq!(parse(r#"{"id":1,"do":"speed","factor":0}"#), Ok(Action::Speed(0.0)));
+        assert_eq!(parse(r#"{"id":1,"do":"select","handles":[3,4]}"#), Ok(Action::Select(vec![3, 4])));
+        assert_eq!(parse(r#"{"id":1,"do":"inspect","handle":-1}"#), Ok(Action::Inspect(None)));
+        assert_eq!(parse(r#"{"id":1,"do":"inspect","handle":-13}"#), Ok(Action::Inspect(Some(-13))));
+        let refusal = Request::parse(br#"{"id":7.5,"do":"explode"}"#).unwrap_err();
+        assert_eq!((refusal.id, refusal.reason.as_str()), (7.5.into(), "unknown request: explode"));
+    }
+
+    #[test]
+    fn what_is_none_is_refused_with_a_reason() {
+        let deep = "[".repeat(100_000);
+        for text in [
+            "",
+            "null",
+            "[]",
+            "{}",
+            deep.as_str(),
+            r#"{"id":"1","do":"play"}"#,
+            r#"{"id":1}"#,
+            r#"{"id":1,"do":5}"#,
+            r#"{"id":1,"do":"step","count":0}"#,
+            r#"{"id":1,"do":"step","count":1e99}"#,
+            r#"{"id":1,"do":"speed","factor":-1}"#,
+            r#"{"id":1,"do":"speed","factor":1e999}"#,
+            r#"{"id":1,"do":"select","handles":[1,"2"]}"#,
+            r#"{"id":1,"do":"inspect","handle":1.5}"#,
+            r#"{"id":1,"do":"set","handle":1,"name":"a"}"#,
+            r#"{"id":1,"do":"run"}"#,
+        ] {
+            assert!(parse(text).is_err_and(|reason| !reason.is_empty()), "{}", shortened(text));
+        }
+        assert!(Request::parse(&[0xff, 0xfe]).is_err());
+    }
+
+    #[test]
+    fn any_bytes_are_a_request_or_none() {
+        let good = br#"{"id":1,"do":"set","handle":3,"name":"alias","value":[1,2.5,"x",null]}"#;
+        for at in 0..good.len() {
+            for byte in 0..=255 {
+                let mut bytes = good.to_vec();
+                bytes[at] = byte;
+                let _ = Request::parse(&bytes);
+            }
+        }
+    }
+}

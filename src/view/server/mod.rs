@@ -1,0 +1,151 @@
+//! The server of the viewer: what its threads and the simulation's thread share, addresses, and one visitor for each page.
+
+mod assets;
+mod site;
+mod visitor;
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use serde_json::{Value, json};
+
+use super::mirror::Mirror;
+use super::request::Action;
+pub(crate) use site::ViewSite;
+
+/// Requests that wait for the simulation; more are refused.
+const MOST_REQUESTS: usize = 1000;
+
+/// Number of a page, as long as it is connected.
+pub(crate) type PageId = u64;
+
+/// What pages and simulation share. Locks are held for moments only.
+#[derive(Default)]
+pub(crate) struct Shared {
+    mirror: Mutex<Mirror>,
+    demand: Mutex<Demand>,
+    requests: Mutex<VecDeque<Pending>>,
+    arrived: Condvar,
+    is_read_only: bool,
+    /// Why the simulator ends, once it does.
+    end: Mutex<Option<String>>,
+}
+
+/// What pages want to see beyond what all see.
+#[derive(Default)]
+pub(crate) struct Demand {
+    pages: BTreeMap<PageId, PageDemand>,
+    opened: PageId,
+}
+
+#[derive(Debug, Clone, Default)]
+pub(crate) struct PageDemand {
+    pub sensors: BTreeSet<i64>,
+    pub inspected: Option<i64>,
+    pub contacts: bool,
+}
+
+/// A request on its way to the simulation.
+pub(crate) struct Pending {
+    pub id: Value,
+    pub action: Action,
+    pub replies: Arc<Mutex<VecDeque<String>>>,
+}
+
+impl Pending {
+    /// Answers; the page gets it when it is woken.
+    pub(crate) fn answer(&self, result: Result<Value, String>) {
+        lock(&self.replies).push_back(reply(&self.id, result));
+    }
+}
+
+/// The reply to a request.
+fn reply(id: &Value, result: Result<Value, String>) -> String {
+    match result {
+        Ok(result) => json!({ "type": "reply", "id": id, "result": result }),
+        Err(error) => json!({ "type": "reply", "id": id, "error": error }),
+    }
+    .to_string()
+}
+
+/// Data behind these locks are whole at any time, also after a panic of somebody who held one.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Shared {
+    pub(crate) fn new(is_read_only: bool) -> Self {
+        Self { is_read_only, ..Self::default() }
+    }
+
+    pub(crate) fn mirror(&self) -> MutexGuard<'_, Mirror> {
+        lock(&self.mirror)
+    }
+
+    /// Whether any page is connected.
+    pub(crate) fn has_pages(&self) -> bool {
+        !lock(&self.demand).pages.is_empty()
+    }
+
+    /// What all pages together want.
+    pub(crate) fn demand(&self) -> (PageDemand, BTreeSet<i64>) {
+        let demand = lock(&self.demand);
+        let mut all = PageDemand::default();
+        let mut inspected = BTreeSet::new();
+        for page in demand.pages.values() {
+            all.sensors.extend(&page.sensors);
+            all.contacts |= page.contacts;
+            inspected.extend(page.inspected);
+        }
+        (all, inspected)
+    }
+
+    /// The next request; waits for one up to a time limit.
+    pub(crate) fn next_request(&self, patience: Duration) -> Option<Pending> {
+        let mut requests = lock(&self.requests);
+        if requests.is_empty() && !patience.is_zero() {
+            let waited = self.arrived.wait_timeout(requests, patience);
+            requests = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+        requests.pop_front()
+    }
+
+    /// A request waits for the simulation; false when there is no room.
+    fn submit(&self, pending: Pending) -> bool {
+        let mut requests = lock(&self.requests);
+        let has_room = requests.len() < MOST_REQUESTS;
+        if has_room {
+            requests.push_back(pending);
+            self.arrived.notify_one();
+        }
+        has_room
+    }
+
+    /// The simulator ends: pages are told why.
+    pub(crate) fn end(&self, reason: &str) {
+        lock(&self.end).get_or_insert_with(|| reason.to_owned());
+    }
+
+    fn end_reason(&self) -> Option<String> {
+        lock(&self.end).clone()
+    }
+
+    fn add_page(&self) -> PageId {
+        let mut demand = lock(&self.demand);
+        demand.opened += 1;
+        let page = demand.opened;
+        demand.pages.insert(page, PageDemand::default());
+        page
+    }
+
+    fn change_demand(&self, page: PageId, change: impl FnOnce(&mut PageDemand)) {
+        if let Some(demand) = lock(&self.demand).pages.get_mut(&page) {
+            change(demand);
+        }
+    }
+
+    fn remove_page(&self, page: PageId) {
+        lock(&self.demand).pages.remove(&page);
+    }
+}

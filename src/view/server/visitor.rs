@@ -1,0 +1,135 @@
+//! One page: what it has seen, its requests, the replies.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::{Arc, Mutex};
+
+use serde_json::{Value, json};
+
+use super::{PageId, Pending, Shared, lock, reply};
+use crate::io::{SiteMessage, Visitor};
+use crate::view::mirror::{Message, Revision};
+use crate::view::request::{Action, Request};
+
+/// A connected page.
+pub(super) struct Page {
+    id: PageId,
+    shared: Arc<Shared>,
+    seen: Revision,
+    /// What it watches, with the revision of the last image.
+    watched: BTreeMap<i64, Revision>,
+    inspected: Option<(i64, Revision)>,
+    /// The last contacts, while they are shown.
+    contacts: Option<Revision>,
+    replies: Arc<Mutex<VecDeque<String>>>,
+}
+
+impl Page {
+    pub(super) fn new(shared: Arc<Shared>) -> Self {
+        let id = shared.add_page();
+        Self { id, shared, seen: 0, watched: BTreeMap::new(), inspected: None, contacts: None, replies: Arc::default() }
+    }
+
+    /// Carries out what concerns only this page; otherwise returns what is for the simulation.
+    fn perform(&mut self, request: Request) -> Result<Option<Request>, String> {
+        if self.shared.is_read_only && request.action.changes_something() {
+            return Err("this page may only read".to_owned());
+        }
+        match &request.action {
+            Action::Watch(handles) => {
+                self.watched =
+                    handles.iter().map(|handle| (*handle, self.watched.get(handle).copied().unwrap_or(0))).collect();
+                let sensors = self.watched.keys().copied().collect();
+                self.shared.change_demand(self.id, |demand| demand.sensors = sensors);
+            }
+            Action::Show { contacts } => {
+                self.contacts = contacts.then_some(0);
+                self.shared.change_demand(self.id, |demand| demand.contacts = *contacts);
+            }
+            Action::Inspect(handle) => {
+                let now = self.shared.mirror().revision();
+                self.inspected = handle.map(|handle| (handle, now));
+                self.shared.change_demand(self.id, |demand| demand.inspected = *handle);
+                return Ok(Some(request));
+            }
+            _ => return Ok(Some(request)),
+        }
+        lock(&self.replies).push_back(reply(&request.id, Ok(Value::Bool(true))));
+        Ok(None)
+    }
+
+    /// Images, contacts and values that this page asked for.
+    fn on_demand(&mut self) -> Vec<SiteMessage> {
+        let mut messages = Vec::new();
+        let mirror = self.shared.mirror();
+        for (sensor, seen) in &mut self.watched {
+            if let Some((revision, image)) = mirror.image_since(*sensor, *seen) {
+                *seen = revision;
+                messages.push(SiteMessage::Binary(image.to_vec()));
+            }
+        }
+        if let Some(seen) = &mut self.contacts
+            && let Some((revision, contacts)) = mirror.contacts_since(*seen)
+        {
+            *seen = revision;
+            messages.push(SiteMessage::Binary(contacts.to_vec()));
+        }
+        if let Some((handle, seen)) = &mut self.inspected
+            && let Some((revision, rows)) = mirror.rows_since(*handle, *seen)
+        {
+            *seen = revision;
+            let rows = rows.join(",");
+            messages.push(SiteMessage::Text(format!(
+                "{{\"type\":\"properties\",\"handle\":{handle},\"values\":[{rows}]}}"
+            )));
+        }
+        messages
+    }
+}
+
+impl Visitor for Page {
+    fn receive(&mut self, message: &[u8]) {
+        let outcome = match Request::parse(message) {
+            Ok(request) => {
+                let id = request.id.clone();
+                self.perform(request).map_err(|reason| (id, reason))
+            }
+            Err(refusal) => Err((refusal.id, refusal.reason)),
+        };
+        let refused = match outcome {
+            Ok(None) => None,
+            Ok(Some(Request { id, action })) => {
+                let replies = Arc::clone(&self.replies);
+                let accepted = self.shared.submit(Pending { id: id.clone(), action, replies });
+                (!accepted).then(|| (id, "the simulator has too many requests to answer".to_owned()))
+            }
+            Err(refused) => Some(refused),
+        };
+        if let Some((id, reason)) = refused {
+            lock(&self.replies).push_back(reply(&id, Err(reason)));
+        }
+    }
+
+    fn messages(&mut self) -> Vec<SiteMessage> {
+        let changes = self.shared.mirror().changes_since(self.seen);
+        let mut messages = Vec::new();
+        if let Some(changes) = changes {
+            self.seen = changes.revision;
+            messages.extend(changes.messages().into_iter().map(|message| match message {
+                Message::Text(text) => SiteMessage::Text(text),
+                Message::Binary(bytes) => SiteMessage::Binary(bytes),
+            }));
+        }
+        messages.extend(self.on_demand());
+        messages.extend(lock(&self.replies).drain(..).map(SiteMessage::Text));
+        if let Some(reason) = self.shared.end_reason() {
+            messages.push(SiteMessage::Text(json!({ "type": "end", "reason": reason }).to_string()));
+        }
+        messages
+    }
+}
+
+impl Drop for Page {
+    fn drop(&mut self) {
+        self.shared.remove_page(self.id);
+    }
+}

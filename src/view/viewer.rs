@@ -1,0 +1,212 @@
+//! The simulation's side of the viewer: between iterations it answers requests, and shows what changed.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::net::{SocketAddr, TcpListener};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::mirror::Demanded;
+use super::observe::{Observer, Source};
+use super::perform::{perform, rows};
+use super::request::Action;
+use super::server::{Shared, ViewSite};
+use crate::Simulator;
+use crate::io::SiteServer;
+use crate::scene::Handle;
+use crate::script::log::RecentLine;
+use crate::script::step::wall_clock;
+
+/// Time between two observations: 60 a second.
+const FRAME: Duration = Duration::from_micros(16_600);
+/// The same for images, at most 10 a second.
+const IMAGE: Duration = Duration::from_millis(100);
+/// The same for values of properties, at most 5 a second.
+const VALUES: Duration = Duration::from_millis(200);
+
+/// Shows a simulator to pages. They are told of the end when this is dropped.
+pub(crate) struct Viewer {
+    observer: Observer,
+    shared: Arc<Shared>,
+    server: SiteServer,
+    token: String,
+    is_read_only: bool,
+    /// Lines of the log that are not shown yet.
+    lines: Vec<RecentLine>,
+    frame: Timer,
+    images: Timer,
+    values: Timer,
+    /// What of a sensor's image was shown last: time and length do not tell, so the bytes are compared.
+    shown: BTreeMap<i64, Vec<u8>>,
+}
+
+/// Says when something is due again.
+#[derive(Default)]
+struct Timer(Option<Instant>);
+
+impl Timer {
+    fn is_due(&mut self, now: Instant, pause: Duration) -> bool {
+        let due = self.0.is_none_or(|last| now.duration_since(last) >= pause);
+        if due {
+            self.0 = Some(now);
+        }
+        due
+    }
+}
+
+impl Viewer {
+    /// Serves pages that connect to `listener`. With `is_read_only` they cannot change anything.
+    ///
+    /// # Errors
+    /// When the server cannot start.
+    pub(crate) fn start(sim: &Simulator, listener: TcpListener, is_read_only: bool) -> io::Result<Self> {
+        let token = ViewSite::new_token()?;
+        let shared = Arc::new(Shared::new(is_read_only));
+        let site = ViewSite::new(Arc::clone(&shared), token.clone());
+        let server = SiteServer::start(listener, |_| site)?;
+        sim.keep_recent_lines();
+        Ok(Self {
+            observer: Observer::default(),
+            shared,
+            server,
+            token,
+            is_read_only,
+            lines: Vec::new(),
+            frame: Timer::default(),
+            images: Timer::default(),
+            values: Timer::default(),
+            shown: BTreeMap::new(),
+        })
+    }
+
+    /// Where the page is.
+    pub(crate) fn url(&self) -> String {
+        format!("http://{}/{}/", self.address(), self.token)
+    }
+
+    /// An address that a browser can connect to, also where the server listens at all of the machine's.
+    fn address(&self) -> SocketAddr {
+        let mut address = self.server.address();
+        if address.ip().is_unspecified() {
+            address.set_ip(if address.is_ipv4() { [127, 0, 0, 1].into() } else { [0, 0, 0, 0, 0, 0, 0, 1].into() });
+        }
+        address
+    }
+
+    /// Answers requests, waiting up to `patience` for the first, and shows what changed if it is time for that.
+    pub(crate) fn attend(&mut self, sim: &mut Simulator, patience: Duration) {
+        let mut patience = patience;
+        let mut answered = false;
+        while let Some(pending) = self.shared.next_request(patience) {
+            patience = Duration::ZERO;
+            answered = true;
+            let result = perform(sim, &pending.action, &mut self.lines);
+            pending.answer(result);
+            // Code may run for long; what it did is shown before the next request.
+            if matches!(pending.action, Action::Run(_)) {
+                break;
+            }
+        }
+        if self.frame.is_due(wall_clock::now(), FRAME) || answered {
+            self.show(sim);
+        }
+        if answered {
+            self.server.waker().wake();
+        }
+    }
+
+    /// Shows what changed since the last time; nothing while there are no pages.
+    fn show(&mut self, sim: &Simulator) {
+        self.lines.extend(sim.take_recent_lines());
+        let surplus = self.lines.len().saturating_sub(super::mirror::LOG_LINES);
+        self.lines.drain(..surplus);
+        if !self.shared.has_pages() {
+            self.observer.pause();
+            return;
+        }
+        let lines = std::mem::take(&mut self.lines);
+        let seen = {
+            let scene = sim.scene();
+            let source = Source { is_read_only: self.is_read_only, ..Source::of(sim, &scene) };
+            self.observer.observe(&source, &lines)
+        };
+        let found = self.find_demanded(sim);
+        let changed = {
+            let mut mirror = self.shared.mirror();
+            let changed = mirror.apply(seen);
+            mirror.apply_demanded(found) || changed
+        };
+        if changed {
+            self.server.waker().wake();
+        }
+    }
+
+    /// What some pages ask for.
+    fn find_demanded(&mut self, sim: &Simulator) -> Demanded {
+        let (demand, inspected) = self.shared.demand();
+        let now = wall_clock::now();
+        let mut found = Demanded::default();
+        if !demand.sensors.is_empty() && self.images.is_due(now, IMAGE) {
+            self.shown.retain(|sensor, _| demand.sensors.contains(sensor));
+            found.images = demand.sensors.iter().filter_map(|sensor| self.new_image(sim, *sensor)).collect();
+        }
+        if demand.contacts {
+            found.contacts = Some(contacts(sim));
+        }
+        if self.values.is_due(now, VALUES) {
+            self.shared.mirror().forget_unwanted(&inspected, &demand.sensors);
+            found.rows = inspected.iter().filter_map(|handle| Some((*handle, values(sim, *handle)?))).collect();
+        }
+        found
+    }
+
+    /// The image of a sensor as a message, if it is another one than was shown.
+    fn new_image(&mut self, sim: &Simulator, sensor: i64) -> Option<(i64, Vec<u8>)> {
+        let scene = sim.scene();
+        let object = scene.object(Handle::from_raw(sensor)?).ok()?.vision_sensor().ok()?;
+        let pixels = object.image();
+        if self.shown.get(&sensor).is_some_and(|shown| **shown == *pixels) {
+            return None;
+        }
+        self.shown.insert(sensor, pixels.to_vec());
+        let [width, height] = object.view.resolution;
+        let mut message = vec![2, 0, 0, 0];
+        message.extend_from_slice(&(sensor as i32).to_le_bytes());
+        message.extend_from_slice(&width.to_le_bytes());
+        message.extend_from_slice(&height.to_le_bytes());
+        message.extend_from_slice(&sim.time().to_le_bytes());
+        let row = 3 * width as usize;
+        pixels.chunks_exact(row).rev().for_each(|row| message.extend_from_slice(row));
+        Some((sensor, message))
+    }
+}
+
+impl Drop for Viewer {
+    fn drop(&mut self) {
+        self.shared.end("The simulator has ended.");
+        self.server.waker().wake();
+    }
+}
+
+/// The contacts of the last sub-step as a message.
+fn contacts(sim: &Simulator) -> Vec<u8> {
+    let contacts = sim.last_contacts();
+    let mut message = vec![3, 0, 0, 0];
+    message.extend_from_slice(&(contacts.len() as u32).to_le_bytes());
+    message.extend_from_slice(&sim.time().to_le_bytes());
+    for contact in &contacts {
+        for shape in contact.shapes {
+            message.extend_from_slice(&(shape.raw() as i32).to_le_bytes());
+        }
+        for number in contact.point.iter().chain(&contact.normal).chain(&contact.force) {
+            message.extend_from_slice(&(*number as f32).to_le_bytes());
+        }
+    }
+    message
+}
+
+/// Names and rows of the properties of an object that is inspected; None when it is gone.
+fn values(sim: &Simulator, handle: i64) -> Option<Vec<(String, String)>> {
+    let rows = rows(sim, handle).ok()?;
+    Some(rows.into_iter().map(|(name, row)| (name, row.to_string())).collect())
+}
