@@ -15,12 +15,19 @@ LIMIT = 60  # seconds for anything: browsers are slow
 OPTIONS = """--headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking
 --disable-component-update --disable-sync --disable-dev-shm-usage --remote-debugging-port=0""".split()
 
+# Pages that draw with WebGL: the graphics processor is computed.
+WITH_WEBGL = [option for option in OPTIONS if option != "--disable-gpu"] + [
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+]
+
 
 class Browser:
-    def __init__(self, program):
+    def __init__(self, program, options=OPTIONS):
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.process = subprocess.Popen(
-            [program, *OPTIONS, f"--user-data-dir={self.folder.name}", "about:blank"],
+            [program, *options, f"--user-data-dir={self.folder.name}", "about:blank"],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )

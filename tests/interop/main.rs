@@ -13,5 +13,6 @@ mod simzmq;
 mod sockets;
 #[path = "../support/mod.rs"]
 mod support;
+mod view;
 mod web;
 mod zmq;

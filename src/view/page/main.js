@@ -55,7 +55,7 @@ class Page {
     addEventListener('keydown', (event) => this._key(event, actions));
     if (this.renderer) this.controls = new Controls(this.renderer, { select: (hit, more) => this._clicked(hit, more), focus: (hit) => this._focused(hit), hover: (hit, x, y) => this.overlay.hover(hit, x, y), moved: () => (this.followed = null) });
     this.store.on('scene', () => (document.title = this.store.scene.name ? `${this.store.scene.name} – Swanilda` : 'Swanilda'));
-    this.store.on('objects', () => this._frameFirst());
+    this.store.on('poses', () => this._frameFirst());
   }
 
   _key(event, actions) {

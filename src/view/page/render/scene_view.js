@@ -201,13 +201,13 @@ export class SceneView {
     return this.bounds(shown.map(({ handle }) => handle));
   }
 
-  /** A flat shape, larger than what stands on it. */
+  /** A flat shape as large as a floor: not what one wants to look at. */
   isFloor({ handle, boundingBox }) {
     const pose = this.store.poses.get(handle);
     if (!boundingBox || !pose) return false;
     const box = this.bounds([handle]);
     const [width, depth, height] = box.high.map((x, i) => x - box.low[i]);
-    return Math.min(width, depth) > 1.5 && height < 0.05 * Math.min(width, depth) && box.high[2] < 0.05;
+    return Math.min(width, depth) > 2.1 && height < 0.05 * Math.min(width, depth) && box.high[2] < 0.05;
   }
 
   /** Whether a floor covers the grid's plane. */
