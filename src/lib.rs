@@ -13,6 +13,7 @@ pub mod scene;
 pub mod script;
 mod simulator;
 pub mod testing;
+mod ui;
 mod view;
 pub(crate) mod wire;
 

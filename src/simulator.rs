@@ -7,6 +7,7 @@ mod journal_tests;
 mod language_tests;
 mod picture;
 mod run;
+mod ui;
 mod viewing;
 
 use std::cell::{Ref, RefMut};

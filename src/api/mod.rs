@@ -66,6 +66,7 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Serial ports", files::serial::FUNCTIONS),
     ("Programs", files::program::FUNCTIONS),
     ("Consoles, messages of the interface, semaphores", display::auxiliary_console::FUNCTIONS),
+    ("Text editors", display::text_editor::FUNCTIONS),
     ("User parameters", old::user_param::FUNCTIONS),
     ("Octrees and point clouds", sensors::voxels::FUNCTIONS),
     ("Objects in octrees and point clouds", sensors::voxel_objects::FUNCTIONS),

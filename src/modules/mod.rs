@@ -10,6 +10,7 @@ mod sim_convex;
 mod sim_geom;
 mod sim_im;
 mod sim_subprocess;
+mod sim_ui;
 mod sim_vision;
 mod sim_ws;
 pub(crate) mod sim_zmq;
@@ -39,6 +40,7 @@ pub(crate) static ALL: &[&Module] = &[
     &sim_geom::MODULE,
     &sim_im::MODULE,
     &sim_subprocess::MODULE,
+    &sim_ui::MODULE,
     &sim_vision::MODULE,
     &sim_ws::MODULE,
     &sim_zmq::MODULE,

@@ -70,6 +70,12 @@ pub enum ApiError {
     Other(String),
 }
 
+impl From<crate::ui::UiError> for ApiError {
+    fn from(error: crate::ui::UiError) -> Self {
+        Self::Other(error.to_string())
+    }
+}
+
 fn article(word: &str) -> &'static str {
     if word.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" }
 }

@@ -193,6 +193,31 @@ function M.endDialog(handle) return 0 end
 -- @return result sim.dlgret_still_open
 function M.getDialogResult(handle) return sim.dlgret_still_open end
 
+--- A message with buttons, as simUI.msgBox.
+-- @api int returnValue = sim.msgBox(int dlgType, int buttons, string title, string message)
+-- @param dlgType sim.msgbox_type_*
+-- @param buttons sim.msgbox_buttons_*
+-- @param title of the window
+-- @param message in it
+-- @return returnValue sim.msgbox_return_*
+function M.msgBox(dlgType, buttons, title, message)
+    return require('simUI').msgBox(dlgType, buttons, title, message)
+end
+
+--- Asks for a file, as simUI.fileDialog.
+-- @api string pathAndName = sim.fileDialog(int mode, string title, string startPath, string initName, string extName, string ext)
+-- @param mode sim.filedlg_type_*
+-- @param title of the window
+-- @param startPath the folder to begin with
+-- @param initName the name to begin with
+-- @param extName what the extensions are called
+-- @param ext extensions without dots, with semicolons between them
+-- @return pathAndName nil if cancelled; several with semicolons between them
+function M.fileDialog(mode, title, startPath, initName, extName, ext)
+    local files = require('simUI').fileDialog(mode, title, startPath, initName, extName, ext)
+    if #files > 0 then return table.concat(files, ';') end
+end
+
 ---------------------------------------------------------------- custom user interfaces of V-REP
 
 --- Handle of a custom user interface of V-REP; there are none.

@@ -31,6 +31,18 @@ Scripts: s = t.script('/Robot/controller')
     s:stub(name, ...)           the function returns these values; s:spy(name) lets it be. Both return a spy of luassert
     s:kill()                    ends the script as a crash would
 
+Windows of scripts (simUI): w = t.ui('Title')
+    w:click(widget)             a button, radio button or check box
+    w:set(widget, value)        a slider, spin box, edit, check box, combo box (index or text), tabs; w:value(widget) reads it
+    w:enter(widget, text)       sets an edit and ends editing with return
+    w:select(widget, ...)       a row and a column of a table, an item of a tree; w:cell(widget, row, column, text) changes a cell
+    w:link(widget, href), w:key(widget, key, text), w:close(), w:title(), w:is_open(), w:is_enabled(widget), w:is_visible(widget), w:id(widget)
+                                Widgets are named by their id, the name of their id (`id="${speed}"`), their text, the label before them, or the function
+                                they call. Handlers run at once
+    t.answer(dialog, value)     the answer to the next dialog: 'msgBox' ('ok', 'yes', 'no', 'cancel'), 'fileDialog' (a path, or a list), 'colorDialog'
+                                ({r, g, b}), 'inputDialog' (a text); false cancels
+    t.dialogs()                 the dialogs that were shown: kind, title, text, answer
+
 Messages and logs
     t.signal(name[, value])     reads or sends a signal: a number, a whole number or a string; false clears it
     t.message(data)             broadcasts a message (sysCall_msg)
@@ -229,6 +241,19 @@ function t.script(script)
 end
 
 function Script:kill() native.kill(self.handle) end
+
+---------------------------------------------------------------- windows of scripts
+
+local windows = require('swanilda.test.windows')
+
+function t.ui(title) return windows.find(native, title, t._checkErrors) end
+
+function t.answer(dialog, value)
+    local ok, reason = pcall(native.answer, dialog, value)
+    if not ok then error(windows.reason(reason), 2) end
+end
+
+function t.dialogs() return native.dialogs() end
 
 ---------------------------------------------------------------- messages and logs
 

@@ -1,6 +1,6 @@
 //! `sim.*`: auxiliary consoles, messages of the user interface, semaphores.
 //!
-//! There are no windows: the text of a console goes to the log at a high verbosity, and there is no input.
+//! The text of a console goes to a window that pages show, and to the log at a high verbosity. There is no input.
 
 use api_macro::api;
 
@@ -22,13 +22,13 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// Bit of the mode of a console: it closes at the end of the simulation.
 const CLOSES_AT_END: i64 = 1;
 
-/// Opens a console. What is printed to it goes to the log under its title, at the level infos: `--verbosity infos` shows it.
+/// Opens a console. Pages show it; what is printed to it goes to the log too, under its title, at the level infos: `--verbosity infos` shows it.
 ///
 /// @param title of the window
-/// @param maxLines the window's, without effect
-/// @param mode 1: it closes at the end of the simulation; other bits are the window's
-/// @param position the window's, without effect
-/// @param size the window's, without effect
+/// @param maxLines how many lines stay
+/// @param mode 1: it closes at the end of the simulation; other bits have no effect
+/// @param position of the window, pixels
+/// @param size of the window, pixels
 /// @param textColor the window's, without effect
 /// @param backgroundColor the window's, without effect
 /// @return consoleHandle
@@ -37,14 +37,17 @@ const CLOSES_AT_END: i64 = 1;
 fn auxiliary_console_open(
     cx: &mut Cx,
     title: String,
-    #[default(0)] _max_lines: Number,
+    #[default(0)] max_lines: Number,
     #[default(0)] mode: Number,
-    #[default(None)] _position: Option<[f64; 2]>,
-    #[default(None)] _size: Option<[f64; 2]>,
+    #[default(None)] position: Option<[f64; 2]>,
+    #[default(None)] size: Option<[f64; 2]>,
     #[default(None)] _text_color: Option<[f64; 3]>,
     #[default(None)] _background_color: Option<[f64; 3]>,
 ) -> Result<i64> {
-    let console = AuxiliaryConsole { title, closes_at_end: mode.0 & CLOSES_AT_END != 0 };
+    let pixels = |pair: Option<[f64; 2]>| pair.map(|pair| pair.map(|number| number as i64));
+    let window = cx.change_ui(|ui| ui.open_console(&title, pixels(position), pixels(size)));
+    let lines = usize::try_from(max_lines.0).unwrap_or(0);
+    let console = AuxiliaryConsole { title, closes_at_end: mode.0 & CLOSES_AT_END != 0, lines, window };
     Ok(cx.app_mut().consoles.open(console))
 }
 
@@ -54,23 +57,26 @@ fn auxiliary_console_open(
 /// @param text nil to clear the window
 /// @return result 1, or 0 if there is no such console
 #[api("sim.auxiliaryConsolePrint")]
-fn auxiliary_console_print(cx: &Cx, console_handle: i64, #[default(None)] text: Option<Bytes>) -> Result<i64> {
-    let Some(title) = cx.app().consoles.title(console_handle) else { return Ok(0) };
-    if let Some(Bytes(text)) = text {
-        let text = String::from_utf8_lossy(&text);
+fn auxiliary_console_print(cx: &mut Cx, console_handle: i64, #[default(None)] text: Option<Bytes>) -> Result<i64> {
+    let Some(console) = cx.app().consoles.get(console_handle).cloned() else { return Ok(0) };
+    let text = text.map(|Bytes(text)| String::from_utf8_lossy(&text).into_owned());
+    cx.change_ui(|ui| ui.print_to_console(&console.window, text.as_deref(), console.lines))?;
+    if let Some(text) = text {
+        let title = console.title;
         cx.env().log(verbosity::INFOS, &format!("{title}: {}", text.trim_end_matches('\n')));
     }
     Ok(1)
 }
 
-/// Shows or hides a console, which has no effect here.
+/// Shows or hides a console.
 ///
 /// @param consoleHandle from sim.auxiliaryConsoleOpen
 /// @param showState true to show it
 /// @return result 1, or 0 if there is no such console
 #[api("sim.auxiliaryConsoleShow")]
-fn auxiliary_console_show(cx: &Cx, console_handle: Number, _show_state: bool) -> Result<i64> {
-    Ok(i64::from(cx.app().consoles.title(console_handle.0).is_some()))
+fn auxiliary_console_show(cx: &mut Cx, console_handle: Number, show_state: bool) -> Result<i64> {
+    let window = cx.app().consoles.get(console_handle.0).map(|console| console.window.clone());
+    Ok(i64::from(window.is_some_and(|window| cx.change_ui(|ui| ui.set_visible(&window, show_state)).is_ok())))
 }
 
 /// Closes a console.
@@ -79,7 +85,8 @@ fn auxiliary_console_show(cx: &Cx, console_handle: Number, _show_state: bool) ->
 /// @return result 1, or 0 if there is no such console
 #[api("sim.auxiliaryConsoleClose")]
 fn auxiliary_console_close(cx: &mut Cx, console_handle: Number) -> Result<i64> {
-    Ok(i64::from(cx.app_mut().consoles.close(console_handle.0)))
+    let closed = cx.app_mut().consoles.close(console_handle.0);
+    Ok(i64::from(closed.is_some_and(|console| cx.change_ui(|ui| ui.destroy(&console.window)).is_ok())))
 }
 
 /// The next message of the user interface. There is none without a window.

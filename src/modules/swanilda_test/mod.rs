@@ -1,6 +1,7 @@
 //! The native part of `swanilda.test`: control of the simulator by a test.
 
 mod run;
+mod windows;
 
 use std::rc::Rc;
 
@@ -10,7 +11,8 @@ use super::{ApiError, ApiFn, Cx, Module, Result, functions};
 use crate::scene::{Data, Handle, Key};
 use crate::script::test_bench::{ConsoleLine, Golden, GoldenContent, Snapshot, TestBench, Tolerances, Trace};
 
-pub(super) static MODULE: Module = Module { inner: &[FUNCTIONS, run::FUNCTIONS], ..Module::new("swanilda.test") };
+pub(super) static MODULE: Module =
+    Module { inner: &[FUNCTIONS, run::FUNCTIONS, windows::FUNCTIONS], ..Module::new("swanilda.test") };
 
 const FUNCTIONS: &[ApiFn] = functions![is_test, iterate, errors, lines, kill, file, time_limit, golden, image];
 

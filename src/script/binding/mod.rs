@@ -66,7 +66,8 @@ fn call_function(stack: Stack<'_>, number: usize) -> Result<c_int, String> {
     if let Some(replacement) = bound.replacement {
         env.warn_deprecated(number, || deprecation_notice(&bound.name, replacement));
     }
-    let result = (bound.function.call)(&mut Args::new(stack)).map_err(|error| error_text(&error, stack, &bound.name));
+    let result = (bound.function.call)(&mut Args::new(stack))
+        .map_err(|error| error_text(&bound.worded(error), stack, &bound.name));
     if bound.function.mutates {
         env.collect_events();
     }

@@ -28,6 +28,8 @@ pub struct Module {
     /// The folder of Lua files whose functions `M.name` are members, each loaded when one of its functions is first used.
     pub lua_members: Option<&'static str>,
     pub hooks: Hooks,
+    /// Whether wrong arguments are refused in the words that plugins of CoppeliaSim have in common.
+    pub plugin_errors: bool,
 }
 
 impl Module {
@@ -45,6 +47,7 @@ impl Module {
             old_names: "",
             lua_members: None,
             hooks: Hooks::NONE,
+            plugin_errors: false,
         }
     }
 

@@ -39,6 +39,23 @@ pub(crate) struct Missing {
     name: &'static str,
 }
 
+impl Bound {
+    /// The error in the words of the module the function belongs to.
+    pub(crate) fn worded(&self, error: ApiError) -> ApiError {
+        match error {
+            ApiError::MoreArguments if self.plugin_errors => ApiError::Other("not enough arguments".into()),
+            ApiError::NotA { position, .. } if self.plugin_errors => {
+                let parameter = usize::try_from(position - 1).ok().and_then(|place| self.function.params.get(place));
+                parameter.map_or(error, |parameter| {
+                    let expected = parameter.ty.split('[').next().unwrap_or_default();
+                    ApiError::Other(format!("read in arg {position} ({}): expected {expected}", parameter.name))
+                })
+            }
+            _ => error,
+        }
+    }
+}
+
 impl Missing {
     pub(crate) fn error(&self) -> ApiError {
         ApiError::NotImplemented(format!("{}.{}", self.module, self.name))
@@ -52,6 +69,8 @@ pub(crate) struct Bound {
     pub function: &'static ApiFn,
     /// The replacement of a deprecated name; empty without one.
     pub replacement: Option<&'static str>,
+    /// As of its module.
+    pub plugin_errors: bool,
 }
 
 /// A member of a module.
@@ -212,7 +231,7 @@ impl Registry {
             self.add_function(&mut namespace, function, &deprecated);
         }
         for function in module.inner.iter().copied().flatten() {
-            let id = self.add(function.name.into(), function, None);
+            let id = self.add(function.name.into(), function, None, namespace.module.plugin_errors);
             namespace.inner.push((last_part(function.name), id));
         }
         self.add_aliases(&mut namespace, &deprecated);
@@ -233,8 +252,9 @@ impl Registry {
         name: Cow<'static, str>,
         function: &'static ApiFn,
         replacement: Option<&'static str>,
+        plugin_errors: bool,
     ) -> FunctionId {
-        self.functions.push(Bound { name, function, replacement });
+        self.functions.push(Bound { name, function, replacement, plugin_errors });
         FunctionId(self.functions.len() - 1)
     }
 
@@ -245,11 +265,12 @@ impl Registry {
         deprecated: &HashMap<&str, &'static str>,
     ) {
         if !function.name.contains('.') {
-            let id = self.add(function.name.into(), function, None);
+            let id = self.add(function.name.into(), function, None, namespace.module.plugin_errors);
             return self.globals.push((function.name, id));
         }
         let member = last_part(function.name);
-        let id = self.add(function.name.into(), function, deprecated.get(member).copied());
+        let id =
+            self.add(function.name.into(), function, deprecated.get(member).copied(), namespace.module.plugin_errors);
         namespace.members.insert(member, Member::Native(id));
         namespace.listed.push(member);
     }
@@ -261,7 +282,7 @@ impl Registry {
             let member = match namespace.get(new).filter(|_| old != new).or(global) {
                 Some(Member::Native(id)) => {
                     let name = format!("{}.{old}", namespace.module.name).into();
-                    Member::Native(self.add(name, self.bound(id).function, replacement))
+                    Member::Native(self.add(name, self.bound(id).function, replacement, namespace.module.plugin_errors))
                 }
                 Some(Member::Lua { file, function, .. }) => Member::Lua { file, function, replacement },
                 Some(Member::Constant(_) | Member::Missing(_)) | None => continue,

@@ -42,5 +42,5 @@ fn call_native(runtime: &Runtime, bound: &Bound, args: &[Data]) -> ApiResult<Vec
     if bound.function.mutates {
         runtime.env.collect_events();
     }
-    results
+    results.map_err(|error| bound.worded(error))
 }

@@ -5,6 +5,7 @@ pub(in crate::script) mod callback;
 pub(in crate::script) mod data_changes;
 pub(in crate::script) mod dispatch;
 pub(in crate::script) mod handler;
+mod ui_events;
 pub(in crate::script) mod vision;
 
 use std::rc::Rc;

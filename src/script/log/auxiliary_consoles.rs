@@ -1,12 +1,17 @@
-//! Auxiliary consoles of scripts (`sim.auxiliaryConsoleOpen`), without windows.
+//! Auxiliary consoles of scripts (`sim.auxiliaryConsoleOpen`).
 
 use std::collections::BTreeMap;
 
-/// The parts of a console that matter without a window.
+/// An open console.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct AuxiliaryConsole {
     pub title: String,
     /// It is open until the end of the simulation only.
     pub closes_at_end: bool,
+    /// The lines it keeps.
+    pub lines: usize,
+    /// The handle of its window.
+    pub window: String,
 }
 
 /// The open ones, by handle.
@@ -24,17 +29,21 @@ impl AuxiliaryConsoles {
         handle
     }
 
-    /// Title of an open console.
-    pub(crate) fn title(&self, handle: i64) -> Option<String> {
-        self.open.get(&handle).map(|console| console.title.clone())
+    /// An open console.
+    pub(crate) fn get(&self, handle: i64) -> Option<&AuxiliaryConsole> {
+        self.open.get(&handle)
     }
 
-    /// Returns whether it was open.
-    pub(crate) fn close(&mut self, handle: i64) -> bool {
-        self.open.remove(&handle).is_some()
+    /// The console that was open until now.
+    pub(crate) fn close(&mut self, handle: i64) -> Option<AuxiliaryConsole> {
+        self.open.remove(&handle)
     }
 
-    pub(crate) fn end_simulation(&mut self) {
+    /// Closes those that last as long as the simulation; the handles of their windows.
+    pub(crate) fn end_simulation(&mut self) -> Vec<String> {
+        let windows = self.open.values().filter(|console| console.closes_at_end).map(|console| console.window.clone());
+        let windows = windows.collect();
         self.open.retain(|_, console| !console.closes_at_end);
+        windows
     }
 }

@@ -37,6 +37,7 @@ impl Sim {
         }
         self.remove_delayed();
         self.save_app_storage();
+        self.deliver_ui_events();
     }
 
     fn step_if_due(self: &Rc<Self>) {
@@ -247,7 +248,7 @@ impl Sim {
             self.deliver_to(group, SysCall::AfterSimulation, &[]);
         }
         self.restart_failed_customization_scripts();
-        self.app.borrow_mut().consoles.end_simulation();
+        self.close_consoles();
         self.run_hooks(|hooks| hooks.end_of_simulation);
         self.log_status(status::STOPPED);
     }

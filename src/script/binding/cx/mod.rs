@@ -12,6 +12,7 @@ mod properties;
 mod scripts;
 mod sensors;
 mod simulation;
+mod ui;
 mod vision;
 
 use std::cell::{Ref, RefMut};

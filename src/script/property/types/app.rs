@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::rc::Rc;
 
 use geometry::pose::quaternion_to_array;
 
@@ -17,6 +18,7 @@ use crate::script::log::auxiliary_consoles::AuxiliaryConsoles;
 use crate::script::log::verbosity;
 use crate::script::sim::{Options, Sim};
 use crate::script::video::Videos;
+use crate::ui::Ui;
 
 /// Data that scripts store in the application.
 #[derive(Default)]
@@ -42,6 +44,8 @@ pub(crate) struct AppData {
     pub idle_params: IdleParams,
     pub consoles: AuxiliaryConsoles,
     pub videos: Videos,
+    /// The windows of scripts.
+    pub ui: Rc<RefCell<Ui>>,
 }
 
 /// Parameters of the user interface and the like, by number.

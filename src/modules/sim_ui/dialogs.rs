@@ -1,0 +1,235 @@
+//! `simUI.*`: dialogs, banners, keyboard and clipboard. A dialog is answered at once: as a test has left it, else by its usual button.
+
+use api_macro::api;
+
+use super::arguments::Texts;
+use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::Data;
+use crate::script::Table;
+use crate::script::log::verbosity;
+use crate::ui::{Banner, DialogKind};
+
+pub(super) const FUNCTIONS: &[ApiFn] = functions![
+    msg_box,
+    file_dialog,
+    color_dialog,
+    input_dialog,
+    banner_create,
+    banner_destroy,
+    get_keyboard_modifiers,
+    set_clipboard_text,
+    qt_version,
+];
+
+/// simUI.msgbox_result, in the order of their numbers.
+const RESULTS: [&str; 4] = ["cancel", "no", "yes", "ok"];
+/// By simUI.msgbox_buttons: the usual answer, and those there are.
+const BUTTONS: [(i64, &[i64]); 4] = [(3, &[3]), (1, &[2, 1]), (0, &[2, 1, 0]), (0, &[3, 0])];
+
+/// The answer that was left for a dialog, if there is one.
+fn left_answer(cx: &mut Cx, kind: DialogKind) -> Option<Data> {
+    cx.change_ui(|ui| ui.dialogs.take_answer(kind))
+}
+
+/// Notes a dialog for pages and tests, and logs it.
+fn note(cx: &mut Cx, kind: DialogKind, title: &str, text: &str, answer: &str) {
+    cx.change_ui(|ui| {
+        ui.dialogs.note(kind, title, text, answer.to_owned());
+        ui.touch();
+    });
+    cx.env().log(verbosity::SCRIPT_INFOS, &format!("{} '{title}': {text} (answer: {answer})", kind.name()));
+}
+
+/// Shows a message and waits for a button. Without a person, the answer is the usual one: ok; no; cancel; cancel. The message goes to the log.
+///
+/// @param type simUI.msgbox_type
+/// @param buttons simUI.msgbox_buttons
+/// @param title
+/// @param message
+/// @return result simUI.msgbox_result
+#[api("simUI.msgBox")]
+fn msg_box(cx: &mut Cx, r#type: i64, buttons: i64, title: String, message: String) -> Result<i64> {
+    let _ = r#type;
+    let place = usize::try_from(buttons).ok();
+    let (usual, possible) = place.and_then(|place| BUTTONS.get(place)).copied().unwrap_or(BUTTONS[0]);
+    let result = match left_answer(cx, DialogKind::Message) {
+        Some(answer) => button_of(&answer, possible)?,
+        None => usual,
+    };
+    note(cx, DialogKind::Message, &title, &message, RESULTS[result as usize]);
+    Ok(result)
+}
+
+/// The button an answer means.
+fn button_of(answer: &Data, possible: &[i64]) -> Result<i64> {
+    let result = match answer {
+        Data::Int(number) => Some(*number),
+        Data::Text(name) => (0..).zip(RESULTS).find(|(_, known)| known.as_bytes() == name).map(|(number, _)| number),
+        _ => None,
+    };
+    result.filter(|result| possible.contains(result)).ok_or_else(|| {
+        let names: Vec<&str> = possible.iter().map(|number| RESULTS[*number as usize]).collect();
+        ApiError::Other(format!("the answer left for msgBox is none of its buttons: {}", names.join(", ")))
+    })
+}
+
+/// Asks for files. Without a person: none.
+///
+/// @param type simUI.filedialog_type
+/// @param title
+/// @param startPath the folder to begin with
+/// @param initName the name to begin with
+/// @param extName what the extensions are called
+/// @param ext extensions without dots, with semicolons between them
+/// @param native without effect
+/// @return result paths; empty if cancelled
+#[api("simUI.fileDialog")]
+#[allow(clippy::too_many_arguments, reason = "the reference's signature")]
+fn file_dialog(
+    cx: &mut Cx,
+    r#type: i64,
+    title: String,
+    start_path: String,
+    init_name: String,
+    ext_name: String,
+    ext: String,
+    #[default(false)] native: bool,
+) -> Result<Vec<String>> {
+    let _ = (r#type, ext_name, native);
+    let text = |data: &Data| match data {
+        Data::Text(bytes) => Some(String::from_utf8_lossy(bytes).into_owned()),
+        _ => None,
+    };
+    let files: Vec<String> = match left_answer(cx, DialogKind::File) {
+        Some(Data::Array(paths)) => paths.iter().filter_map(text).collect(),
+        Some(path) => text(&path).into_iter().collect(),
+        None => Vec::new(),
+    };
+    let asked = [start_path, init_name, ext].join(" ");
+    note(cx, DialogKind::File, &title, asked.trim(), &files.join(", "));
+    Ok(files)
+}
+
+/// Asks for a colour. Without a person: none.
+///
+/// @param initColor the colour to begin with: red, green, blue, and maybe opacity, 0 to 1
+/// @param title
+/// @param showAlphaChannel whether opacity can be chosen
+/// @param native without effect
+/// @return result red, green, blue, and opacity if it could be chosen, 0 to 1; nil if cancelled
+#[api("simUI.colorDialog")]
+fn color_dialog(
+    cx: &mut Cx,
+    #[default(vec![1.0;3])] init_color: Vec<f64>,
+    #[default("Select color")] title: String,
+    #[default(false)] show_alpha_channel: bool,
+    #[default(true)] native: bool,
+) -> Result<Data> {
+    let _ = native;
+    if !(3..=4).contains(&init_color.len()) {
+        return Err(ApiError::Other("read in arg 1 (initColor): must have 3 to 4 elements".into()));
+    }
+    let parts = if show_alpha_channel { 4 } else { 3 };
+    let color = match left_answer(cx, DialogKind::Color) {
+        Some(Data::Array(mut color)) => {
+            color.resize(parts, Data::Float(1.0));
+            Data::Array(color)
+        }
+        _ => Data::Nil,
+    };
+    let answer = if color == Data::Nil { "cancel" } else { "ok" };
+    note(cx, DialogKind::Color, &title, "", answer);
+    Ok(color)
+}
+
+/// Asks for a text. Without a person: none.
+///
+/// @param initValue the text to begin with
+/// @param label what it is
+/// @param title
+/// @return result nil if cancelled
+#[api("simUI.inputDialog")]
+fn input_dialog(
+    cx: &mut Cx,
+    #[default("")] init_value: String,
+    #[default("Input value:")] label: String,
+    #[default("")] title: String,
+) -> Result<Data> {
+    let _ = init_value;
+    let entry = match left_answer(cx, DialogKind::Input) {
+        Some(Data::Text(entry)) => Some(entry),
+        Some(Data::Int(number)) => Some(number.to_string().into_bytes()),
+        Some(Data::Float(number)) => Some(number.to_string().into_bytes()),
+        _ => None,
+    };
+    let answer = entry.as_ref().map_or("cancel".into(), |entry| String::from_utf8_lossy(entry).into_owned());
+    note(cx, DialogKind::Input, &title, &label, &answer);
+    Ok(entry.map_or(Data::Nil, Data::Text))
+}
+
+/// Shows a line of text with buttons above all windows.
+///
+/// @param text
+/// @param btnKeys what the callback gets; a single close without them
+/// @param btnLabels what is written on the buttons; the keys without them
+/// @param callback the name of a function, called with the banner and the key; without one any button removes the banner
+/// @return id
+#[api("simUI.bannerCreate")]
+fn banner_create(
+    cx: &mut Cx,
+    text: String,
+    btn_keys: Option<Texts>,
+    btn_labels: Option<Texts>,
+    callback: Option<String>,
+) -> Result<i64> {
+    let keys = btn_keys.map_or_else(|| vec!["close".to_owned()], |keys| keys.0);
+    let labels = btn_labels.map_or_else(|| keys.clone(), |labels| labels.0);
+    if labels.len() != keys.len() {
+        return Err(ApiError::Other("btnKeys and btnLabels must have the same number of elements".into()));
+    }
+    let buttons = keys.into_iter().zip(labels).map(|(key, label)| [key, label]).collect();
+    let banner = Banner { id: 0, text, buttons, callback: callback.unwrap_or_default(), owner: cx.script().id };
+    let id = cx.change_ui(|ui| {
+        ui.touch();
+        ui.dialogs.add_banner(banner)
+    });
+    cx.own_banner(id);
+    Ok(id)
+}
+
+/// Removes a banner.
+///
+/// @param id of simUI.bannerCreate
+#[api("simUI.bannerDestroy")]
+fn banner_destroy(cx: &mut Cx, id: i64) -> Result<()> {
+    let removed = cx.change_ui(|ui| {
+        ui.touch();
+        ui.dialogs.remove_banner(id)
+    });
+    if removed { Ok(()) } else { Err(ApiError::Other("invalid id".into())) }
+}
+
+/// The keys that are held down: those of the last input of a page or test.
+///
+/// @return m shift, control, alt
+#[api("simUI.getKeyboardModifiers")]
+fn get_keyboard_modifiers(cx: &Cx) -> Result<Table> {
+    Ok(Table(cx.read_ui(|ui| ui.modifiers.data())))
+}
+
+/// Keeps a text, as the clipboard of a desktop would.
+///
+/// @param text
+#[api("simUI.setClipboardText")]
+fn set_clipboard_text(cx: &mut Cx, text: String) -> Result<()> {
+    cx.change_ui(|ui| ui.clipboard = text);
+    Ok(())
+}
+
+/// The version of Qt that CoppeliaSim is built with. There is no Qt here.
+///
+/// @return version 5, 15, 2
+#[api("simUI.qtVersion")]
+fn qt_version(_cx: &Cx) -> Result<Vec<i64>> {
+    Ok(vec![5, 15, 2])
+}

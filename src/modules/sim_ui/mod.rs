@@ -1,0 +1,37 @@
+//! The native part of `simUI` (`lua/modules/simUI.lua`): windows of scripts. Windows and widgets are in `crate::ui`; nothing is drawn here.
+
+mod arguments;
+mod boxes;
+mod dialogs;
+mod headers;
+mod pictures;
+mod plots;
+mod properties;
+mod scene3d;
+mod tables;
+mod trees;
+mod values;
+mod windows;
+
+use super::Module;
+
+pub(super) static MODULE: Module = Module {
+    about: "Windows with buttons, sliders, tables and plots.",
+    functions: &[
+        ("Windows", windows::FUNCTIONS),
+        ("Buttons, numbers and texts", values::FUNCTIONS),
+        ("Choices", boxes::FUNCTIONS),
+        ("Tables", tables::FUNCTIONS),
+        ("Columns of tables and trees", headers::FUNCTIONS),
+        ("Trees", trees::FUNCTIONS),
+        ("Plots", plots::FUNCTIONS),
+        ("Pictures", pictures::FUNCTIONS),
+        ("Properties", properties::FUNCTIONS),
+        ("Scenes in windows", scene3d::FUNCTIONS),
+        ("Dialogs", dialogs::FUNCTIONS),
+    ],
+    inner: &[windows::INNER],
+    constants: include_str!("constants.tsv"),
+    plugin_errors: true,
+    ..Module::new("simUI")
+};

@@ -1,0 +1,164 @@
+//! Dialogs that block a script, and banners. Without a person there are answers that were left beforehand, else the usual ones.
+
+use std::collections::VecDeque;
+
+use serde_json::{Value, json};
+
+use super::window::Event;
+use crate::scene::Data;
+
+/// Dialogs that are remembered.
+const MAX_SHOWN: usize = 100;
+/// Answers that may wait.
+const MAX_ANSWERS: usize = 1000;
+
+/// What a dialog asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum DialogKind {
+    Message,
+    File,
+    Color,
+    Input,
+}
+
+impl DialogKind {
+    const ALL: [Self; 4] = [Self::Message, Self::File, Self::Color, Self::Input];
+
+    /// The name of the function that opens it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Message => "msgBox",
+            Self::File => "fileDialog",
+            Self::Color => "colorDialog",
+            Self::Input => "inputDialog",
+        }
+    }
+
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+}
+
+/// A dialog that was shown.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Shown {
+    /// Counts from 1.
+    pub number: u64,
+    pub kind: DialogKind,
+    pub title: String,
+    pub text: String,
+    pub answer: String,
+}
+
+/// A line of text above all windows, with buttons.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Banner {
+    pub id: i64,
+    pub text: String,
+    /// Key and label.
+    pub buttons: Vec<[String; 2]>,
+    /// The function to call, and the handle of its script.
+    pub callback: String,
+    pub owner: i64,
+}
+
+/// Dialogs and banners of a simulator.
+#[derive(Debug, Default)]
+pub(crate) struct Dialogs {
+    answers: VecDeque<(DialogKind, Data)>,
+    shown: VecDeque<Shown>,
+    count: u64,
+    banners: Vec<Banner>,
+    last_banner: i64,
+}
+
+impl Dialogs {
+    /// Leaves an answer for the next dialog of a kind without one.
+    ///
+    /// # Errors
+    /// When too many are waiting.
+    pub(crate) fn leave_answer(&mut self, kind: DialogKind, answer: Data) -> Result<(), String> {
+        if self.answers.len() >= MAX_ANSWERS {
+            return Err(format!("{MAX_ANSWERS} answers wait for dialogs already."));
+        }
+        self.answers.push_back((kind, answer));
+        Ok(())
+    }
+
+    /// The answer that was left for a dialog of this kind, if there is one.
+    pub(crate) fn take_answer(&mut self, kind: DialogKind) -> Option<Data> {
+        let at = self.answers.iter().position(|(of, _)| *of == kind)?;
+        self.answers.remove(at).map(|(_, answer)| answer)
+    }
+
+    /// Notes a dialog with its answer, for pages and tests.
+    pub(crate) fn note(&mut self, kind: DialogKind, title: &str, text: &str, answer: String) {
+        self.count += 1;
+        if self.shown.len() >= MAX_SHOWN {
+            self.shown.pop_front();
+        }
+        let (title, text) = (title.to_owned(), text.to_owned());
+        self.shown.push_back(Shown { number: self.count, kind, title, text, answer });
+    }
+
+    /// The dialogs that were shown; the oldest ones may be gone.
+    pub(crate) fn shown(&self) -> impl Iterator<Item = &Shown> {
+        self.shown.iter()
+    }
+
+    /// Shows a banner; its id.
+    pub(crate) fn add_banner(&mut self, banner: Banner) -> i64 {
+        self.last_banner += 1;
+        self.banners.push(Banner { id: self.last_banner, ..banner });
+        self.last_banner
+    }
+
+    pub(crate) fn has_banner(&self, id: i64) -> bool {
+        self.banners.iter().any(|banner| banner.id == id)
+    }
+
+    /// Whether there was such a banner.
+    pub(crate) fn remove_banner(&mut self, id: i64) -> bool {
+        let before = self.banners.len();
+        self.banners.retain(|banner| banner.id != id);
+        self.banners.len() != before
+    }
+
+    /// The event of a button of a banner; one without a callback goes away.
+    ///
+    /// # Errors
+    /// When there is no such button.
+    pub(super) fn press_banner(&mut self, id: i64, key: &str) -> Result<Option<Event>, String> {
+        let found = self.banners.iter().find(|banner| banner.id == id);
+        let banner = found.ok_or_else(|| format!("there is no banner {id}"))?.clone();
+        if !banner.buttons.iter().any(|[known, _]| known == key) {
+            return Err(format!("banner {id} has no button '{key}'"));
+        }
+        if banner.callback.is_empty() {
+            self.remove_banner(id);
+            return Ok(None);
+        }
+        let args = vec![Data::Int(id), Data::text(key)];
+        let (script, handler) = (banner.owner, banner.callback);
+        Ok(Some(Event { window: None, widget: None, script, handler, args, evaluates: false }))
+    }
+
+    pub(super) fn json(&self) -> Value {
+        let shown = |dialog: &Shown| {
+            json!({
+                "number": dialog.number, "kind": dialog.kind.name(), "title": dialog.title, "text": dialog.text,
+                "answer": dialog.answer,
+            })
+        };
+        self.shown.iter().map(shown).collect()
+    }
+
+    pub(super) fn banners_json(&self) -> Value {
+        let shown = |banner: &Banner| {
+            let button = |[key, label]: &[String; 2]| json!({"key": key, "label": label});
+            let buttons: Vec<Value> = banner.buttons.iter().map(button).collect();
+            json!({"id": banner.id, "text": banner.text, "buttons": buttons})
+        };
+        self.banners.iter().map(shown).collect()
+    }
+}

@@ -1,0 +1,28 @@
+//! The table of a property explorer.
+
+/// A row.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Property {
+    pub name: String,
+    pub type_name: String,
+    pub value: String,
+    /// Bits 0 and 1: it cannot be changed; -1: the title of a section; -3: a grey value.
+    pub flags: i64,
+    pub displayed_name: String,
+    pub displayed_value: String,
+    /// 1 for minus, 2 for plus.
+    pub icon: i64,
+    pub description: String,
+}
+
+/// Rows of names, types and values.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Properties {
+    pub rows: Vec<Property>,
+    /// -1 for none.
+    pub selected: i64,
+    /// Key and title of the entries of its menu.
+    pub menu: Vec<[String; 2]>,
+    /// Widths of the columns and the like, as scripts restore them.
+    pub state: Vec<u8>,
+}
