@@ -97,9 +97,8 @@ fn a_missing_plugin_is_named_in_one_line() {
         let output = Scene::new(code).run(&["--steps", "1", "--empty", "--quiet"]);
         assert_eq!(stdout(&output), format!("{said}\n"), "{code}: {}", stderr(&output));
     }
-    let library =
-        Scene::new("print(select(2, pcall(require, 'configUi')))").run(&["--steps", "1", "--empty", "--quiet"]);
-    assert!(stdout(&library).starts_with("configUi is a Lua module of CoppeliaSim"), "{}", stdout(&library));
+    let library = Scene::new("print(select(2, pcall(require, 'gcode')))").run(&["--steps", "1", "--empty", "--quiet"]);
+    assert!(stdout(&library).starts_with("gcode is a Lua module of CoppeliaSim"), "{}", stdout(&library));
     let unknown = Scene::new("require 'nobody.has.this'").run(&["--steps", "1", "--empty"]);
     assert!(stderr(&unknown).contains("no file"), "other names list the places: {}", stderr(&unknown));
 }
