@@ -206,16 +206,16 @@ function sim.auxFunc(cmd, ...) end
 ---@return integer result 1, or 0 if there is no such console
 function sim.auxiliaryConsoleClose(consoleHandle) end
 
---- Opens a console. What is printed to it goes to the log under its title, at the level infos: `--verbosity infos` shows it.
+--- Opens a console. Pages show it; what is printed to it goes to the log too, under its title, at the level infos: `--verbosity infos` shows it.
 ---@param title string of the window
----@param MaxLines? integer
----@param mode? integer 1: it closes at the end of the simulation; other bits are the window's
----@param Position? number[]
----@param Size? number[]
+---@param maxLines? integer how many lines stay
+---@param mode? integer 1: it closes at the end of the simulation; other bits have no effect
+---@param position? number[] of the window, pixels
+---@param size? number[] of the window, pixels
 ---@param TextColor? number[]
 ---@param BackgroundColor? number[]
 ---@return integer consoleHandle
-function sim.auxiliaryConsoleOpen(title, MaxLines, mode, Position, Size, TextColor, BackgroundColor) end
+function sim.auxiliaryConsoleOpen(title, maxLines, mode, position, size, TextColor, BackgroundColor) end
 
 --- Prints to a console.
 ---@param consoleHandle integer from sim.auxiliaryConsoleOpen
@@ -223,11 +223,11 @@ function sim.auxiliaryConsoleOpen(title, MaxLines, mode, Position, Size, TextCol
 ---@return integer result 1, or 0 if there is no such console
 function sim.auxiliaryConsolePrint(consoleHandle, text) end
 
---- Shows or hides a console, which has no effect here.
+--- Shows or hides a console.
 ---@param consoleHandle integer from sim.auxiliaryConsoleOpen
----@param ShowState boolean
+---@param showState boolean true to show it
 ---@return integer result 1, or 0 if there is no such console
-function sim.auxiliaryConsoleShow(consoleHandle, ShowState) end
+function sim.auxiliaryConsoleShow(consoleHandle, showState) end
 
 --- Bitwise and of the lower 16 bits.
 ---@param a integer number
@@ -698,6 +698,17 @@ function sim.executeScriptString(stringToExecute, scriptHandle) end
 --- Lets the idle loop run without pauses; it always does here, so this does nothing.
 ---@param enable boolean ignored
 function sim.fastIdleLoop(enable) end
+
+--- Asks for a file, as simUI.fileDialog.
+---@deprecated the simUI functionality
+---@param mode integer sim.filedlg_type_*
+---@param title string of the window
+---@param startPath string the folder to begin with
+---@param initName string the name to begin with
+---@param extName string what the extensions are called
+---@param ext string extensions without dots, with semicolons between them
+---@return string pathAndName nil if cancelled; several with semicolons between them
+function sim.fileDialog(mode, title, startPath, initName, extName, ext) end
 
 --- Adds a view to the page.
 ---@param posX number of its centre, 0 to 1
@@ -1978,7 +1989,7 @@ function sim.handleDynamics(deltaTime) end
 ---@return integer count how many scripts ran it
 function sim.handleEmbeddedScripts(callType, ...) end
 
---- Lets plugins of the original handle what came from outside. There are none; main scripts call it all the same.
+--- Calls the handlers of what came from outside: what persons did with windows (simUI). It happens at the end of each loop iteration anyway.
 function sim.handleExtCalls() end
 
 --- Records a slot: the values set on the streams, and gaps for the others.
@@ -2282,6 +2293,15 @@ function sim.moveToPose_step(motionObject) end
 ---@param velocity number limit
 ---@param acceleration? number limit; nil: none
 function sim.moveToPosition(object, relativeTo, position, angles, velocity, acceleration) end
+
+--- A message with buttons, as simUI.msgBox.
+---@deprecated the simUI functionality
+---@param dlgType integer sim.msgbox_type_*
+---@param buttons integer sim.msgbox_buttons_*
+---@param title string of the window
+---@param message string in it
+---@return integer returnValue sim.msgbox_return_*
+function sim.msgBox(dlgType, buttons, title, message) end
 
 --- Product of two matrices.
 ---@param matrixIn1 number[] left factor
@@ -3584,6 +3604,29 @@ function sim.switchThread() end
 ---@param key string|table its name
 ---@param acquire boolean true to acquire it, false to release it
 function sim.systemSemaphore(key, acquire) end
+
+--- Closes a text editor.
+---@param handle integer from sim.textEditorOpen
+---@return string text nothing if there is no such editor
+---@return integer[] pos pixels
+---@return integer[] size pixels
+function sim.textEditorClose(handle) end
+
+--- What a text editor shows.
+---@param handle integer from sim.textEditorOpen
+---@return any text nothing if there is no such editor
+function sim.textEditorGetInfo(handle) end
+
+--- Opens a text editor. Pages show it; tests reach it by its title (`t.ui`), its text is the widget 1.
+---@param initText string the text to begin with
+---@param properties? string an element in XML: title, editable, closeable, position, size, on-close (a function that gets text, position, size) count
+---@return integer handle
+function sim.textEditorOpen(initText, properties) end
+
+--- Shows or hides a text editor.
+---@param handle integer from sim.textEditorOpen
+---@param showState boolean true to show it
+function sim.textEditorShow(handle, showState) end
 
 --- Calls a function, but not more often than once per period; other calls do nothing.
 ---@param period number seconds of wall-clock time

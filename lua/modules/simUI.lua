@@ -12,14 +12,17 @@ local open = simUI.create
 
 ---------------------------------------------------------------- names in the text of a window
 
--- The value of a local variable of the function that has called `create`; nil where there is none, or its first one is nil or false.
-local function localOf(name, level)
-    if not debug.getinfo(level + 1, 'l') then return nil, false end
-    local i = 1
+-- Above a function that `create` calls: itself, `create`, and the function that has called it.
+local CALLER <const> = 3
+
+-- The local variables of the function that has called `create`: of several with a name, the first. A value is in a table, as it may be nil.
+local function localsOfCaller()
+    local found, i = {}, 1
+    if not debug.getinfo(CALLER, 'l') then return found end
     while true do
-        local known, value = debug.getlocal(level + 1, i)
-        if not known then return nil, false end
-        if known == name then return value, true end
+        local name, value = debug.getlocal(CALLER, i)
+        if not name then return found end
+        found[name] = found[name] or {value}
         i = i + 1
     end
 end
@@ -37,10 +40,12 @@ end
 -- @return uiHandle a text
 function simUI.create(xml)
     local names = {}
+    if xml == nil then return open() end
     if type(xml) == 'string' then
+        local locals = localsOfCaller()
         xml = xml:gsub('%${(.-)}', function(name)
-            local value, isLocal = localOf(name, 3)
-            if not isLocal then
+            local value = locals[name] and locals[name][1]
+            if not locals[name] then
                 value = rawget(_G, name)
                 value = value == nil and newId(name) or tostring(value)
             end

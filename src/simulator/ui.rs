@@ -24,7 +24,6 @@ impl Simulator {
     /// What is wrong with the request, or why it is refused: a widget that is disabled, a window that is gone. Nothing has changed then.
     pub fn ui_input(&mut self, input: &Value) -> Result<(), String> {
         let ui = self.sim.app.borrow().ui.clone();
-        let outcome = ui.borrow_mut().input(input);
-        outcome
+        ui.borrow_mut().input(input)
     }
 }

@@ -34,6 +34,18 @@
 ---     s:stub(name, ...)           the function returns these values; s:spy(name) lets it be. Both return a spy of luassert
 ---     s:kill()                    ends the script as a crash would
 ---
+--- Windows of scripts (simUI): w = t.ui('Title')
+---     w:click(widget)             a button, radio button or check box
+---     w:set(widget, value)        a slider, spin box, edit, check box, combo box (index or text), tabs; w:value(widget) reads it
+---     w:enter(widget, text)       sets an edit and ends editing with return
+---     w:select(widget, ...)       a row and a column of a table, an item of a tree; w:cell(widget, row, column, text) changes a cell
+---     w:link(widget, href), w:key(widget, key, text), w:close(), w:title(), w:is_open(), w:is_enabled(widget), w:is_visible(widget), w:id(widget)
+---                                 Widgets are named by their id, the name of their id (`id="${speed}"`), their text, the label before them, or the function
+---                                 they call. Handlers run at once
+---     t.answer(dialog, value)     the answer to the next dialog: 'msgBox' ('ok', 'yes', 'no', 'cancel'), 'fileDialog' (a path, or a list), 'colorDialog'
+---                                 ({r, g, b}), 'inputDialog' (a text); false cancels
+---     t.dialogs()                 the dialogs that were shown: kind, title, text, answer
+---
 --- Messages and logs
 ---     t.signal(name[, value])     reads or sends a signal: a number, a whole number or a string; false clears it
 ---     t.message(data)             broadcasts a message (sysCall_msg)
@@ -56,9 +68,13 @@ local t = {}
 ---@param allowed? boolean
 function t.allow_script_errors(allowed) end
 
+function t.answer(dialog, value) end
+
 ---@param time number
 ---@param fn function
 function t.at(time, fn) end
+
+function t.dialogs() end
 
 --- Number of uncaught script errors.
 ---@return integer count
@@ -146,5 +162,7 @@ function t.stop() end
 
 ---@return number time
 function t.time() end
+
+function t.ui(title) end
 
 return t

@@ -29,6 +29,7 @@ fn text_editor_open(cx: &mut Cx, init_text: String, #[default("")] properties: S
 /// @return pos pixels
 /// @return size pixels
 #[api("sim.textEditorClose")]
+#[allow(clippy::type_complexity, reason = "the reference reads the types of the results here")]
 fn text_editor_close(cx: &mut Cx, handle: Number) -> Result<(Option<String>, Option<Vec<i64>>, Option<Vec<i64>>)> {
     let state = cx.change_ui(|ui| ui.close_editor(handle.0));
     let (text, position, size, _) = parts(state);

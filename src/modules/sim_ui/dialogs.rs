@@ -112,7 +112,7 @@ fn file_dialog(
 
 /// Asks for a colour. Without a person: none.
 ///
-/// @param initColor the colour to begin with: red, green, blue, and maybe opacity, 0 to 1
+/// @param initColor the colour to begin with: red, green, blue, and maybe opacity, 0 to 1; white without it
 /// @param title
 /// @param showAlphaChannel whether opacity can be chosen
 /// @param native without effect
@@ -120,13 +120,13 @@ fn file_dialog(
 #[api("simUI.colorDialog")]
 fn color_dialog(
     cx: &mut Cx,
-    #[default(vec![1.0;3])] init_color: Vec<f64>,
+    init_color: Option<Vec<f64>>,
     #[default("Select color")] title: String,
     #[default(false)] show_alpha_channel: bool,
     #[default(true)] native: bool,
 ) -> Result<Data> {
     let _ = native;
-    if !(3..=4).contains(&init_color.len()) {
+    if init_color.is_some_and(|color| !(3..=4).contains(&color.len())) {
         return Err(ApiError::Other("read in arg 1 (initColor): must have 3 to 4 elements".into()));
     }
     let parts = if show_alpha_channel { 4 } else { 3 };

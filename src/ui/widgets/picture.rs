@@ -16,7 +16,7 @@ pub(crate) struct Image {
 }
 
 /// A transparent picture has no more pixels.
-pub(super) const MAX_PIXELS: usize = 1 << 26;
+pub(super) const MAX_PIXELS: usize = 1 << 24;
 
 impl Image {
     /// A transparent picture; nothing for a size that is not positive.

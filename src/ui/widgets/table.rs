@@ -115,7 +115,7 @@ impl Table {
         if !(0..=self.row_count).contains(&at) {
             return;
         }
-        self.row_count += 1;
+        self.row_count = self.row_count.saturating_add(1);
         self.remap(|(row, column)| if row >= at { (row + 1, column) } else { (row, column) });
         self.copy(|(row, column)| (row == at + 1).then_some((at, column)));
     }
@@ -124,7 +124,7 @@ impl Table {
         if !(0..=self.column_count).contains(&at) {
             return;
         }
-        self.column_count += 1;
+        self.column_count = self.column_count.saturating_add(1);
         self.remap(|(row, column)| if column >= at { (row, column + 1) } else { (row, column) });
         self.copy(|(row, column)| (column == at + 1).then_some((row, at)));
     }

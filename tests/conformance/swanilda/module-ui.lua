@@ -18,16 +18,15 @@ function changed(...) print('changed', select(2, ...), select(3, ...)) end
 
 function sysCall_init()
     print(reason(simUI.create, '<ui'))
-    print(reason(simUI.create))
     print(reason(simUI.setTitle, 5, 'x'))
     local k = 77
-    local u = C '<label id="${lab}" text="hi"/><label id="${k}"/><hslider id="1" minimum="-5" maximum="5"/>'
+    local u = C '<label id="${lab}" text="hi"/><label id="${k}"/><hslider id="5" minimum="-5" maximum="5"/>'
     print(math.type(lab), simUI.getLabelText(u, lab), simUI.getLabelText(u, 77) == '')
-    simUI.setSliderValue(u, 1, 99)
-    print(simUI.getSliderValue(u, 1), reason(simUI.getSliderValue, u, 99), reason(simUI.getSliderValue, u, 77))
+    simUI.setSliderValue(u, 5, 99)
+    print(simUI.getSliderValue(u, 5), reason(simUI.getSliderValue, u, 99), reason(simUI.getSliderValue, u, 77))
     simUI.setTitle(u, 'Other')
     simUI.hide(u)
-    print(simUI.getTitle(u), simUI.isVisible(u), simUI.getWidgetVisibility(u, 1))
+    print(simUI.getTitle(u), simUI.isVisible(u), simUI.getWidgetVisibility(u, 5))
     simUI.destroy(u)
     print(reason(simUI.hide, u))
 

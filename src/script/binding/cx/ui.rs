@@ -38,14 +38,12 @@ impl Drop for Ownership {
 impl Cx<'_> {
     pub(crate) fn read_ui<T>(&self, read: impl FnOnce(&Ui) -> T) -> T {
         let ui = self.app().ui.clone();
-        let result = read(&ui.borrow());
-        result
+        read(&ui.borrow())
     }
 
     pub(crate) fn change_ui<T>(&mut self, change: impl FnOnce(&mut Ui) -> T) -> T {
         let ui = self.app().ui.clone();
-        let result = change(&mut ui.borrow_mut());
-        result
+        change(&mut ui.borrow_mut())
     }
 
     /// Destroys a window when the calling script ends.
