@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::mirror::Demanded;
-use super::observe::{Observer, Source};
+use super::observe::{ObservedWindows, Observer, Source};
 use super::perform::{perform, rows};
 use super::request::Action;
 use super::server::{Shared, ViewSite};
@@ -33,6 +33,8 @@ pub(crate) struct Viewer {
     is_read_only: bool,
     /// Lines of the log that are not shown yet.
     lines: Vec<RecentLine>,
+    /// The state of the interfaces of scripts that was shown.
+    windows_seen: u64,
     frame: Timer,
     images: Timer,
     values: Timer,
@@ -72,6 +74,7 @@ impl Viewer {
             token,
             is_read_only,
             lines: Vec::new(),
+            windows_seen: 0,
             frame: Timer::default(),
             images: Timer::default(),
             values: Timer::default(),
@@ -130,15 +133,24 @@ impl Viewer {
             let source = Source { is_read_only: self.is_read_only, ..Source::of(sim, &scene) };
             self.observer.observe(&source, &lines)
         };
+        let windows = self.new_windows(sim);
         let found = self.find_demanded(sim);
         let changed = {
             let mut mirror = self.shared.mirror();
-            let changed = mirror.apply(seen);
+            let mut changed = mirror.apply(seen);
+            changed |= windows.is_some_and(|windows| mirror.apply_windows(windows));
             mirror.apply_demanded(found) || changed
         };
         if changed {
             self.server.waker().wake();
         }
+    }
+
+    /// Interfaces of scripts that changed.
+    fn new_windows(&mut self, sim: &Simulator) -> Option<ObservedWindows> {
+        let changes = sim.ui_changes(self.windows_seen)?;
+        self.windows_seen = changes["revision"].as_u64().unwrap_or(0);
+        Some(ObservedWindows::of(&changes))
     }
 
     /// What some pages ask for.

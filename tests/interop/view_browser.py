@@ -126,6 +126,18 @@ def console_filters(browser):
     browser.evaluate(f"{box}.value = ''; {box}.dispatchEvent(new Event('input'))")
 
 
+WINDOW = """simUI = require 'simUI'
+function pressed(ui) simUI.setLabelText(ui, 2, '<b>pressed</b><img src=x onerror=hacked=1>') end
+simUI.create('<ui title="Panel"><button id="1" text="Press" on-click="pressed"/><label id="2" text="wait"/></ui>')"""
+
+
+def windows_of_scripts_are_forms(browser):
+    browser.evaluate(f"swanilda.source.request('run', {{code: {json.dumps(WINDOW)}}})")
+    browser.shows("document.querySelector('.window h2')?.textContent == 'Panel'", "the window")
+    browser.evaluate("document.querySelector('.window .ui-button').click()")
+    browser.shows("document.querySelector('.window .ui-label strong')?.textContent == 'pressed'", "the handler")
+
+
 def texts_stay_texts(browser):
     lines = "[...document.querySelectorAll('.console-lines .text')].map(text => text.textContent)"
     same("a printed text", browser.evaluate(f"{lines}.includes('<img src=x onerror=hacked=1>')"), True)
@@ -192,6 +204,7 @@ def main():
         edits_properties(browser)
         steps_plays_and_stops(browser)
         console_filters(browser)
+        windows_of_scripts_are_forms(browser)
         texts_stay_texts(browser)
         keys_work(browser)
         is_accessible(browser)

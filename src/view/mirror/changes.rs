@@ -26,6 +26,9 @@ pub(crate) struct Changes {
     pub(super) removed: Vec<i64>,
     pub(super) drawings: Vec<Arc<str>>,
     pub(super) removed_drawings: Vec<i64>,
+    pub(super) windows: Vec<Arc<str>>,
+    pub(super) removed_windows: Vec<String>,
+    pub(super) dialogs: Option<Arc<str>>,
     pub(super) selection: Option<Vec<i64>>,
     pub(super) log: Vec<Arc<str>>,
     /// A message.
@@ -51,6 +54,11 @@ impl Changes {
         self.list(&mut text, "removed", &self.removed);
         self.list(&mut text, "drawings", &self.drawings);
         self.list(&mut text, "removedDrawings", &self.removed_drawings);
+        self.list(&mut text, "windows", &self.windows);
+        self.list(&mut text, "removedWindows", &self.removed_windows);
+        if let Some(dialogs) = &self.dialogs {
+            member(&mut text, "dialogs", dialogs);
+        }
         if let Some(selection) = &self.selection {
             list(&mut text, "selection", selection);
         }

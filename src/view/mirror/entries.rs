@@ -1,22 +1,22 @@
-//! Entries by handle with the revision of their last change, and those that are gone.
+//! Entries by handle or name with the revision of their last change, and those that are gone.
 
 use std::collections::BTreeMap;
 
 use super::Revision;
 
-/// Handles of entries that are gone which are kept; a reader that has not heard of an older one begins anew.
+/// Keys of entries that are gone which are kept; a reader that has not heard of an older one begins anew.
 const MOST_REMOVED: usize = 10_000;
 
-/// Entries by handle.
-pub(super) struct Entries<T> {
-    present: BTreeMap<i64, (Revision, T)>,
-    removed: BTreeMap<i64, Revision>,
+/// Entries by handle or name.
+pub(super) struct Entries<K, T> {
+    present: BTreeMap<K, (Revision, T)>,
+    removed: BTreeMap<K, Revision>,
     last_change: Revision,
     /// The last removal that is not known any more.
     forgotten: Revision,
 }
 
-impl<T> Default for Entries<T> {
+impl<K, T> Default for Entries<K, T> {
     fn default() -> Self {
         Self { present: BTreeMap::new(), removed: BTreeMap::new(), last_change: 0, forgotten: 0 }
     }
@@ -30,18 +30,18 @@ pub(super) enum Inserted<T> {
     Same,
 }
 
-impl<T: PartialEq> Entries<T> {
-    pub(super) fn handles(&self) -> impl Iterator<Item = i64> {
-        self.present.keys().copied()
+impl<K: Ord + Clone, T: PartialEq> Entries<K, T> {
+    pub(super) fn keys(&self) -> impl Iterator<Item = K> {
+        self.present.keys().cloned()
     }
 
-    pub(super) fn insert(&mut self, handle: i64, entry: T, revision: Revision) -> Inserted<T> {
-        let inserted = match self.present.get_mut(&handle) {
+    pub(super) fn insert(&mut self, key: K, entry: T, revision: Revision) -> Inserted<T> {
+        let inserted = match self.present.get_mut(&key) {
             Some((_, present)) if *present == entry => return Inserted::Same,
             Some(present) => Inserted::Replaced(std::mem::replace(present, (revision, entry)).1),
             None => {
-                self.removed.remove(&handle);
-                self.present.insert(handle, (revision, entry));
+                self.removed.remove(&key);
+                self.present.insert(key, (revision, entry));
                 Inserted::New
             }
         };
@@ -49,9 +49,9 @@ impl<T: PartialEq> Entries<T> {
         inserted
     }
 
-    pub(super) fn remove(&mut self, handle: i64, revision: Revision) -> Option<T> {
-        let (_, entry) = self.present.remove(&handle)?;
-        self.removed.insert(handle, revision);
+    pub(super) fn remove(&mut self, key: K, revision: Revision) -> Option<T> {
+        let (_, entry) = self.present.remove(&key)?;
+        self.removed.insert(key, revision);
         self.last_change = revision;
         if self.removed.len() > MOST_REMOVED {
             self.forget_removals();
@@ -67,18 +67,18 @@ impl<T: PartialEq> Entries<T> {
         self.removed.retain(|_, revision| *revision > self.forgotten);
     }
 
-    /// Takes over new entries; with `all`, there are no others. Returns whether anything changed.
-    pub(super) fn apply(&mut self, entries: Vec<(i64, T)>, removed: &[i64], all: bool, revision: Revision) -> bool {
+    /// Takes over new entries, in the order of their keys; with `all`, there are no others. Returns whether anything changed.
+    pub(super) fn apply(&mut self, entries: Vec<(K, T)>, removed: &[K], all: bool, revision: Revision) -> bool {
         let mut gone = removed.to_vec();
         if all {
-            let there = |handle: &i64| entries.binary_search_by_key(handle, |(handle, _)| *handle).is_ok();
-            gone.extend(self.handles().filter(|handle| !there(handle)));
+            let there = |key: &K| entries.binary_search_by(|(known, _)| known.cmp(key)).is_ok();
+            gone.extend(self.keys().filter(|key| !there(key)));
         }
-        for handle in gone {
-            self.remove(handle, revision);
+        for key in gone {
+            self.remove(key, revision);
         }
-        for (handle, entry) in entries {
-            self.insert(handle, entry, revision);
+        for (key, entry) in entries {
+            self.insert(key, entry, revision);
         }
         self.changed_at(revision)
     }
@@ -92,17 +92,17 @@ impl<T: PartialEq> Entries<T> {
         self.forgotten
     }
 
-    /// Entries that changed after a revision, by handle.
+    /// Entries that changed after a revision, in the order of their keys.
     pub(super) fn since(&self, seen: Revision) -> impl Iterator<Item = &T> {
         let any = self.last_change > seen;
         let changed = self.present.values().filter(move |(revision, _)| *revision > seen);
         changed.take_while(move |_| any).map(|(_, entry)| entry)
     }
 
-    /// Handles of the entries that went after a revision and did not come back.
-    pub(super) fn removed_since(&self, seen: Revision) -> Vec<i64> {
+    /// Keys of the entries that went after a revision and did not come back.
+    pub(super) fn removed_since(&self, seen: Revision) -> Vec<K> {
         let newer = self.removed.iter().filter(|(_, revision)| **revision > seen);
-        newer.map(|(handle, _)| *handle).collect()
+        newer.map(|(key, _)| key.clone()).collect()
     }
 }
 

@@ -16,7 +16,7 @@ pub(crate) use on_demand::Demanded;
 use on_demand::OnDemand;
 
 use super::blobs::{Blob, Hash};
-use super::observe::{Observation, ObservedObject};
+use super::observe::{Observation, ObservedObject, ObservedWindows};
 
 /// Lines of the log that are kept.
 pub(crate) const LOG_LINES: usize = 10_000;
@@ -41,8 +41,11 @@ pub(crate) struct Mirror {
     begun: Revision,
     scene: (Revision, Arc<str>),
     time: f64,
-    objects: Entries<ObservedObject>,
-    drawings: Entries<Arc<str>>,
+    objects: Entries<i64, ObservedObject>,
+    drawings: Entries<i64, Arc<str>>,
+    /// Interfaces of scripts, by their identifiers in JSON.
+    windows: Entries<String, Arc<str>>,
+    dialogs: (Revision, Arc<str>),
     poses: Poses,
     selection: (Revision, Vec<i64>),
     log: VecDeque<(Revision, Arc<str>)>,
@@ -79,7 +82,7 @@ impl Mirror {
     fn apply_objects(&mut self, objects: Vec<(i64, ObservedObject)>, mut removed: Vec<i64>, all: bool, next: Revision) {
         if all {
             let there = |handle: &i64| objects.binary_search_by_key(handle, |(handle, _)| *handle).is_ok();
-            removed.extend(self.objects.handles().filter(|handle| !there(handle)));
+            removed.extend(self.objects.keys().filter(|handle| !there(handle)));
         }
         for handle in removed {
             if let Some(gone) = self.objects.remove(handle, next) {
@@ -99,6 +102,21 @@ impl Mirror {
         if self.objects.forgotten() > self.begun {
             self.begun = self.objects.forgotten();
         }
+    }
+
+    /// Takes over interfaces of scripts. Returns whether anything changed.
+    pub(crate) fn apply_windows(&mut self, seen: ObservedWindows) -> bool {
+        let next = self.revision + 1;
+        let mut changed = self.windows.apply(seen.windows, &seen.removed, seen.is_complete, next);
+        if *seen.dialogs != *self.dialogs.1 {
+            self.dialogs = (next, seen.dialogs);
+            changed = true;
+        }
+        self.begun = self.begun.max(self.windows.forgotten());
+        if changed {
+            self.revision = next;
+        }
+        changed
     }
 
     fn retain(&mut self, blob: &Arc<Blob>, next: Revision) {
@@ -167,6 +185,9 @@ impl Mirror {
             removed: if is_snapshot { Vec::new() } else { self.objects.removed_since(since) },
             drawings: self.drawings.since(since).cloned().collect(),
             removed_drawings: if is_snapshot { Vec::new() } else { self.drawings.removed_since(since) },
+            windows: self.windows.since(since).cloned().collect(),
+            removed_windows: if is_snapshot { Vec::new() } else { self.windows.removed_since(since) },
+            dialogs: newer(&self.dialogs),
             selection: (self.selection.0 > since || is_snapshot).then(|| self.selection.1.clone()),
             log: self.log.range(new_lines..).map(|(_, line)| Arc::clone(line)).collect(),
             poses: self.poses.since(since, self.time),

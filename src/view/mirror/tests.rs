@@ -126,3 +126,19 @@ fn the_log_is_bounded() {
     let lines = text["log"].as_array().unwrap();
     assert_eq!((lines.len(), &lines[0]), (LOG_LINES, &json!(LOG_LINES)));
 }
+
+#[test]
+fn windows_of_scripts_come_change_and_go() {
+    let windows = |changes: Value| ObservedWindows::of(&changes);
+    let mut mirror = mirror();
+    let first = mirror.revision();
+    let changes = json!({"complete": false, "windows": [{"id": "1:UI", "title": "a"}], "removed": [], "dialogs": []});
+    assert!(mirror.apply_windows(windows(changes.clone())));
+    assert!(!mirror.apply_windows(windows(changes)));
+    let second = mirror.revision();
+    let (text, _) = read(&mirror, first);
+    assert_eq!(text, json!({"type": "update", "windows": [{"id": "1:UI", "title": "a"}], "dialogs": []}));
+    assert_eq!(read(&mirror, 0).0["windows"], json!([{"id": "1:UI", "title": "a"}]));
+    assert!(mirror.apply_windows(windows(json!({"complete": true, "windows": [], "dialogs": []}))));
+    assert_eq!(read(&mirror, second).0, json!({"type": "update", "removedWindows": ["1:UI"]}));
+}

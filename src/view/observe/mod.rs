@@ -12,6 +12,7 @@ mod moved;
 mod scene;
 #[cfg(test)]
 mod tests;
+mod windows;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -23,6 +24,7 @@ use super::blobs::Blob;
 use meshes::Meshes;
 use moved::Moved;
 pub(crate) use scene::Source;
+pub(crate) use windows::ObservedWindows;
 
 /// Changes of what pages show.
 const SHOWN: Topics = Topics::TREE.with(Topic::Selection).with(Topic::Settings).with_fields(&[

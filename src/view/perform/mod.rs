@@ -39,10 +39,21 @@ pub(crate) fn perform(sim: &mut Simulator, action: &Action, lines: &mut Vec<Rece
             return Ok(json!({ "name": name, "language": language, "text": String::from_utf8_lossy(&text) }));
         }
         Action::Graph(handle) => return graph::curves(sim, *handle),
-        Action::Ui { .. } => return Err("interfaces of scripts are not shown by this version".to_owned()),
+        Action::Ui { window, widget, input } => sim.ui_input(&ui_input(window, widget, input)?)?,
         Action::Run(code) => return run(sim, code, lines).map(Value::String),
     }
     Ok(Value::Bool(true))
+}
+
+/// An input with the window and the widget that it concerns.
+fn ui_input(window: &Value, widget: &Value, input: &Value) -> Result<Value, String> {
+    let mut members = input.as_object().cloned().ok_or("`input` is an object")?;
+    for (name, value) in [("window", window), ("widget", widget)] {
+        if !value.is_null() {
+            members.insert(name.to_owned(), value.clone());
+        }
+    }
+    Ok(Value::Object(members))
 }
 
 /// Sets a property, with the function that scripts use.
