@@ -24,8 +24,10 @@ pub struct Material {
 /// Edges that are drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edges {
-    /// Edges whose faces differ in direction by more than this are drawn (rad), and borders of open meshes.
+    /// Edges whose faces differ in direction by this or more are drawn (rad), and those of more than two faces.
     pub angle: f64,
+    /// Whether the borders of open meshes are drawn too.
+    pub borders: bool,
     pub colour: [f32; 3],
     /// Pixels.
     pub width: f32,

@@ -43,6 +43,8 @@ pub(crate) struct Vision {
 /// Content and viewpoint of a picture.
 #[derive(Debug, Clone)]
 pub(crate) struct Shot {
+    /// The camera or vision sensor; none for a view from elsewhere.
+    pub viewer: Option<Handle>,
     /// In the world.
     pub pose: Pose,
     pub view: View,
@@ -72,7 +74,7 @@ impl Vision {
     /// A picture of the scene; its ids are handles of objects.
     pub(crate) fn picture(&mut self, scene: &Scene, shot: &Shot, channels: Channels) -> Picture {
         self.models.follow(scene);
-        let subjects = shot.subjects.objects(scene);
+        let subjects = shot.subjects.objects(scene, shot.viewer);
         let depth_apart = channels.depth && subjects.iter().any(|subject| subject.depth_invisible);
         let all: Vec<Handle> = subjects.iter().map(|subject| subject.handle).collect();
         if !depth_apart {

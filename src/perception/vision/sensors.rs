@@ -48,6 +48,7 @@ pub(super) fn sensor_shot(
     entity: Option<Entity>,
 ) -> SceneResult<Shot> {
     Ok(Shot {
+        viewer: Some(handle),
         pose: scene.world_pose(handle)?,
         view: sensor.view.clone(),
         subjects: Subjects::from(entity.unwrap_or(sensor.entity)),

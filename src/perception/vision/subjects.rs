@@ -33,8 +33,9 @@ impl From<Entity> for Subjects {
 }
 
 impl Subjects {
-    /// The objects, in the order of their handles. An object or collection that does not exist shows nothing.
-    pub(super) fn objects(self, scene: &Scene) -> Vec<Subject> {
+    /// The objects that a camera or vision sensor sees, in the order of their handles. An object or collection that does not exist shows
+    /// nothing.
+    pub(super) fn objects(self, scene: &Scene, viewer: Option<Handle>) -> Vec<Subject> {
         let candidates: Vec<&Object> = match self {
             Self::Visible | Self::Renderable => scene.objects().collect(),
             Self::Object(handle) => scene.object(handle).into_iter().collect(),
@@ -48,6 +49,7 @@ impl Subjects {
             has_looks(object)
                 && (!needs_flag || is_renderable(scene, object))
                 && scene.is_visible(object.handle()).unwrap_or(false)
+                && object.viewers.include(scene, viewer)
         };
         candidates.into_iter().filter(is_seen).map(Subject::new).collect()
     }

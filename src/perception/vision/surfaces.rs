@@ -132,7 +132,12 @@ fn material(looks: &Appearance, texture: Option<Texture>) -> Material {
     Material {
         culling: looks.culling,
         wireframe: looks.wireframe,
-        edges: looks.edges.then_some(Edges { angle: looks.edge_angle, colour: EDGE_COLOUR, width: EDGE_WIDTH }),
+        edges: looks.edges.then_some(Edges {
+            angle: looks.edge_angle,
+            borders: !looks.edge_borders_hidden,
+            colour: EDGE_COLOUR,
+            width: EDGE_WIDTH,
+        }),
         texture,
         ..of_colour(&looks.colour)
     }

@@ -6,10 +6,11 @@ use rendering::Channels;
 use super::{Picture, Vision};
 use crate::scene::appearance::texture::Texture;
 use crate::scene::appearance::texture_mapping::{ApplyMode, TextureMapping, TextureSource};
+use crate::scene::object::viewers::Viewers;
 use crate::scene::sensor::{Light, LightType, RenderMode, VisionOptions, VisionSensor};
 use crate::scene::shape::Shape;
 use crate::scene::voxels::octree::{OcTree, Voxel};
-use crate::scene::{CopyOptions, Field, Handle, Kind, Pose, Scene};
+use crate::scene::{CollectionItem, CopyOptions, Field, Handle, ItemOptions, Kind, Members, Pose, Scene};
 
 const GLOW: [f32; 3] = [1.0, 0.0, 0.0];
 
@@ -154,6 +155,38 @@ fn handles_are_listed_once_each() {
     let image = picture.image.unwrap();
     assert_eq!(image[120..123], [cubes[0].0 as u8, 0, 0]);
     assert!(studio.vision.sensor_picture(&studio.scene, cubes[0], None).is_err());
+}
+
+#[test]
+fn objects_are_seen_by_their_viewers_only() {
+    let mut studio = Studio::new();
+    let cube = studio.cube(2.0);
+    let (scene, sensor) = (&mut studio.scene, studio.sensor);
+    let other =
+        scene.add("other", Kind::VisionSensor(Box::new(VisionSensor::new(VisionOptions::empty(), [1, 1], None))));
+    let other = other.unwrap();
+    let collection = scene.collections_mut().add(false, None);
+    let item = CollectionItem::new(Members::Single(sensor), ItemOptions::empty());
+    scene.collections_mut().get_mut(collection).unwrap().items.push(item);
+    let cases = [
+        (Viewers::All, [true, true]),
+        (Viewers::None, [false, false]),
+        (Viewers::One(sensor), [true, false]),
+        (Viewers::One(other), [false, false]),
+        (Viewers::Collection(collection), [true, false]),
+        (Viewers::Collection(1), [false, false]),
+    ];
+    for (viewers, [by_sensor, from_elsewhere]) in cases {
+        studio.scene.modify(cube, Field::Other, |object| object.viewers = viewers).unwrap();
+        let elsewhere = studio.vision.view(&studio.scene, None, Some([64, 64]), Channels::IDS).unwrap();
+        assert_eq!(studio.middle().2.is_some(), by_sensor, "{viewers:?}");
+        assert_eq!(elsewhere.ids.contains(&cube.0), from_elsewhere, "{viewers:?}");
+    }
+    studio.scene.modify(cube, Field::Other, |object| object.viewers = Viewers::One(other)).unwrap();
+    let copies = studio.scene.copy_objects(&[other, cube], CopyOptions::empty()).unwrap();
+    assert_eq!(studio.scene.object(copies[&cube]).unwrap().viewers, Viewers::One(copies[&other]));
+    studio.scene.remove(&[other]).unwrap();
+    assert_eq!(studio.scene.object(cube).unwrap().viewers, Viewers::All);
 }
 
 #[test]

@@ -89,20 +89,21 @@ pub(crate) fn first_camera(scene: &Scene) -> Option<Handle> {
 
 fn shot(scene: &Scene, from: Option<Handle>) -> SceneResult<Shot> {
     let Some(handle) = from else {
-        let mut shot = camera_shot(overview(scene), Camera::default().view);
+        let mut shot = camera_shot(None, overview(scene), Camera::default().view);
         // As far as the scene reaches.
         shot.view.clipping[1] = shot.view.clipping[1].max(4.0 * shot.pose.translation.vector.norm());
         return Ok(shot);
     };
     match &scene.object(handle)?.kind {
-        Kind::Camera(camera) => Ok(camera_shot(scene.world_pose(handle)?, camera.view.clone())),
+        Kind::Camera(camera) => Ok(camera_shot(from, scene.world_pose(handle)?, camera.view.clone())),
         Kind::VisionSensor(sensor) => sensor_shot(scene, handle, sensor, None),
         _ => Err(SceneError::WrongType("camera")),
     }
 }
 
-fn camera_shot(pose: Pose, view: View) -> Shot {
+fn camera_shot(viewer: Option<Handle>, pose: Pose, view: View) -> Shot {
     Shot {
+        viewer,
         pose,
         view,
         subjects: Subjects::Visible,
@@ -125,7 +126,7 @@ fn overview(scene: &Scene) -> Pose {
 /// A ball around all that is visible.
 fn extent(scene: &Scene) -> (Point3<f64>, f64) {
     let mut corners: Vec<Point3<f64>> = Vec::new();
-    for subject in Subjects::Visible.objects(scene) {
+    for subject in Subjects::Visible.objects(scene, None) {
         let (Ok(object), Ok(pose)) = (scene.object(subject.handle), scene.world_pose(subject.handle)) else { continue };
         if object.object_property.contains(ObjectFlags::IGNORE_VIEW_FITTING) {
             continue;

@@ -8,11 +8,13 @@ pub(in crate::scene) mod identity;
 pub mod movement;
 pub(in crate::scene) mod objects;
 pub mod script_object;
+pub mod viewers;
 
 use assembly::Assembly;
 use dummy::Dummy;
 use flags::{DynamicFlags, Layers, ModelFlags, ObjectFlags, SpecialFlags};
 use script_object::{ExecutionPriority, ScriptObject};
+use viewers::Viewers;
 
 use crate::scene::appearance::colour::Colour;
 use crate::scene::graph::Graph;
@@ -48,6 +50,8 @@ pub struct Object {
     pub colour: Colour,
     /// How a user may move it.
     pub movement: Movement,
+    /// The cameras and vision sensors that see it.
+    pub viewers: Viewers,
     /// Number of the colour in the tree, -1 for none. Kept for scripts.
     pub hierarchy_colour: i64,
     /// Members of one collection whose numbers differ by one do not collide with each other.
@@ -183,6 +187,7 @@ impl Object {
             layer: kind.default_layer(),
             colour: kind.default_colour(),
             movement: Movement::default(),
+            viewers: Viewers::All,
             hierarchy_colour: -1,
             self_collision_indicator: 0,
             persistent_uid: String::new(),

@@ -183,6 +183,8 @@ pub struct Appearance {
     pub culling: bool,
     pub wireframe: bool,
     pub edges: bool,
+    /// Of the edges, those that belong to one triangle only are not seen.
+    pub edge_borders_hidden: bool,
     /// Radians.
     pub shading_angle: f64,
     pub edge_angle: f64,
@@ -197,6 +199,7 @@ impl Appearance {
             culling: false,
             wireframe: false,
             edges: false,
+            edge_borders_hidden: false,
             shading_angle: 30f64.to_radians(),
             edge_angle: 30f64.to_radians(),
         }

@@ -6,6 +6,7 @@ use bitflags::bitflags;
 
 use crate::scene::appearance::texture_mapping::TextureSource;
 use crate::scene::object::script_object::ScriptObject;
+use crate::scene::object::viewers::Viewers;
 use crate::scene::pose::placement::normalized;
 use crate::scene::sensor::Entity;
 use crate::scene::shape::Velocity;
@@ -163,6 +164,9 @@ fn redirect(object: &mut Object, copies: &BTreeMap<Handle, Handle>) {
         Kind::ProximitySensor(sensor) => sensor.entity = redirected_entity(sensor.entity, copies),
         Kind::VisionSensor(sensor) => sensor.entity = redirected_entity(sensor.entity, copies),
         _ => {}
+    }
+    if let Viewers::One(viewer) = object.viewers {
+        object.viewers = Viewers::One(copy_of(viewer).unwrap_or(viewer));
     }
     for handle in object.references.iter_mut().flat_map(|(_, list)| list.iter_mut()) {
         *handle = Handle::from_raw(*handle).and_then(copy_of).map_or(-1, Handle::raw);

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::scene::object::viewers::Viewers;
 use crate::scene::{Change, Field, Handle, Kind, Object, Scene, SceneResult};
 
 /// Lists of handles by tag.
@@ -39,7 +40,7 @@ impl Object {
             Kind::ProximitySensor(sensor) => sensor.detection.is_some(),
             _ => false,
         };
-        by_kind || !self.references.is_empty() || !self.original_references.is_empty()
+        by_kind || self.viewers != Viewers::All || !self.references.is_empty() || !self.original_references.is_empty()
     }
 
     /// The lists of a kind.
@@ -66,6 +67,7 @@ impl Object {
             }
             _ => {}
         }
+        self.viewers = self.viewers.without(doomed);
         let lists = self.references.iter_mut().chain(self.original_references.iter_mut());
         for handle in lists.flat_map(|(_, list)| list.iter_mut()) {
             if Handle::from_raw(*handle).is_some_and(gone) {

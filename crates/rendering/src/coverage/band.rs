@@ -8,7 +8,7 @@ use crate::coverage::face::{Block, Face};
 
 /// Faces that differ by a smaller part of their closeness lie in one plane: the one drawn first is seen. Their closeness is rounded, so
 /// that a plain comparison would show parts of both.
-const COPLANAR: f32 = 1.0 / (1 << 20) as f32;
+pub const COPLANAR: f32 = 1.0 / (1 << 20) as f32;
 
 /// The number where no face is.
 pub const NO_FACE: u32 = u32::MAX;

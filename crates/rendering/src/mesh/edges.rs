@@ -16,6 +16,13 @@ pub struct MeshEdge {
     pub cosine: f32,
 }
 
+impl MeshEdge {
+    /// Whether it belongs to one face only.
+    pub fn is_border(&self) -> bool {
+        self.normals[1].is_none()
+    }
+}
+
 impl Mesh {
     /// All edges, each once, in the order in which triangles have them.
     pub(crate) fn find_edges(&self) -> Vec<MeshEdge> {
@@ -44,7 +51,8 @@ impl Mesh {
 fn edges_meet(edge: &mut MeshEdge, normal: [f32; 3]) {
     let is_second = edge.normals[1].is_none();
     let cosine = edge.normals[0].map_or(-2.0, |first| Vector3::from(first).dot(&Vector3::from(normal)));
-    edge.cosine = if is_second { cosine } else { -2.0 };
+    // Not more than 1 by rounding: all edges are drawn where the limit is an angle of zero.
+    edge.cosine = if is_second { cosine.min(1.0) } else { -2.0 };
     edge.normals[1] = edge.normals[1].or(Some(normal));
 }
 

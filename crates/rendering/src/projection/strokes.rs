@@ -4,12 +4,16 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
+use crate::coverage::band::COPLANAR;
 use crate::coverage::face::{Face, Plane, SMALL, UNIT};
 use crate::mesh::edges::MeshEdge;
 
 use crate::projection::surface::{Outline, Surface};
 use crate::projection::view::{ClipPlane, Transform, View};
 use crate::{Edges, Lines, Mesh, Points};
+
+/// How far behind a surface edges are still seen, in pixels.
+const HIDDEN_BEYOND: f64 = 4.0;
 
 /// Something at its place in view coordinates.
 #[derive(Debug)]
@@ -85,7 +89,8 @@ pub fn add_lines(faces: &mut Vec<Face>, view: &View, placed: &Placed<Lines>, ran
 pub fn add_edges(faces: &mut Vec<Face>, view: &View, placed: &Placed<Mesh>, edges: &Edges, range: Range<usize>) {
     let detail = packed(edges.colour);
     let limit = libm::cos(edges.angle) as f32;
-    for edge in placed.content.edges()[range].iter().filter(|edge| edge.cosine < limit) {
+    let is_drawn = |edge: &&MeshEdge| edge.cosine <= limit && (edges.borders || !edge.is_border());
+    for edge in placed.content.edges()[range].iter().filter(is_drawn) {
         let ends = edge.ends.each_ref().map(|end| placed.transform.apply(end));
         let lift = edge_lift(view, &placed.transform, edge, &ends) * f64::from(edges.width.max(1.0));
         let stroke = Stroke { owner: placed.owner, detail, width: edges.width, lift, ..Stroke::default() };
@@ -113,10 +118,12 @@ fn edge_lift(view: &View, transform: &Transform, edge: &MeshEdge, [end, _]: &[Ve
         let plane = view.closeness_gradient(&normal, end);
         plane[0].abs() + plane[1].abs()
     };
-    // Faces that are seen edge-on have no limit.
-    let most = if view.perspective { 0.02 * view.closeness(end.z.max(view.near)) } else { 0.02 };
+    // Faces that are seen edge-on have no limit. What is hidden by more than a few pixels of depth stays hidden.
+    let most = HIDDEN_BEYOND * view.closeness_of_pixel(end.z);
     let steepest = edge.normals.iter().flatten().map(slope).fold(0.0, f64::max);
-    (0.75 * steepest).min(most)
+    // Faces that are seen from the front have no slope: edges lie in their plane.
+    let least = 4.0 * f64::from(COPLANAR) * view.closeness(end.z.max(view.near));
+    (0.75 * steepest).min(most).max(least)
 }
 
 /// A line as two faces.

@@ -79,6 +79,12 @@ impl View {
         if self.perspective { 1.0 / z } else { (self.far - z) / (self.far - self.near) }
     }
 
+    /// How much closeness changes over a depth of one pixel's size.
+    pub fn closeness_of_pixel(&self, z: f64) -> f64 {
+        let change = if self.perspective { self.closeness(z.max(self.near)) } else { 1.0 / (self.far - self.near) };
+        change * self.over_scale
+    }
+
     /// The closeness of the far plane.
     pub fn far_closeness(&self) -> f64 {
         self.closeness(self.far)

@@ -25,7 +25,7 @@ impl Showcase {
             (0..64).flat_map(|i| if (i + i / 8) % 2 == 0 { [250, 240, 200] } else { [90, 60, 40] }).collect();
         let image = Arc::new(Image::new([8, 8], false, &checker).expect("64 pixels"));
         let texture = |interpolate, mode| Texture { interpolate, mode, ..Texture::new(image.clone()) };
-        let edges = Edges { angle: 0.5, colour: [0.0; 3], width: 1.0 };
+        let edges = Edges { angle: 0.5, borders: true, colour: [0.0; 3], width: 1.0 };
         let glass = Material { opacity: 0.4, ..Material::new([0.3, 0.8, 0.9]) };
         let spiral = |i: i32| {
             let angle = f64::from(i) * 0.1;

@@ -7,11 +7,14 @@ use crate::format::ttt::chunks::{Collection as CollectionChunk, CollectionElemen
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{Counted, EngineBlock, File};
 use crate::scene::joint::{Dependency, JointMode};
+use crate::scene::object::viewers::Viewers;
 use crate::scene::sensor::Entity;
 use crate::scene::{CollectionItem, Field, Handle, Members, ReferenceLists, References, Scene, SceneResult};
 
 /// Larger numbers are handles of collections.
 const LAST_OBJECT: i32 = 999_999;
+/// Instead of the handle of who sees an object.
+const NOBODY: i32 = -2;
 
 pub(super) fn connect(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) -> SceneResult<()> {
     let collections = collections(scene, &file.contents.collections, map)?;
@@ -22,6 +25,7 @@ pub(super) fn connect(scene: &mut Scene, file: &File, objects: &[Handle], map: &
     for (object, handle) in file.contents.objects.iter().zip(objects) {
         connect_one(scene, object, *handle, map)?;
         watch(scene, object, *handle, entity)?;
+        scene.modify(*handle, Field::Other, |new| new.viewers = viewers(&object.common, map, &collections))?;
         for (tag, list) in lists(&object.common, map) {
             scene.set_references(*handle, References::Following, &tag, &list)?;
         }
@@ -106,6 +110,15 @@ fn watch(scene: &mut Scene, object: &FileObject, handle: Handle, entity: impl Fn
             sensor.entity = seen;
         }
     })
+}
+
+/// Which cameras and sensors see an object; all where the one that saw it is gone.
+fn viewers(common: &Common, map: &HandleMap, collections: &BTreeMap<i32, i64>) -> Viewers {
+    match common.authorized_viewable.unwrap_or(-1) {
+        NOBODY => Viewers::None,
+        handle @ 0..=LAST_OBJECT => map.get(&handle).map_or(Viewers::All, |viewer| Viewers::One(*viewer)),
+        handle => collections.get(&handle).map_or(Viewers::All, |collection| Viewers::Collection(*collection)),
+    }
 }
 
 fn lists(common: &Common, map: &HandleMap) -> ReferenceLists {

@@ -218,6 +218,7 @@ fn appearance(data: &MeshData) -> Appearance {
     let switches = data.switches.unwrap_or(0);
     (appearance.edges, appearance.culling, appearance.wireframe) =
         (switches & 1 != 0, switches & 2 != 0, switches & 4 != 0);
+    appearance.edge_borders_hidden = switches & 0x80 != 0;
     if let Some((angle, _)) = data.shading {
         (appearance.shading_angle, appearance.edge_angle) = (angle, angle);
     }

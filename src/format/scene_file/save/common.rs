@@ -3,6 +3,7 @@
 use super::{Context, custom_data};
 use crate::format::ttt::chunks::{Common, UserParams};
 use crate::format::ttt::{Counted, OriginalReference, Text};
+use crate::scene::object::viewers::Viewers;
 use crate::scene::{Data, ForbiddenMovements, Handle, Object, SceneResult, alternative_name};
 
 /// Current programs mark every property with it.
@@ -22,6 +23,7 @@ pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Comm
         alias: Some(object.alias().into()),
         name: Some(object.old_name().into()),
         alt_name: Some(alternative_name(object.old_name()).as_str().into()),
+        authorized_viewable: Some(viewers(context, object)),
         hierarchy_colour: Some(object.hierarchy_colour as i32),
         self_collision_indicator: Some(object.self_collision_indicator as i32),
         object_property: Some(object.object_property.bits() as i32 | WRITTEN_SINCE_2_5),
@@ -49,6 +51,16 @@ pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Comm
     references(context, object, &mut common);
     originals(context, object, &mut common);
     Ok(common)
+}
+
+/// Which cameras and sensors see it: -1 for all, -2 for none, a saved object, or a collection.
+fn viewers(context: &Context<'_>, object: &Object) -> i32 {
+    match object.viewers {
+        Viewers::All => -1,
+        Viewers::None => -2,
+        Viewers::One(viewer) => context.file_handle(Some(viewer)),
+        Viewers::Collection(collection) => collection as i32,
+    }
 }
 
 /// The place among the siblings of the same alias; -1 for an alias of one's own.

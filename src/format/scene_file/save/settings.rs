@@ -8,6 +8,7 @@ use crate::format::ttt::chunks::{
     Collection, CollectionElement, Dynamics, Environment, ModuleSettings, Page, Simulation, View, Views,
 };
 use crate::format::ttt::tree::Contents;
+use crate::scene::object::viewers::Viewers;
 use crate::scene::{Calculations, CollectionItem, Kind, Members, Object, Scene, Settings};
 
 /// The preset of the physics, and of the step, that means settings of one's own.
@@ -127,6 +128,9 @@ pub(super) fn collections(context: &Context<'_>) -> Vec<Collection> {
     let mut used = BTreeSet::new();
     for object in context.saved.iter().filter_map(|handle| context.scene.object(*handle).ok()) {
         used.extend(entity(object));
+        if let Viewers::Collection(collection) = object.viewers {
+            used.insert(collection);
+        }
         used.extend(object.references.iter().flat_map(|(_, list)| list.iter().copied()));
     }
     used.into_iter().filter_map(|handle| collection(context, handle)).collect()

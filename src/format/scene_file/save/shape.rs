@@ -180,7 +180,12 @@ fn node(place: &Place, box_size: [f64; 3], convex: bool) -> MeshNode {
 }
 
 fn drawing(appearance: &Appearance) -> u8 {
-    let bits = [(appearance.edges, 0x1), (appearance.culling, 0x2), (appearance.wireframe, 0x4)];
+    let bits = [
+        (appearance.edges, 0x1),
+        (appearance.culling, 0x2),
+        (appearance.wireframe, 0x4),
+        (appearance.edge_borders_hidden, 0x80),
+    ];
     bits.iter().filter(|(on, _)| *on).fold(CONVEXITY_KNOWN, |bits, (_, bit)| bits | bit)
 }
 
