@@ -9,10 +9,14 @@ use std::collections::BinaryHeap;
 use nalgebra::Point3;
 
 use crate::items::{Compare, Items};
+use crate::mesh::TriangleMesh;
 use crate::node_pair::{NodePairs, Side};
 use crate::placed::{Geometry, Placed, Transform};
 use crate::points::ORIGIN;
 use crate::primitive::{Pair, Vector};
+
+/// From so many triangles on, a box that they are compared with is taken for a solid one.
+const MANY: usize = 64;
 
 /// The closest points of two geometries.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,9 +45,10 @@ pub fn distance(a: Placed, b: Placed, below: f64) -> Option<Closest> {
 /// Pairs of kinds are compared in one order only.
 fn rank(geometry: &Geometry) -> usize {
     match geometry {
-        Geometry::Mesh(_) => 0,
-        Geometry::Voxels(_) => 1,
-        Geometry::Points(_) | Geometry::Point => 2,
+        Geometry::Mesh(mesh) if mesh.solid().is_none() => 0,
+        Geometry::Mesh(_) => 1,
+        Geometry::Voxels(_) => 2,
+        Geometry::Points(_) | Geometry::Point => 3,
     }
 }
 
@@ -51,7 +56,7 @@ fn closest(a: Geometry, b: Geometry, place: &Transform, below: f64) -> Option<Pa
     match (a, b) {
         (Geometry::Point, b) => closest(Geometry::Points(&ORIGIN), b, place, below),
         (a, Geometry::Point) => closest(a, Geometry::Points(&ORIGIN), place, below),
-        (Geometry::Mesh(a), Geometry::Mesh(b)) => closest_items(a, b, place, below),
+        (Geometry::Mesh(a), Geometry::Mesh(b)) => closest_meshes(a, b, place, below),
         (Geometry::Mesh(a), Geometry::Voxels(b)) => closest_items(a, b, place, below),
         (Geometry::Mesh(a), Geometry::Points(b)) => closest_items(a, b, place, below),
         (Geometry::Voxels(a), Geometry::Voxels(b)) => closest_items(a, b, place, below),
@@ -59,6 +64,17 @@ fn closest(a: Geometry, b: Geometry, place: &Transform, below: f64) -> Option<Pa
         (Geometry::Points(a), Geometry::Points(b)) => closest_items(a, b, place, below),
         _ => None,
     }
+}
+
+/// Meshes that are surfaces of boxes are compared with as solid ones, as long as nothing is inside.
+fn closest_meshes(a: &TriangleMesh, b: &TriangleMesh, place: &Transform, below: f64) -> Option<Pair> {
+    if let Some(solid) = b.solid().filter(|_| a.len() >= MANY) {
+        match closest_items(a, solid, place, below) {
+            Some((.., squared)) if squared <= 0.0 => (),
+            found => return found,
+        }
+    }
+    closest_items(a, b, place, below)
 }
 
 /// Two nodes and the square of a lower bound of their distance.

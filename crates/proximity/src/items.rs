@@ -1,6 +1,6 @@
 //! The things that a tree is over, and how pairs of them are compared.
 
-use crate::mesh::TriangleMesh;
+use crate::mesh::{SolidMesh, TriangleMesh};
 use crate::oriented::OrientedBox;
 use crate::placed::Transform;
 use crate::points::PointSet;
@@ -56,6 +56,18 @@ impl Items for TriangleMesh {
     #[inline]
     fn oriented_box(&self, node: u32) -> OrientedBox {
         self.oriented_boxes()[node as usize]
+    }
+}
+
+impl Items for SolidMesh {
+    type Item = SolidBox;
+
+    fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    fn item(&self, _: usize) -> SolidBox {
+        self.solid
     }
 }
 
@@ -117,6 +129,13 @@ impl Compare<SolidBox> for Triangle {
     fn closest(&self, (other, [forth, back]): &Self::Moved) -> Pair {
         let (q, p, squared) = other.closest_to_triangle(&self.map(|p| back.point(&p)));
         (forth.point(&p), forth.point(&q), squared)
+    }
+
+    #[inline]
+    fn gap_along(&self, (other, [forth, _]): &Self::Moved, direction: &Vector) -> f64 {
+        let reach = forth.rotation.tr_mul(direction).abs().dot(&other.half);
+        let own = self.map(|p| p.dot(direction));
+        forth.point(&other.centre).dot(direction) - reach - own[0].max(own[1]).max(own[2])
     }
 }
 

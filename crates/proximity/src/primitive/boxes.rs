@@ -92,8 +92,18 @@ impl SolidBox {
         self.centre + reach
     }
 
+    /// Whether a side of the box separates it from a triangle.
+    #[inline]
+    fn is_beside(&self, [a, b, c]: &Triangle) -> bool {
+        let (low, high) = (a.inf(b).inf(c) - self.centre, a.sup(b).sup(c) - self.centre);
+        (0..3).any(|axis| low[axis] > self.half[axis] || high[axis] < -self.half[axis])
+    }
+
     /// A point of the triangle inside the box.
     fn common_point(&self, triangle: &Triangle) -> Option<Vector> {
+        if self.is_beside(triangle) {
+            return None;
+        }
         let mut polygon = triangle.to_vec();
         let mut clipped = Vec::with_capacity(9);
         for axis in 0..3 {
