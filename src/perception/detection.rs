@@ -243,7 +243,13 @@ impl Search {
 }
 
 fn detected(object: Handle, hit: Hit) -> Detected {
-    Detected { detection: Detection { object, point: hit.point, normal: hit.normal }, distance: hit.distance }
+    let [point, normal] = [hit.point, hit.normal].map(|numbers| numbers.map(unsigned));
+    Detected { detection: Detection { object, point, normal }, distance: hit.distance }
+}
+
+/// The same number; zero without a sign, which scripts would print.
+fn unsigned(number: f64) -> f64 {
+    number + 0.0
 }
 
 /// A hit seen from a frame whose origin is `offset` below along z.

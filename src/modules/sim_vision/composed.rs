@@ -6,7 +6,7 @@ use imaging::rgb::{RgbImage, mean, sphere};
 use super::checked::{Checked, wrong_size};
 use super::images::{SensorArgument, of_sensor, size_of};
 use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
-use crate::scene::Handle;
+use crate::scene::{Field, Handle};
 use crate::script::Number;
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![handle_anaglyph_stereo, handle_spherical];
@@ -114,6 +114,7 @@ fn handle_spherical(
     let side = square_side(&faces)?;
     let sources = sphere::sources(size, [horizontal_angle.0, vertical_angle.0], side);
     for face in faces {
+        see_no_highlights(cx, face.handle)?;
         cx.handle_vision_sensor(face.handle)?;
     }
     if let Some(depth) = depth {
@@ -125,6 +126,18 @@ fn handle_spherical(
         cx.set_vision_image(colour.handle, colours)?;
     }
     Ok(1)
+}
+
+/// Highlights are where the viewer is: they would not fit at the borders of pictures in different directions.
+fn see_no_highlights(cx: &mut Cx, sensor: Handle) -> Result<()> {
+    let is_new = !cx.scene().object(sensor)?.vision_sensor()?.ignore_specular;
+    if is_new {
+        cx.scene_mut().try_modify(sensor, Field::Sensor, |object| {
+            object.vision_sensor_mut()?.ignore_specular = true;
+            Ok(())
+        })?;
+    }
+    Ok(())
 }
 
 /// The resolution of the resulting picture.

@@ -51,7 +51,8 @@ pub(super) fn lights(scene: &Scene, shot: &Shot) -> Vec<Light> {
         Kind::Light(light) if light.enabled && counts(&object) => placed(scene, object.handle(), light),
         _ => None,
     });
-    on.collect()
+    let shining = |light: Light| if shot.has_specular { light } else { Light { specular: [0.0; 3], ..light } };
+    on.map(shining).collect()
 }
 
 fn is_below(scene: &Scene, handle: Handle, above: Handle) -> bool {

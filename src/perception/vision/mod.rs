@@ -52,6 +52,7 @@ pub(crate) struct Shot {
     pub look: Look,
     pub backdrop: Backdrop,
     pub has_fog: bool,
+    pub has_specular: bool,
     /// Only lights below this object shine.
     pub lit_by: Option<Handle>,
 }

@@ -58,6 +58,7 @@ pub(super) fn sensor_shot(
         },
         backdrop: if sensor.background_from_environment { Backdrop::Fog } else { Backdrop::Colour(sensor.background) },
         has_fog: !sensor.ignore_fog,
+        has_specular: !sensor.ignore_specular,
         lit_by: sensor.local_lights.then_some(handle),
     })
 }

@@ -110,6 +110,7 @@ fn camera_shot(viewer: Option<Handle>, pose: Pose, view: View) -> Shot {
         look: Look::Lit { shadows: false },
         backdrop: Backdrop::Views,
         has_fog: true,
+        has_specular: true,
         lit_by: None,
     }
 }

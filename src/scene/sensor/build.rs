@@ -107,6 +107,7 @@ impl VisionSensor {
             external_image: options.contains(VisionOptions::EXTERNAL_IMAGE),
             ignore_image: false,
             ignore_depth: false,
+            ignore_specular: false,
             omit_statistics: false,
             image: Vec::new(),
             depth: Vec::new(),

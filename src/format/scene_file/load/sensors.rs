@@ -155,6 +155,7 @@ pub(super) fn vision_sensor(chunk: &file::VisionSensor) -> VisionSensor {
         external_image: second & 1 != 0,
         ignore_image: second & 2 != 0,
         ignore_depth: second & 4 != 0,
+        ignore_specular: false,
         omit_statistics: second & 0x10 != 0,
         image: Vec::new(),
         depth: Vec::new(),

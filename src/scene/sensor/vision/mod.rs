@@ -44,6 +44,8 @@ pub struct VisionSensor {
     pub external_image: bool,
     pub ignore_image: bool,
     pub ignore_depth: bool,
+    /// Surfaces have no highlights, as in the pictures that simVision.handleSpherical composes.
+    pub ignore_specular: bool,
     /// The first packet of results is not computed.
     pub omit_statistics: bool,
     /// Red, green, blue of each pixel, from the lowest row; empty before there was a picture.
