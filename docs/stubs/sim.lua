@@ -817,11 +817,11 @@ function sim.getClosestPosOnPath(path, lengths, position) end
 ---@return integer[] objectHandles in the order of their creation
 function sim.getCollectionObjects(collectionHandle) end
 
---- Handle of a collision object; there are none.
+--- A collision object of an old scene.
 ---@deprecated sim.checkCollision
----@param collisionObjectName string its name
----@return integer handle -1
-function sim.getCollisionHandle(collisionObjectName) end
+---@param objectName string its name; with `@silentError`: -1 if there is none
+---@return integer collisionHandle its handle
+function sim.getCollisionHandle(objectName) end
 
 --- Value of a property.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
@@ -857,11 +857,11 @@ function sim.getCustomizationScriptAssociatedWithObject(objectHandle) end
 ---@return integer result sim.dlgret_still_open
 function sim.getDialogResult(handle) end
 
---- Handle of a distance object; there are none.
+--- A distance object of an old scene.
 ---@deprecated sim.checkDistance
----@param distanceObjectName string its name
----@return integer handle -1
-function sim.getDistanceHandle(distanceObjectName) end
+---@param objectName string its name; with `@silentError`: -1 if there is none
+---@return integer distanceHandle its handle
+function sim.getDistanceHandle(objectName) end
 
 --- Value of a signal; nothing when there is none of that name.
 ---@deprecated sim.getFloatProperty(sim.handle_scene, 'signal.signalName')
@@ -914,7 +914,7 @@ function sim.getEngineInt32Parameter(paramId, objectHandle) end
 function sim.getEulerAnglesFromMatrix(matrix) end
 
 --- Whether a sensor or graph is handled explicitly, so that handling all leaves it out.
----@param objectHandle integer proximity sensor, vision sensor or graph
+---@param objectHandle integer proximity sensor, vision sensor or graph; collision or distance object of an old scene
 ---@return integer explicitHandlingFlags 1 if so
 function sim.getExplicitHandling(objectHandle) end
 
@@ -1959,11 +1959,11 @@ function sim.handleAddOnScripts(callType, ...) end
 ---@return integer count how many scripts ran it
 function sim.handleChildScripts(callType, ...) end
 
---- Does nothing: collision objects are gone.
+--- Computes collision objects of old scenes. The usual main script does it for those that are not tagged for explicit handling.
 ---@deprecated sim.checkCollision
----@param collisionObjectHandle integer any
----@return integer collisionCount 0
-function sim.handleCollision(collisionObjectHandle) end
+---@param collisionHandle integer a collision object that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
+---@return any result collidingObjects how many collide; of a single one 0, or 1 and the handles of both objects
+function sim.handleCollision(collisionHandle) end
 
 --- Calls a callback of all customization scripts. For the main script.
 ---@deprecated sim.handleEmbeddedScripts
@@ -1972,11 +1972,11 @@ function sim.handleCollision(collisionObjectHandle) end
 ---@return integer count how many scripts ran it
 function sim.handleCustomizationScripts(callType, ...) end
 
---- Does nothing: distance objects are gone.
+--- Computes distance objects of old scenes. The usual main script does it for those that are not tagged for explicit handling.
 ---@deprecated sim.checkDistance
----@param distanceObjectHandle integer any
----@return integer result 0
-function sim.handleDistance(distanceObjectHandle) end
+---@param distanceHandle integer a distance object that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
+---@return any result smallestDistance 0, or 1 and the smallest distance, metres
+function sim.handleDistance(distanceHandle) end
 
 --- Advances the physics. For the main script or a simulation script.
 ---@param deltaTime number seconds
@@ -2051,7 +2051,10 @@ function sim.handleProximitySensor(sensorHandle) end
 function sim.handleSandboxScript(callType, ...) end
 
 --- Begins the sensing part of a step: measures the velocities of objects. For the main script.
-function sim.handleSensingStart() end
+---
+--- script does
+---@param calculationObjects? integer sim.handle_all_except_explicit: collision and distance objects of old scenes are handled too, as the usual main
+function sim.handleSensingStart(calculationObjects) end
 
 --- Calls a callback of all simulation scripts. For the main script; others get -1.
 ---@param callType integer sim.syscb_*
@@ -2414,6 +2417,12 @@ function sim.pushUserEvent(event, handle, uid, eventData, options) end
 --- Ends the program after the current loop iteration.
 function sim.quitSimulator() end
 
+--- What was found when a collision object was last handled.
+---@deprecated sim.checkCollision
+---@param collisionHandle integer the collision object
+---@return any result collidingObjects 0, or 1 and the handles of both objects
+function sim.readCollision(collisionHandle) end
+
 --- Reads custom data as a buffer.
 ---@param handle integer object, sim.handle_scene or sim.handle_app
 ---@param tag string its name
@@ -2458,6 +2467,12 @@ function sim.readCustomStringData(objectHandle, tagName) end
 ---@param options? table
 ---@return table data empty if there is none
 function sim.readCustomTableData(handle, tag, options) end
+
+--- The distance when a distance object was last handled.
+---@deprecated sim.checkDistance
+---@param distanceHandle integer the distance object
+---@return any result smallestDistance 0 if there was none below the threshold, or 1 and the distance, metres
+function sim.readDistance(distanceHandle) end
 
 --- The measurement of a force sensor, in its own frame: the load of its child on its parent.
 ---@param objectHandle integer the force sensor; with sim.handleflag_rawvalue the value of the last sub-step
@@ -2609,17 +2624,17 @@ function sim.reorientShapeBoundingBox(shapeHandle, relativeToHandle) end
 ---@return number[] path flat table of count points, both ends included
 function sim.resamplePath(path, lengths, count, method, types) end
 
---- Does nothing: collision objects are gone.
+--- Forgets what was found of collision objects.
 ---@deprecated sim.checkCollision
----@param collisionObjectHandle integer any
----@return integer result 0
-function sim.resetCollision(collisionObjectHandle) end
+---@param collisionHandle integer as for sim.handleCollision
+---@return integer result 1
+function sim.resetCollision(collisionHandle) end
 
---- Does nothing: distance objects are gone.
+--- Forgets the distances of distance objects.
 ---@deprecated sim.checkDistance
----@param distanceObjectHandle integer any
----@return integer result 0
-function sim.resetDistance(distanceObjectHandle) end
+---@param distanceHandle integer as for sim.handleDistance
+---@return integer result 1
+function sim.resetDistance(distanceHandle) end
 
 --- Resets an object in the physics at the next dynamics call: it loses its velocity.
 ---@param objectHandle integer the object, with sim.handleflag_model also everything below it, or sim.handle_all
@@ -2966,7 +2981,7 @@ function sim.setEngineInt32Parameter(paramId, objectHandle, int32Param) end
 function sim.setEventFilters(filters) end
 
 --- Sets whether a sensor or graph is left out when all are handled.
----@param objectHandle integer proximity sensor, vision sensor or graph
+---@param objectHandle integer proximity sensor, vision sensor or graph; collision or distance object of an old scene
 ---@param explicitHandlingFlags integer 1 if so
 function sim.setExplicitHandling(objectHandle, explicitHandlingFlags) end
 

@@ -30,7 +30,7 @@ function sysCall_actuation()
 end
 
 function sysCall_sensing()
-    handleSensingStart()
+    handleSensingStart(NOT_EXPLICIT)
     handleProximitySensor(NOT_EXPLICIT)
     handleVisionSensor(NOT_EXPLICIT)
     tellScripts(SENSING)

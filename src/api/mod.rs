@@ -48,6 +48,7 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Force sensors", sensors::force_sensor::FUNCTIONS),
     ("Proximity sensors", sensors::proximity_sensor::FUNCTIONS),
     ("Collisions and distances", sensors::queries::FUNCTIONS),
+    ("Collision and distance objects of old scenes", old::calculation_objects::FUNCTIONS),
     ("Vision sensors", sensors::vision::FUNCTIONS),
     ("Old functions of vision sensors", old::vision_sensor::FUNCTIONS),
     ("Sensor objects", sensors::create::FUNCTIONS),

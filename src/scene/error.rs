@@ -40,6 +40,10 @@ pub enum SceneError {
     DividesCompound,
     #[error("collection does not exist.")]
     NoSuchCollection,
+    #[error("collision object does not exist.")]
+    NoSuchCollisionObject,
+    #[error("distance object does not exist.")]
+    NoSuchDistanceObject,
     /// No object and no collection.
     #[error("entity does not exist.")]
     NoSuchEntity,

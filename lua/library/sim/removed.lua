@@ -8,18 +8,6 @@ Deprecation notices are native.
 local sim = ...
 local M = {}
 
---- Does nothing: collision objects are gone.
--- @api int collisionCount = sim.handleCollision(int collisionObjectHandle)
--- @param collisionObjectHandle any
--- @return collisionCount 0
-function M.handleCollision(collisionObjectHandle) return 0 end
-
---- Does nothing: distance objects are gone.
--- @api int result = sim.handleDistance(int distanceObjectHandle)
--- @param distanceObjectHandle any
--- @return result 0
-function M.handleDistance(distanceObjectHandle) return 0 end
-
 --- Does nothing: mechanisms are gone.
 -- @api int result = sim.handleMechanism(int mechanismHandle)
 -- @param mechanismHandle any
@@ -38,18 +26,6 @@ function M.handleIkGroup(ikGroupHandle) return 0 end
 -- @return handle -1
 function M.getIkGroupHandle(ikGroupName) return -1 end
 
---- Handle of a collision object; there are none.
--- @api int handle = sim.getCollisionHandle(string collisionObjectName)
--- @param collisionObjectName its name
--- @return handle -1
-function M.getCollisionHandle(collisionObjectName) return -1 end
-
---- Handle of a distance object; there are none.
--- @api int handle = sim.getDistanceHandle(string distanceObjectName)
--- @param distanceObjectName its name
--- @return handle -1
-function M.getDistanceHandle(distanceObjectName) return -1 end
-
 --- Does nothing: mills are gone.
 -- @api int result = sim.handleMill(int millHandle)
 -- @param millHandle any
@@ -67,18 +43,6 @@ function M.resetMill(millHandle) return 0 end
 -- @param objectHandle any
 -- @return result 0
 function M.resetMilling(objectHandle) return 0 end
-
---- Does nothing: collision objects are gone.
--- @api int result = sim.resetCollision(int collisionObjectHandle)
--- @param collisionObjectHandle any
--- @return result 0
-function M.resetCollision(collisionObjectHandle) return 0 end
-
---- Does nothing: distance objects are gone.
--- @api int result = sim.resetDistance(int distanceObjectHandle)
--- @param distanceObjectHandle any
--- @return result 0
-function M.resetDistance(distanceObjectHandle) return 0 end
 
 --- Does nothing: kinematic joints move by sim.handleJointMotion.
 -- @api int result = sim.handleJoint(int jointHandle, float deltaTime)

@@ -127,13 +127,32 @@ fn colour_extension(object: &Object, index: usize) -> Option<&String> {
     }
 }
 
+/// The object with a handle. Negative numbers are none.
+fn handled(scene: &Scene, raw: i64) -> Result<&Object> {
+    if raw < 0 { Err(SceneError::InvalidArgument.into()) } else { object(scene, raw) }
+}
+
+/// The tag of a collision or distance object of an old scene.
+fn explicit_calculation(scene: &mut Scene, handle: i64) -> Option<&mut bool> {
+    if scene.collision_objects().get(handle).is_some() {
+        return scene.collision_objects_mut().get_mut(handle).map(|object| &mut object.explicit);
+    }
+    scene.distance_objects_mut().get_mut(handle).map(|object| &mut object.explicit)
+}
+
 /// Whether a sensor or graph is handled explicitly, so that handling all leaves it out.
 ///
-/// @param objectHandle proximity sensor, vision sensor or graph
+/// @param objectHandle proximity sensor, vision sensor or graph; collision or distance object of an old scene
 /// @return explicitHandlingFlags 1 if so
 #[api("sim.getExplicitHandling")]
-fn get_explicit_handling(cx: &Cx, object_handle: Handle) -> Result<i64> {
-    let explicit = match &cx.scene().object(object_handle)?.kind {
+fn get_explicit_handling(cx: &Cx, object_handle: Number) -> Result<i64> {
+    let scene = cx.scene();
+    let of_collision = scene.collision_objects().get(object_handle.0).map(|object| object.explicit);
+    let of_distance = scene.distance_objects().get(object_handle.0).map(|object| object.explicit);
+    if let Some(explicit) = of_collision.or(of_distance) {
+        return Ok(i64::from(explicit));
+    }
+    let explicit = match &handled(&scene, object_handle.0)?.kind {
         Kind::ProximitySensor(sensor) => sensor.explicit,
         Kind::VisionSensor(sensor) => sensor.explicit,
         Kind::Graph(graph) => graph.explicit,
@@ -144,12 +163,18 @@ fn get_explicit_handling(cx: &Cx, object_handle: Handle) -> Result<i64> {
 
 /// Sets whether a sensor or graph is left out when all are handled.
 ///
-/// @param objectHandle proximity sensor, vision sensor or graph
+/// @param objectHandle proximity sensor, vision sensor or graph; collision or distance object of an old scene
 /// @param explicitHandlingFlags 1 if so
 #[api("sim.setExplicitHandling")]
-fn set_explicit_handling(cx: &mut Cx, object_handle: Handle, explicit_handling_flags: Number) -> Result<()> {
+fn set_explicit_handling(cx: &mut Cx, object_handle: Number, explicit_handling_flags: Number) -> Result<()> {
     let explicit = explicit_handling_flags.0 & 1 != 0;
-    Ok(cx.scene_mut().try_modify(object_handle, Field::Sensor, |object| {
+    let mut scene = cx.scene_mut();
+    if let Some(flag) = explicit_calculation(&mut scene, object_handle.0) {
+        *flag = explicit;
+        return Ok(());
+    }
+    let handle = handled(&scene, object_handle.0)?.handle();
+    Ok(scene.try_modify(handle, Field::Sensor, |object| {
         *explicit_flag(object)? = explicit;
         Ok(())
     })?)

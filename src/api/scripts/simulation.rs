@@ -4,7 +4,8 @@ use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::object::script_object::ScriptType;
-use crate::script::{Group, Rest, SysCall};
+use crate::scene::special;
+use crate::script::{Group, Number, Rest, SysCall};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     start_simulation,
@@ -81,12 +82,19 @@ fn handle_simulation_start(cx: &mut Cx) -> Result<()> {
 }
 
 /// Begins the sensing part of a step: measures the velocities of objects. For the main script.
+///
+/// @param calculationObjects sim.handle_all_except_explicit: collision and distance objects of old scenes are handled too, as the usual main
+/// script does
 #[api("sim.handleSensingStart")]
-fn handle_sensing_start(cx: &mut Cx) -> Result<()> {
+fn handle_sensing_start(cx: &mut Cx, #[default(Number(0))] calculation_objects: Number) -> Result<()> {
     main_script_only(cx)?;
     // No time has passed before the sensing part of the first step.
     let dt = (cx.clock().steps() > 0).then(|| cx.scene().settings().time_step);
     cx.scene_mut().measure_velocities(dt);
+    if calculation_objects.0 == special::ALL_EXCEPT_EXPLICIT {
+        cx.handle_collision_objects(false);
+        cx.handle_distance_objects(false);
+    }
     Ok(())
 }
 

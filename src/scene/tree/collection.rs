@@ -147,8 +147,10 @@ impl Scene {
                 }
             }
         }
-        let in_order = self.objects().map(crate::scene::Object::handle);
-        Ok(in_order.filter(|handle| members.contains(handle)).collect())
+        // By their numbers, without a look at all objects of the scene: sensors ask in each step.
+        let mut in_order: Vec<Handle> = members.into_iter().collect();
+        in_order.sort_by_key(|handle| self.object(*handle).map_or(i64::MAX, crate::scene::Object::uid));
+        Ok(in_order)
     }
 
     fn item_objects(&self, item: &CollectionItem) -> Vec<Handle> {

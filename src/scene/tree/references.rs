@@ -106,6 +106,7 @@ impl Scene {
         }
         self.collections.forget(doomed);
         self.drawings.forget(doomed);
+        self.forget_calculations(doomed);
         let objects = &mut self.objects;
         self.referrers.0.retain(|&handle| {
             let referrer = objects.get_in_place(handle);

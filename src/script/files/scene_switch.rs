@@ -121,6 +121,8 @@ impl Sim {
         let mut scene = self.scene.borrow_mut();
         scene.inert = InertValues::default();
         scene.textures_mut().clear();
+        *scene.collision_objects_mut() = Default::default();
+        *scene.distance_objects_mut() = Default::default();
         scene.modify_settings(|settings| *settings = Settings::default());
         for namespace in [Namespace::CustomData, Namespace::Signal] {
             scene.edit_named_values(None, namespace, Edit::Clear)?;

@@ -1,5 +1,6 @@
 //! The application's loop: idle iterations, simulation steps, start, pause and stop (spec: callbacks 2, spec: simulation).
 
+mod calculation_objects;
 pub(in crate::script) mod clock;
 pub(in crate::script) mod dynamics;
 pub(in crate::script) mod joint_motion;
@@ -243,6 +244,8 @@ impl Sim {
             dynamics.reset();
         }
         self.scene.borrow_mut().stop_joint_motions();
+        self.scene.borrow_mut().collision_objects_mut().reset(false);
+        self.scene.borrow_mut().distance_objects_mut().reset(false);
         self.scene.borrow_mut().restore_initial_state();
         for group in [Group::Customization, Group::AddOn, Group::Sandbox] {
             self.deliver_to(group, SysCall::AfterSimulation, &[]);

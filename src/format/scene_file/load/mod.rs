@@ -106,7 +106,7 @@ impl SceneFile {
         let known = file.contents.objects.iter().zip(&objects);
         let map: HandleMap = known.filter_map(|(object, handle)| Some((object.common.handles?[0], *handle))).collect();
         let root = place(scene, &file, &objects, &map)?;
-        references::connect(scene, &file, &objects, &map)?;
+        let collections = references::connect(scene, &file, &objects, &map)?;
         connect_textures(scene, &objects, &textures, &map)?;
         if settings {
             settings::apply(scene, &file)?;
@@ -124,6 +124,7 @@ impl SceneFile {
         if file_is_model && scripts.iter().any(is_attached) {
             scene.number_names(&common::names(&file.contents.objects, &objects))?;
         }
+        references::calculation_objects(scene, &file, &objects, &map, &collections);
         let filters = file.contents.objects.iter().zip(&objects).filter_map(|(o, handle)| filters::script(o, *handle));
         let scripts: Vec<LoadedScript> = scripts.into_iter().chain(filters).collect();
         Ok(Loaded { objects, root, scripts })

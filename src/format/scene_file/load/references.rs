@@ -5,18 +5,29 @@ use std::collections::BTreeMap;
 use super::HandleMap;
 use crate::format::ttt::chunks::{Collection as CollectionChunk, CollectionElement, Common, Joint as JointChunk};
 use crate::format::ttt::tree::{Class, Object as FileObject};
-use crate::format::ttt::{Counted, EngineBlock, File};
+use crate::format::ttt::{Counted, EngineBlock, File, Text};
 use crate::scene::joint::{Dependency, JointMode};
 use crate::scene::object::viewers::Viewers;
 use crate::scene::sensor::Entity;
-use crate::scene::{CollectionItem, Field, Handle, Members, ReferenceLists, References, Scene, SceneResult};
+use crate::scene::tree::calculation_objects::CalculationObject;
+use crate::scene::{
+    CollectionItem, Field, Handle, Members, ReferenceLists, References, Scene, SceneResult, name_suffix, special,
+};
 
 /// Larger numbers are handles of collections.
 const LAST_OBJECT: i32 = 999_999;
 /// Instead of the handle of who sees an object.
 const NOBODY: i32 = -2;
 
-pub(super) fn connect(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) -> SceneResult<()> {
+/// From handles of collections in the file to those of the scene.
+pub(super) type CollectionMap = BTreeMap<i32, i64>;
+
+pub(super) fn connect(
+    scene: &mut Scene,
+    file: &File,
+    objects: &[Handle],
+    map: &HandleMap,
+) -> SceneResult<CollectionMap> {
     let collections = collections(scene, &file.contents.collections, map)?;
     let entity = |handle: i32| match handle {
         0..=LAST_OBJECT => map.get(&handle).map_or(Entity::ALL, |object| (*object).into()),
@@ -33,7 +44,67 @@ pub(super) fn connect(scene: &mut Scene, file: &File, objects: &[Handle], map: &
             scene.set_references(*handle, References::Original, &tag, &list)?;
         }
     }
-    Ok(())
+    Ok(collections)
+}
+
+/// Collision and distance objects, which were kept with the scene before 4.2. One whose first entity is gone is left out; without a second
+/// one everything else is meant. Their names are numbered as those of the objects of the file are.
+pub(super) fn calculation_objects(
+    scene: &mut Scene,
+    file: &File,
+    objects: &[Handle],
+    map: &HandleMap,
+    collections: &CollectionMap,
+) {
+    let entity = |handle: i32| match handle {
+        0..=LAST_OBJECT => map.get(&handle).map(|object| object.raw()),
+        _ => collections.get(&handle).copied(),
+    };
+    let entities = |handles: Option<[i32; 3]>| {
+        let [first, second, _] = handles?;
+        Some([entity(first)?, entity(second).unwrap_or(special::ALL)])
+    };
+    let text = |text: &Option<Text>| text.as_ref().map(Text::decode).unwrap_or_default();
+    for chunk in &file.contents.collisions {
+        let Some(entities) = entities(chunk.entities_and_handle) else { continue };
+        let name = numbered(scene, file, objects, text(&chunk.name));
+        scene.collision_objects_mut().add(CalculationObject {
+            name,
+            persistent_uid: text(&chunk.persistent_id),
+            entities,
+            threshold: 0.0,
+            explicit: false,
+            switches: chunk.flags.unwrap_or(0),
+            result: None,
+        });
+    }
+    for chunk in &file.contents.distances {
+        let Some(entities) = entities(chunk.entities_and_handle) else { continue };
+        let name = numbered(scene, file, objects, text(&chunk.name));
+        scene.distance_objects_mut().add(CalculationObject {
+            name,
+            persistent_uid: text(&chunk.persistent_id),
+            entities,
+            threshold: chunk.threshold.filter(|threshold| threshold.is_finite()).unwrap_or(0.0),
+            explicit: false,
+            switches: chunk.flags.unwrap_or(0),
+            result: None,
+        });
+    }
+}
+
+/// A name of the file with the suffix that objects with the same suffix have in the scene.
+fn numbered(scene: &Scene, file: &File, objects: &[Handle], name: String) -> String {
+    let (own, stem) = name_suffix(&name);
+    let has_it =
+        |object: &FileObject| object.common.name.as_ref().is_some_and(|name| name_suffix(&name.decode()).0 == own);
+    let at = file.contents.objects.iter().position(has_it);
+    let object = at.and_then(|at| scene.object(objects[at]).ok());
+    match object.map_or(own, |object| name_suffix(object.old_name()).0) {
+        new if new == own => name,
+        -1 => stem.to_owned(),
+        new => format!("{stem}#{new}"),
+    }
 }
 
 fn connect_one(scene: &mut Scene, object: &FileObject, handle: Handle, map: &HandleMap) -> SceneResult<()> {
@@ -113,7 +184,7 @@ fn watch(scene: &mut Scene, object: &FileObject, handle: Handle, entity: impl Fn
 }
 
 /// Which cameras and sensors see an object; all where the one that saw it is gone.
-fn viewers(common: &Common, map: &HandleMap, collections: &BTreeMap<i32, i64>) -> Viewers {
+fn viewers(common: &Common, map: &HandleMap, collections: &CollectionMap) -> Viewers {
     match common.authorized_viewable.unwrap_or(-1) {
         NOBODY => Viewers::None,
         handle @ 0..=LAST_OBJECT => map.get(&handle).map_or(Viewers::All, |viewer| Viewers::One(*viewer)),
@@ -148,7 +219,7 @@ fn original_lists(common: &Common, file: &File, objects: &[Handle]) -> Reference
 }
 
 /// Collections that were kept with the scene, before 4.2; from their handles in the file to those of the scene.
-fn collections(scene: &mut Scene, chunks: &[CollectionChunk], map: &HandleMap) -> SceneResult<BTreeMap<i32, i64>> {
+fn collections(scene: &mut Scene, chunks: &[CollectionChunk], map: &HandleMap) -> SceneResult<CollectionMap> {
     let mut made = BTreeMap::new();
     for chunk in chunks {
         let handle = scene.collections_mut().add(chunk.flags.unwrap_or(0) & 1 != 0, None);

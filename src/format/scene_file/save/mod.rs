@@ -3,6 +3,7 @@
 //! Written is what the scene holds. Chunks that only programs before 4.5 look at are left out, apart from the geometry frames that
 //! early revisions of 4.5.1 still use.
 
+mod calculation_objects;
 mod cells;
 mod colour;
 mod common;
@@ -100,6 +101,8 @@ fn contents(scene: &Scene, order: &[Handle], base: Option<Handle>, scripts: &[Lo
         textures,
         scripts: attached.map(script::attached).collect(),
         collections: settings::collections(&context),
+        collisions: calculation_objects::collisions(&context),
+        distances: calculation_objects::distances(&context),
         objects,
         mesh_pool: Some(context.pool.arrays.pool),
         ..Contents::default()

@@ -133,6 +133,8 @@ pub(super) fn collections(context: &Context<'_>) -> Vec<Collection> {
         }
         used.extend(object.references.iter().flat_map(|(_, list)| list.iter().copied()));
     }
+    used.extend(context.scene.collision_objects().iter().flat_map(|(_, object)| object.entities));
+    used.extend(context.scene.distance_objects().iter().flat_map(|(_, object)| object.entities));
     used.into_iter().filter_map(|handle| collection(context, handle)).collect()
 }
 

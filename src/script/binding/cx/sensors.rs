@@ -37,4 +37,30 @@ impl Cx<'_> {
     pub(crate) fn reset_proximity_sensors(&mut self, with_explicit: bool) {
         self.sim.reset_proximity_sensors(with_explicit);
     }
+
+    /// Computes a collision object that is tagged for explicit handling.
+    ///
+    /// # Errors
+    /// When it is not tagged, or no collision object.
+    pub(crate) fn handle_collision_object(&mut self, handle: i64) -> ApiResult<Option<[Handle; 2]>> {
+        Ok(self.sim.handle_collision_object(handle)?)
+    }
+
+    /// The same for all, or those that are not tagged; returns how many collide.
+    pub(crate) fn handle_collision_objects(&mut self, with_explicit: bool) -> i64 {
+        self.sim.handle_collision_objects(with_explicit)
+    }
+
+    /// Computes a distance object that is tagged for explicit handling.
+    ///
+    /// # Errors
+    /// When it is not tagged, or no distance object.
+    pub(crate) fn handle_distance_object(&mut self, handle: i64) -> ApiResult<Option<f64>> {
+        Ok(self.sim.handle_distance_object(handle)?)
+    }
+
+    /// The same for all, or those that are not tagged; returns the smallest distance (m).
+    pub(crate) fn handle_distance_objects(&mut self, with_explicit: bool) -> Option<f64> {
+        self.sim.handle_distance_objects(with_explicit)
+    }
 }
