@@ -90,11 +90,15 @@ function sendMouse(element, item, form) {
   }
 }
 
+/** Styles of curves as `simUI.curve_style` numbers them. */
+const STYLES = ['scatter', 'line', 'line_and_scatter', 'step_left', 'step_center', 'step_right', 'impulse'];
+const styleOf = (style) => (typeof style === 'number' ? STYLES[style - 22400] : style) ?? 'line';
+
 const css = ([r, g, b]) => `rgb(${r} ${g} ${b})`;
 
 function plot(item, form) {
   const canvas = el('canvas', { role: 'img', 'aria-label': `Plot of ${item.curves.map((curve) => curve.name).join(', ') || 'nothing yet'}` });
-  const curves = item.curves.map(({ name, x, y, color, style, lineSize, scatterSize }) => ({ name, x, y, color: css(color), style, width: lineSize, dots: scatterSize / 2 }));
+  const curves = item.curves.map(({ name, x, y, color, style, lineSize, scatterSize }) => ({ name, x, y, color: css(color), style: styleOf(style), width: lineSize, dots: scatterSize / 2 }));
   const options = { xRange: item.xRange ?? undefined, yRange: item.yRange ?? undefined, xLabel: item.xLabel, yLabel: item.yLabel, square: item.square };
   let scales = null;
   new ResizeObserver(() => (scales = drawCurves(canvas, curves, options))).observe(canvas);
