@@ -7,6 +7,7 @@ mod api;
 mod batch;
 mod diff;
 mod doctor;
+mod export;
 mod files;
 mod init;
 mod inspect;
@@ -25,7 +26,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use session::{graphs, interrupt, live, output, permissions, progress, setup, video};
+use session::{graphs, interrupt, live, output, permissions, progress, recording, setup, video};
 
 /// Exit code for a wrong command line or a file that cannot be read or written; clap uses the same.
 const USAGE: u8 = 2;
@@ -43,6 +44,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(run::Args),
+    Export(export::Args),
     Render(render::Args),
     View(view::Args),
     Serve(serve::Args),
@@ -91,6 +93,7 @@ impl Command {
     fn execute(self) -> ExitCode {
         match self {
             Self::Run(args) => run::run(&args),
+            Self::Export(args) => export::export(&args),
             Self::Render(args) => render::render(&args),
             Self::View(args) => view::view(&args),
             Self::Serve(args) => serve::serve(&args),

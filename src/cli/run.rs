@@ -10,6 +10,7 @@ use super::graphs::GraphArgs;
 use super::interrupt::Interrupt;
 use super::live::Live;
 use super::progress::Progress;
+use super::recording::RecordArgs;
 use super::remote::Remote;
 use super::session::{Reminder, Session};
 use super::setup::{Setup, seconds};
@@ -43,6 +44,8 @@ pub(super) struct Args {
     loops: u64,
     #[command(flatten)]
     video: VideoArgs,
+    #[command(flatten)]
+    record: RecordArgs,
     #[command(flatten)]
     graphs: GraphArgs,
     #[command(flatten)]
@@ -92,6 +95,10 @@ pub(super) fn run(args: &Args) -> ExitCode {
     if let Err(reason) = args.remote.serve(zmq, &args.setup, &mut sim, &output, &interrupt) {
         return refuse(&reason);
     }
+    let recorder = match args.record.start(&sim) {
+        Ok(recorder) => recorder,
+        Err(reason) => return refuse(&reason),
+    };
     args.video.start(&mut sim, &args.scene);
     let viewer = match args.view.start(&sim, &args.remote, &output) {
         Ok(viewer) => viewer,
@@ -113,7 +120,8 @@ pub(super) fn run(args: &Args) -> ExitCode {
         sim.run(args.limits(), &mut session)
     };
     session.progress.finish();
-    let written = args.video.finish(&mut sim).and(args.graphs.write(&sim));
+    let recorded = args.record.finish(&sim, recorder);
+    let written = args.video.finish(&mut sim).and(args.graphs.write(&sim)).and(recorded);
     if interrupt.is_requested() {
         sim.request_stop();
         // Scripts that outlive a run clean up when their scene is closed.

@@ -1,8 +1,9 @@
 //! `swanilda view`: a scene in a browser; and the options about that of `run` and `serve`.
 
 use std::net::TcpListener;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
+use std::time::Duration;
 
 use super::interrupt::Interrupt;
 use super::live::Live;
@@ -12,13 +13,16 @@ use super::refuse;
 use super::remote::Remote;
 use super::run::Kind;
 use super::setup::Setup;
-use crate::view::Viewer;
+use crate::view::{RecordedViewer, Viewer};
 use crate::{RunLimits, Simulator};
 
-/// Show a scene in a browser
+/// How often ctrl-c is looked for while a recording is shown.
+const NAP: Duration = Duration::from_millis(50);
+
+/// Show a scene or a recording in a browser
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Scene: a Lua file, a CoppeliaSim file, or a folder made by unpack [default: the default scene]
+    /// Scene: a Lua file, a CoppeliaSim file, a folder made by unpack, or a recording (.swr) [default: the default scene]
     scene: Option<PathBuf>,
     /// Script type to load the file as
     #[arg(long = "as", value_name = "KIND", default_value = "customization")]
@@ -84,6 +88,9 @@ fn start(sim: &Simulator, mode: Mode, port: u16, remote: &Remote, output: &Outpu
 /// Shows the scene until ctrl-c, SIGTERM or `quitSimulator()`.
 pub(super) fn view(args: &Args) -> ExitCode {
     let scene = args.scene.as_deref();
+    if let Some(recording) = scene.filter(|scene| is_recording(scene)) {
+        return view_recording(args, recording).unwrap_or_else(|reason| refuse(&reason));
+    }
     let sources = match args.setup.sources(scene) {
         Ok(sources) => sources,
         Err(reason) => return refuse(&reason),
@@ -116,6 +123,28 @@ pub(super) fn view(args: &Args) -> ExitCode {
     sim.stop();
     sim.clear_scene();
     ExitCode::SUCCESS
+}
+
+fn is_recording(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("swr"))
+}
+
+/// Shows a recording until ctrl-c or SIGTERM.
+fn view_recording(args: &Args, path: &Path) -> Result<ExitCode, String> {
+    let recording = super::export::open(path)?;
+    let interrupt = Interrupt::of_scripts_here();
+    let output = args.setup.output(&Progress::new(RunLimits::default(), true), &interrupt);
+    let failed = |error: std::io::Error| format!("the viewer cannot start at port {}: {error}", args.port);
+    let listener = TcpListener::bind((args.remote.address(), args.port)).map_err(failed)?;
+    let viewer = RecordedViewer::start(recording, listener).map_err(failed)?;
+    output.viewing(&viewer.url());
+    if !args.no_open && !args.setup.json {
+        open_browser(&viewer.url());
+    }
+    while !interrupt.is_requested() {
+        std::thread::sleep(NAP);
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Opens the page where there is a desktop. Without one, or when that fails, the address has been printed.

@@ -4,9 +4,9 @@ use super::Simulator;
 use crate::dynamics::Contact;
 use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Data, ValueType};
-use crate::script::ApiError;
 use crate::script::log::RecentLine;
 use crate::script::property_table::flags;
+use crate::script::{ApiError, Present, Watcher};
 
 /// A property of an object, of the scene or of the application.
 pub(crate) struct PropertyRow {
@@ -44,6 +44,16 @@ impl Simulator {
     /// Lines of the log and prints since the last call.
     pub(crate) fn take_recent_lines(&self) -> Vec<RecentLine> {
         self.sim.log.take_recent()
+    }
+
+    /// Shows the state after each step from now on; None ends that.
+    pub(crate) fn watch(&self, watcher: Option<Watcher>) {
+        self.sim.watch(watcher);
+    }
+
+    /// Calls `look` with the present state, and the lines of the log since the last time.
+    pub(crate) fn with_present<T>(&self, look: impl FnOnce(&Present<'_>) -> T) -> T {
+        self.sim.with_present(look)
     }
 
     /// Another one after another scene was loaded.

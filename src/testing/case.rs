@@ -88,6 +88,8 @@ pub struct Outcome {
     /// Recordings of the test, until they are compared.
     pub(super) goldens: Vec<Golden>,
     pub comparisons: Vec<Comparison>,
+    /// The page that plays what happened, where failures are recorded.
+    pub recording: Option<PathBuf>,
     /// Results of a run of a batch.
     pub results: BTreeMap<String, String>,
     /// The names of the parameters that a batch's run has read.
@@ -115,6 +117,7 @@ impl Outcome {
             console: Vec::new(),
             goldens: Vec::new(),
             comparisons: Vec::new(),
+            recording: None,
             results: BTreeMap::new(),
             params_read: BTreeSet::new(),
             line_counts: LineCounts::default(),

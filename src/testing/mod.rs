@@ -12,6 +12,7 @@ mod excerpt;
 mod golden;
 mod isolated;
 mod plan;
+mod recording;
 pub mod report;
 mod results;
 mod session;
@@ -54,6 +55,8 @@ pub struct Config {
     pub update_golden: bool,
     /// Where pictures of golden traces go that differ.
     pub artifacts: PathBuf,
+    /// Where recordings of failed tests go, if they are wanted.
+    pub record_failures: Option<PathBuf>,
     /// The file for the report of which lines ran, if that is wanted.
     pub coverage: Option<PathBuf>,
     /// Limits of a test.
@@ -81,6 +84,7 @@ impl Config {
             fail_fast: false,
             update_golden: false,
             artifacts: PathBuf::new(),
+            record_failures: None,
             coverage: None,
             allowance,
             permissions: Permissions::all(),

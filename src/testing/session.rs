@@ -1,6 +1,6 @@
 //! One simulator with a test file in it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -10,6 +10,7 @@ use super::apart::run_apart;
 use super::case::{Outcome, Status, TestCase};
 use super::excerpt::{Excerpt, positions};
 use super::plan::{Collection, Found};
+use super::recording::TestRecording;
 use crate::scene::Data;
 use crate::script::TestBench;
 use crate::{Limits, Options, ScriptKind, ScriptRef, Simulator};
@@ -19,6 +20,8 @@ pub(super) struct Session {
     sim: Simulator,
     sandbox: ScriptRef,
     bench: Rc<TestBench>,
+    /// Folder of recordings of failed tests.
+    recordings: Option<PathBuf>,
     /// Folder of persistent data of scripts; it is removed after the simulator.
     _data: Option<tempfile::TempDir>,
 }
@@ -45,7 +48,7 @@ impl Session {
         let mut sim = Simulator::for_test(options, &bench);
         let sandbox = sim.add_script(ScriptKind::Sandbox, "swanilda test", b"require('busted')");
         let sandbox = sandbox.expect("the embedded library loads");
-        Self { sim, sandbox, bench, _data: data }
+        Self { sim, sandbox, bench, recordings: config.record_failures.clone(), _data: data }
     }
 
     /// Loads the file and returns its tests.
@@ -75,6 +78,20 @@ impl Session {
 
     /// Runs a test of the file, which has been collected.
     pub(super) fn run(&mut self, test: &Arc<TestCase>) -> Outcome {
+        let Some(folder) = self.recordings.clone() else { return self.run_unrecorded(test) };
+        let recording = match TestRecording::start(&self.sim) {
+            Ok(recording) => recording,
+            Err(error) => {
+                let message = format!("the test cannot be recorded: {error}");
+                return Outcome::new(Arc::clone(test), Status::Error, message);
+            }
+        };
+        let mut outcome = self.run_unrecorded(test);
+        recording.finish(&self.sim, &mut outcome, &folder);
+        outcome
+    }
+
+    fn run_unrecorded(&mut self, test: &Arc<TestCase>) -> Outcome {
         let answer = self.call("package.loaded.busted.run", &[Data::Int(test.index as i64)]);
         let mut outcome = Outcome::new(Arc::clone(test), Status::Error, "the test could not be run to its end.");
         if let Some(answer) = answer {

@@ -8,11 +8,14 @@
 //! Requests of pages are checked on the server's thread ([`request`]) and carried out by the simulation's between two iterations ([`Viewer`]).
 
 pub(crate) mod blobs;
+pub(crate) mod mcap;
 pub(crate) mod mirror;
 pub(crate) mod observe;
 mod perform;
+pub(crate) mod recording;
 pub(crate) mod request;
 mod server;
 mod viewer;
 
-pub(crate) use viewer::Viewer;
+pub(crate) use server::page_file;
+pub(crate) use viewer::{RecordedViewer, Viewer};

@@ -9,8 +9,9 @@ use std::time::{Duration, Instant};
 use super::mirror::Demanded;
 use super::observe::{ObservedWindows, Observer, Source};
 use super::perform::{perform, rows};
+use super::recording::Recording;
 use super::request::Action;
-use super::server::{Shared, ViewSite};
+use super::server::{RecordedSite, Shared, ViewSite};
 use crate::Simulator;
 use crate::io::SiteServer;
 use crate::scene::Handle;
@@ -84,16 +85,7 @@ impl Viewer {
 
     /// Where the page is.
     pub(crate) fn url(&self) -> String {
-        format!("http://{}/{}/", self.address(), self.token)
-    }
-
-    /// An address that a browser can connect to, also where the server listens at all of the machine's.
-    fn address(&self) -> SocketAddr {
-        let mut address = self.server.address();
-        if address.ip().is_unspecified() {
-            address.set_ip(if address.is_ipv4() { [127, 0, 0, 1].into() } else { [0, 0, 0, 0, 0, 0, 0, 1].into() });
-        }
-        address
+        url(self.server.address(), &self.token)
     }
 
     /// Answers requests, waiting up to `patience` for the first, and shows what changed if it is time for that.
@@ -221,4 +213,38 @@ fn contacts(sim: &Simulator) -> Vec<u8> {
 fn values(sim: &Simulator, handle: i64) -> Option<Vec<(String, String)>> {
     let rows = rows(sim, handle).ok()?;
     Some(rows.into_iter().map(|(name, row)| (name, row.to_string())).collect())
+}
+
+/// Shows a recording to pages, as long as this is there.
+pub(crate) struct RecordedViewer {
+    server: SiteServer,
+    token: String,
+}
+
+impl RecordedViewer {
+    /// Serves pages that connect to `listener`.
+    ///
+    /// # Errors
+    /// When the server cannot start.
+    pub(crate) fn start<R: io::Read + io::Seek + Send + Sync + 'static>(
+        recording: Recording<R>,
+        listener: TcpListener,
+    ) -> io::Result<Self> {
+        let token = ViewSite::new_token()?;
+        let site = RecordedSite::new(recording, token.clone());
+        Ok(Self { server: SiteServer::start(listener, |_| site)?, token })
+    }
+
+    /// Where the page is.
+    pub(crate) fn url(&self) -> String {
+        url(self.server.address(), &self.token)
+    }
+}
+
+/// The address of a page, one that a browser can connect to also where the server listens at all of the machine's.
+fn url(mut address: SocketAddr, token: &str) -> String {
+    if address.ip().is_unspecified() {
+        address.set_ip(if address.is_ipv4() { [127, 0, 0, 1].into() } else { [0, 0, 0, 0, 0, 0, 0, 1].into() });
+    }
+    format!("http://{address}/{token}/")
 }

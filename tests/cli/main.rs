@@ -6,6 +6,7 @@ mod graphs;
 #[cfg(unix)]
 mod interrupts;
 mod messages;
+mod recording;
 mod render;
 mod video;
 

@@ -6,6 +6,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests start programs and look at the environment")]
 
 mod motion;
+mod recordings;
 mod reports;
 mod rust_client;
 mod server;

@@ -6,6 +6,7 @@ pub(super) mod live;
 pub(super) mod output;
 pub(super) mod permissions;
 pub(super) mod progress;
+pub(super) mod recording;
 pub(super) mod setup;
 pub(super) mod video;
 

@@ -74,6 +74,9 @@ pub(super) struct Args {
     /// Folder for plots of golden traces that differ
     #[arg(long, value_name = "FOLDER", default_value = "test-results")]
     artifacts: PathBuf,
+    /// Record tests that fail: a recording and a page that plays it for each, in this folder [default FOLDER: test-recordings]
+    #[arg(long, value_name = "FOLDER", num_args = 0..=1, require_equals = true, default_missing_value = "test-recordings")]
+    record_failures: Option<PathBuf>,
     /// Measure line coverage of scripts and Lua files and write it in LCOV format [default FILE: lcov.info]
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "lcov.info")]
     coverage: Option<PathBuf>,
@@ -162,6 +165,7 @@ impl Args {
             fail_fast: self.fail_fast,
             update_golden: self.update_golden,
             artifacts: self.artifacts.clone(),
+            record_failures: self.record_failures.clone(),
             coverage: self.coverage.clone(),
             allowance: Allowance {
                 wall: Duration::from_secs_f64(self.timeout),

@@ -85,7 +85,7 @@ impl ReportArgs {
             write(file, &junit::report(summary))?;
         }
         if let Some(file) = &self.html {
-            write(file, html::report(summary).as_bytes())?;
+            write(file, html::report(summary, file.parent().unwrap_or(Path::new(""))).as_bytes())?;
         }
         Ok(())
     }

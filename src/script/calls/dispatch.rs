@@ -58,6 +58,7 @@ impl Sim {
 
     /// A message to all initialised scripts but the sender.
     pub(crate) fn broadcast_message(self: &Rc<Self>, sender: i64, args: &[Data]) {
+        self.note_broadcast(args.first().and_then(|message| message.field("id")));
         if !self.scripts.may_respond(SysCall::Msg) {
             return;
         }

@@ -102,6 +102,11 @@ impl Log {
         self.recent.borrow_mut().begin();
     }
 
+    /// The lines after the first `seen` of all, which become all.
+    pub(crate) fn recent_since(&self, seen: &mut u64) -> Vec<RecentLine> {
+        self.recent.borrow().since(seen)
+    }
+
     /// The lines since the last call, with the scripts they come from.
     pub(crate) fn take_recent(&self) -> Vec<RecentLine> {
         self.recent.borrow_mut().take()

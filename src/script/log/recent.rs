@@ -37,27 +37,45 @@ impl RecentLine {
     }
 }
 
-/// Lines that wait to be read; none while nobody reads.
+/// The last lines; none while nobody reads. A viewer and a recorder may read at the same time.
 #[derive(Debug, Default)]
-pub(super) struct Recent(Option<VecDeque<RecentLine>>);
+pub(super) struct Recent {
+    lines: Option<VecDeque<RecentLine>>,
+    /// How many lines there were before those.
+    gone: u64,
+    /// How many the viewer has taken.
+    taken: u64,
+}
 
 impl Recent {
     pub(super) fn push(&mut self, line: impl FnOnce() -> RecentLine) {
-        let Some(lines) = &mut self.0 else { return };
+        let Some(lines) = &mut self.lines else { return };
         if lines.len() == MOST {
             lines.pop_front();
+            self.gone += 1;
         }
         lines.push_back(line());
     }
 
     /// Begins to keep lines if nobody has read so far.
     pub(super) fn begin(&mut self) {
-        self.0.get_or_insert_default();
+        self.lines.get_or_insert_default();
     }
 
     /// The lines since the last call.
     pub(super) fn take(&mut self) -> Vec<RecentLine> {
-        self.0.as_mut().map(|lines| lines.drain(..).collect()).unwrap_or_default()
+        let mut taken = self.taken;
+        let lines = self.since(&mut taken);
+        self.taken = taken;
+        lines
+    }
+
+    /// The lines after the first `seen` of all, which become all.
+    pub(super) fn since(&self, seen: &mut u64) -> Vec<RecentLine> {
+        let Some(lines) = &self.lines else { return Vec::new() };
+        let known = usize::try_from(seen.saturating_sub(self.gone)).unwrap_or(usize::MAX).min(lines.len());
+        *seen = self.gone + lines.len() as u64;
+        lines.range(known..).cloned().collect()
     }
 }
 

@@ -48,6 +48,7 @@ impl Sim {
             self.simulation_step();
             self.advance();
             self.film();
+            self.show_to_watcher();
         }
     }
 

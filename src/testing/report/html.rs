@@ -3,6 +3,7 @@
 //! Its content security policy forbids external resources. Plots are separate images, so their text never becomes part of the page.
 
 use std::fmt;
+use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD as BASE64;
@@ -17,10 +18,10 @@ const SCRIPT: &str = include_str!("html/page.js");
 const STATUSES: [(Status, &str); 4] =
     [(Status::Failed, "failed"), (Status::Error, "errors"), (Status::Pending, "pending"), (Status::Passed, "passed")];
 
-/// The report on a whole run.
-pub fn report(summary: &Summary) -> String {
+/// The report on a whole run, for a file in `folder`: recordings are linked relative to it.
+pub fn report(summary: &Summary, folder: &Path) -> String {
     let title = title(summary);
-    let files: String = parts::files(summary).map(file).collect();
+    let files: String = parts::files(summary).map(|outcomes| file(outcomes, folder)).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; \
@@ -68,27 +69,28 @@ fn counts(summary: &Summary) -> String {
     format!("<ul class=\"counts\">\n{boxes}{}{wall}</ul>\n", rest.collect::<String>())
 }
 
-fn file(outcomes: &[Outcome]) -> String {
+fn file(outcomes: &[Outcome], folder: &Path) -> String {
     let path = outcomes[0].test.file.to_string_lossy();
     let bad = outcomes.iter().filter(|outcome| outcome.is_bad()).count();
     let failed = if bad > 0 { format!(", {bad} failed") } else { String::new() };
-    let tests: String = outcomes.iter().map(test).collect();
+    let tests: String = outcomes.iter().map(|outcome| test(outcome, folder)).collect();
     let count = plural(outcomes.len(), "test");
     format!("<section>\n<h2>{} <small>{count}{failed}</small></h2>\n{tests}</section>\n", Quoted(&path))
 }
 
-fn test(outcome: &Outcome) -> String {
+fn test(outcome: &Outcome, folder: &Path) -> String {
     let word = parts::word(outcome.status);
     let open = if outcome.is_bad() { " open" } else { "" };
     let title = outcome.test.title();
     let wall = duration(outcome.wall.as_secs_f64());
     format!(
         "<details class=\"test {word}\"{open}>\n<summary><span class=\"status\">{word}</span> \
-        <span class=\"name\">{}</span> <span class=\"time\">{wall}</span></summary>\n<div>\n{}{}{}{}{}{}</div>\n</details>\n",
+        <span class=\"name\">{}</span> <span class=\"time\">{wall}</span></summary>\n<div>\n{}{}{}{}{}{}{}</div>\n</details>\n",
         Quoted(&title),
         message(outcome),
         outcome.excerpts.iter().map(excerpt).collect::<String>(),
         facts(outcome),
+        outcome.recording.as_deref().map_or_else(String::new, |page| recording(page, folder)),
         outcome.comparisons.iter().map(plot).collect::<String>(),
         console(&outcome.console),
         folded("trace", "Traceback", outcome.trace.trim()),
@@ -121,6 +123,29 @@ fn facts(outcome: &Outcome) -> String {
     facts.push(format!("with seed {}", outcome.test.seed));
     facts.extend(outcome.test.line.map(|line| format!("defined in line {line}")));
     format!("<p class=\"facts\">{}</p>\n", Quoted(&facts.join(", ")))
+}
+
+/// A link to the page that plays a failed test.
+fn recording(page: &Path, folder: &Path) -> String {
+    let address = address_below(folder, page);
+    format!("<p class=\"recording\"><a href=\"{}\">Play the recording</a></p>\n", Quoted(&address))
+}
+
+/// The address of a file in a page that lies in `folder`.
+fn address_below(folder: &Path, file: &Path) -> String {
+    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let (folder, file) = (absolute(folder), absolute(file));
+    let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
+    let up = folder.components().skip(common).map(|_| "..".to_owned());
+    let down = file.components().skip(common).map(|part| encoded(&part.as_os_str().to_string_lossy()));
+    up.chain(down).collect::<Vec<_>>().join("/")
+}
+
+/// RFC 3986: what has a meaning in addresses as the codes of its bytes.
+fn encoded(name: &str) -> String {
+    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~".contains(&byte);
+    let code = |byte: u8| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };
+    name.bytes().map(code).collect()
 }
 
 /// The plot of a golden trace, or a golden picture that differs. The result is part of the test's message.
@@ -196,7 +221,7 @@ mod tests {
 
     #[test]
     fn all_tests_are_there() {
-        let page = report(&sample::summary());
+        let page = report(&sample::summary(), Path::new(""));
         assert_eq!(page.matches("<section>").count(), 2);
         assert_eq!(page.matches("<details class=\"test ").count(), 5);
         assert_eq!(page.matches(" open>\n<summary><span").count(), 2, "what failed is unfolded");
@@ -207,7 +232,7 @@ mod tests {
 
     #[test]
     fn nothing_a_test_says_is_more_than_text() {
-        let page = report(&sample::summary());
+        let page = report(&sample::summary(), Path::new(""));
         assert_eq!(page.matches("<script>").count(), 1, "its own");
         assert!(page.matches("&lt;script&gt;alert(&#39;x&#39;)").count() >= 4);
         assert!(!page.contains("\u{1b}") && !page.contains('\0'));
@@ -215,7 +240,7 @@ mod tests {
 
     #[test]
     fn nothing_comes_from_elsewhere() {
-        let page = report(&sample::summary());
+        let page = report(&sample::summary(), Path::new(""));
         for part in ["http:", "https:", "//cdn", "url(", "@import"] {
             assert!(!page.contains(part), "{part}");
         }
@@ -223,6 +248,6 @@ mod tests {
 
     #[test]
     fn a_run_without_tests() {
-        assert!(report(&Summary::default()).contains("<h1>No tests</h1>"));
+        assert!(report(&Summary::default(), Path::new("")).contains("<h1>No tests</h1>"));
     }
 }

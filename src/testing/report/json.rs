@@ -34,6 +34,7 @@ pub(in crate::testing) fn test_value(outcome: &Outcome) -> Value {
         "message": outcome.message,
         "line": outcome.line,
         "script": outcome.script,
+        "recording": outcome.recording,
         "excerpts": outcome.excerpts.iter().map(excerpt).collect::<Vec<_>>(),
         "trace": outcome.trace,
         "time": outcome.time,

@@ -194,6 +194,12 @@ impl Mirror {
         })
     }
 
+    /// Everything, but of the log only what came after a revision: for readers that keep the lines before.
+    pub(crate) fn snapshot_with_lines_since(&self, seen: Revision) -> Option<Changes> {
+        let log = self.changes_since(seen).map(|changes| changes.log).unwrap_or_default();
+        self.changes_since(0).map(|changes| Changes { log, is_snapshot: true, ..changes })
+    }
+
     /// The messages that bring a reader from a state up to the present one, and the number of that.
     #[allow(dead_code, reason = "recordings read the mirror on the simulation's thread")]
     pub(crate) fn update_since(&self, seen: Revision) -> (Revision, Vec<Message>) {

@@ -23,7 +23,7 @@ use crate::script::log::RecentLine;
 use super::blobs::Blob;
 use meshes::Meshes;
 use moved::Moved;
-pub(crate) use scene::Source;
+pub(crate) use scene::{RECORDING, Source};
 pub(crate) use windows::ObservedWindows;
 
 /// Changes of what pages show.
@@ -64,6 +64,13 @@ pub(crate) struct Observation {
     pub selection: Option<Vec<i64>>,
     /// JSON.
     pub log: Vec<String>,
+}
+
+impl Observation {
+    /// Nothing but lines of the log, at a time (seconds).
+    pub(crate) fn of_lines(lines: &[RecentLine], time: f64) -> Self {
+        Self { time, log: lines.iter().map(log::describe).collect(), ..Self::default() }
+    }
 }
 
 /// An object as pages show it.

@@ -10,6 +10,9 @@ use crate::scene::Scene;
 use crate::scene::appearance::environment::{Fog, FogType};
 use crate::script::SimulationState;
 
+/// The mode of what is recorded.
+pub(crate) const RECORDING: &str = "recording";
+
 /// The present state of a simulator.
 pub(crate) struct Source<'a> {
     pub scene: &'a Scene,
@@ -41,12 +44,21 @@ impl<'a> Source<'a> {
             mode: "live",
         }
     }
+
+    /// The name of the scene's file.
+    pub(crate) fn name(&self) -> String {
+        let name = Path::new(&self.scene.settings().path).file_name();
+        name.map_or_else(|| "untitled".to_owned(), |name| name.to_string_lossy().into_owned())
+    }
+
     /// The scene as JSON.
     pub(super) fn describe(&self) -> String {
         let settings = self.scene.settings();
-        let path = &settings.path;
+        let name = self.name();
+        // A recording is for others: where the file was is nobody's business.
+        let path = if self.mode == RECORDING { &name } else { &settings.path };
         json!({
-            "name": Path::new(path).file_name().map_or_else(|| "untitled".into(), |name| name.to_string_lossy()),
+            "name": name,
             "path": path,
             "state": state_name(self.state),
             "time": self.time,

@@ -1,5 +1,9 @@
 //! The files of the page, compressed with gzip when Swanilda is built.
 
+use std::io::Read;
+
+use flate2::read::GzDecoder;
+
 /// A file of the page.
 pub(super) struct Asset {
     /// Below the address of the page, such as `render/scene.js`.
@@ -15,6 +19,13 @@ static ASSETS: &[Asset] = include!(concat!(env!("OUT_DIR"), "/page_files.rs"));
 /// The file with that name.
 pub(super) fn find(name: &str) -> Option<&'static Asset> {
     ASSETS.binary_search_by_key(&name, |asset| asset.name).ok().map(|at| &ASSETS[at])
+}
+
+/// The text of a file.
+pub(crate) fn page_file(name: &str) -> Option<String> {
+    let mut text = String::new();
+    GzDecoder::new(find(name)?.gzip).read_to_string(&mut text).ok()?;
+    Some(text)
 }
 
 /// The content type of a file, by its extension.

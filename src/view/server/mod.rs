@@ -1,6 +1,7 @@
 //! The server of the viewer: what its threads and the simulation's thread share, addresses, and one visitor for each page.
 
 mod assets;
+mod recorded;
 mod site;
 mod visitor;
 
@@ -12,6 +13,8 @@ use serde_json::{Value, json};
 
 use super::mirror::Mirror;
 use super::request::Action;
+pub(crate) use assets::page_file;
+pub(crate) use recorded::RecordedSite;
 pub(crate) use site::ViewSite;
 
 /// Requests that wait for the simulation; more are refused.

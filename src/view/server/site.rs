@@ -36,20 +36,20 @@ impl ViewSite {
         filled.map_err(|_| std::io::Error::other("the system has no random numbers"))?;
         Ok(format!("{:032x}", u128::from_be_bytes(bytes)))
     }
+}
 
-    /// What comes after the secret in a path, without a query; None where the secret is wrong.
-    fn inside<'a>(&self, path: &'a str) -> Option<&'a str> {
-        let path = path.split(['?', '#']).next()?;
-        let (token, rest) = path.strip_prefix('/')?.split_once('/')?;
-        // All bytes are compared, so that time says nothing about how many of them are right.
-        let differences = token.bytes().zip(self.token.bytes()).fold(0, |all, (a, b)| all | (a ^ b));
-        (differences == 0 && token.len() == self.token.len()).then_some(rest)
-    }
+/// What comes after the secret in a path, without a query; None where the secret is wrong.
+pub(super) fn inside<'a>(secret: &str, path: &'a str) -> Option<&'a str> {
+    let path = path.split(['?', '#']).next()?;
+    let (token, rest) = path.strip_prefix('/')?.split_once('/')?;
+    // All bytes are compared, so that time says nothing about how many of them are right.
+    let differences = token.bytes().zip(secret.bytes()).fold(0, |all, (a, b)| all | (a ^ b));
+    (differences == 0 && token.len() == secret.len()).then_some(rest)
 }
 
 impl Site for ViewSite {
     fn get(&self, path: &str, known: Option<&str>) -> SiteReply {
-        let Some(name) = self.inside(path) else { return not_found() };
+        let Some(name) = inside(&self.token, path) else { return not_found() };
         if let Some(hash) = name.strip_prefix("blob/") {
             let blob = Hash::from_text(hash).and_then(|hash| self.shared.mirror().blob(hash));
             return blob.map_or_else(not_found, blob_reply);
@@ -59,11 +59,12 @@ impl Site for ViewSite {
     }
 
     fn open(&self, path: &str) -> Option<Box<dyn Visitor>> {
-        (self.inside(path)? == "stream").then(|| Box::new(Page::new(Arc::clone(&self.shared))) as Box<dyn Visitor>)
+        (inside(&self.token, path)? == "stream")
+            .then(|| Box::new(Page::new(Arc::clone(&self.shared))) as Box<dyn Visitor>)
     }
 }
 
-fn common_headers() -> Vec<(&'static str, String)> {
+pub(super) fn common_headers() -> Vec<(&'static str, String)> {
     [
         ("Content-Security-Policy", POLICY),
         ("X-Content-Type-Options", "nosniff"),
@@ -75,7 +76,7 @@ fn common_headers() -> Vec<(&'static str, String)> {
     .to_vec()
 }
 
-fn not_found() -> SiteReply {
+pub(super) fn not_found() -> SiteReply {
     let mut headers = common_headers();
     headers.push(("Content-Type", "text/plain; charset=utf-8".to_owned()));
     SiteReply { status: 404, headers, body: Arc::new(b"There is nothing at this address.".to_vec()) }
@@ -88,7 +89,7 @@ fn blob_reply(blob: Arc<Blob>) -> SiteReply {
     SiteReply { status: 200, headers, body: blob }
 }
 
-fn asset_reply(asset: &'static Asset, known: Option<&str>) -> SiteReply {
+pub(super) fn asset_reply(asset: &'static Asset, known: Option<&str>) -> SiteReply {
     let tag = format!("\"{}\"", asset.tag);
     let mut headers = common_headers();
     headers.push(("ETag", tag.clone()));

@@ -16,6 +16,7 @@ use crate::script::files::app_storage::AppStorage;
 use crate::script::lifecycle::random::Random;
 use crate::script::log::auxiliary_consoles::AuxiliaryConsoles;
 use crate::script::log::verbosity;
+use crate::script::present::Watching;
 use crate::script::sim::{Options, Sim};
 use crate::script::video::Videos;
 use crate::ui::Ui;
@@ -46,6 +47,7 @@ pub(crate) struct AppData {
     pub videos: Videos,
     /// The windows of scripts.
     pub ui: Rc<RefCell<Ui>>,
+    pub watching: Watching,
 }
 
 /// Parameters of the user interface and the like, by number.

@@ -1,0 +1,41 @@
+//! The option about recordings.
+
+use std::fs::File;
+use std::path::PathBuf;
+
+use crate::Simulator;
+use crate::view::recording::RunRecorder;
+
+/// A recording of the run.
+#[derive(clap::Args)]
+pub(in crate::cli) struct RecordArgs {
+    /// Record the run, to look at it again with `swanilda view FILE` and `swanilda export FILE`
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+}
+
+impl RecordArgs {
+    /// Begins the file with the present state.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub(in crate::cli) fn start(&self, sim: &Simulator) -> Result<Option<RunRecorder<File>>, String> {
+        let recorder =
+            self.record.as_ref().map(|path| File::create(path).and_then(|file| RunRecorder::start(sim, file)));
+        recorder.transpose().map_err(|error| self.failed(&error))
+    }
+
+    /// Completes the file.
+    ///
+    /// # Errors
+    /// When it could not be written, at any time.
+    pub(in crate::cli) fn finish(&self, sim: &Simulator, recorder: Option<RunRecorder<File>>) -> Result<(), String> {
+        let finished = recorder.map(|recorder| recorder.finish(sim)).transpose();
+        finished.map(drop).map_err(|error| self.failed(&error))
+    }
+
+    fn failed(&self, error: &std::io::Error) -> String {
+        let path = self.record.clone().unwrap_or_default();
+        format!("cannot write {}: {error}", path.display())
+    }
+}

@@ -1,0 +1,103 @@
+//! Who looks on at a simulation from outside of scripts: it is shown the state after each step.
+
+use std::collections::BTreeSet;
+
+use super::log::RecentLine;
+use super::sim::Sim;
+use super::step::clock::SimulationState;
+use crate::scene::{Data, Handle, Scene};
+
+/// A simulator after a step.
+pub(crate) struct Present<'a> {
+    pub scene: &'a Scene,
+    /// Another one after another scene was loaded.
+    pub scene_uid: i64,
+    pub state: SimulationState,
+    /// Seconds.
+    pub time: f64,
+    pub steps: u64,
+    /// Uncaught errors of scripts.
+    pub errors: u64,
+    /// Lines of the log since the last time.
+    pub lines: Vec<RecentLine>,
+    /// The names of all signals.
+    pub signals: BTreeSet<String>,
+    /// Names of the messages that scripts sent to all others since the last time.
+    pub broadcasts: Vec<String>,
+    /// Shapes that touched each other in the last sub-step of the physics, the smaller handle first.
+    pub contacts: BTreeSet<[Handle; 2]>,
+}
+
+/// A function that looks at each of them.
+pub(crate) type Watcher = Box<dyn FnMut(&Present<'_>)>;
+
+/// The watcher of a simulator.
+#[derive(Default)]
+pub(crate) struct Watching {
+    watcher: Option<Watcher>,
+    /// Lines of the log that were shown.
+    lines: u64,
+    broadcasts: Vec<String>,
+}
+
+impl Sim {
+    /// Shows the state after each step from now on; None ends that.
+    pub(crate) fn watch(&self, watcher: Option<Watcher>) {
+        self.log.keep_recent();
+        self.app.borrow_mut().watching.watcher = watcher;
+    }
+
+    /// Calls `look` with the present state.
+    pub(crate) fn with_present<T>(&self, look: impl FnOnce(&Present<'_>) -> T) -> T {
+        let (lines, broadcasts) = {
+            let watching = &mut self.app.borrow_mut().watching;
+            (self.log.recent_since(&mut watching.lines), std::mem::take(&mut watching.broadcasts))
+        };
+        let scene = self.scene.borrow();
+        look(&Present {
+            scene: &scene,
+            scene_uid: self.scene_uid(),
+            state: self.clock.state(),
+            time: self.clock.time(),
+            steps: self.clock.steps(),
+            errors: self.log.errors(),
+            lines,
+            signals: self.app.borrow().signals.names().map(str::to_owned).collect(),
+            broadcasts,
+            contacts: self.touching(),
+        })
+    }
+
+    fn touching(&self) -> BTreeSet<[Handle; 2]> {
+        let dynamics = self.dynamics.borrow();
+        let contacts: Vec<_> = dynamics.iter().flat_map(|dynamics| dynamics.contacts()).collect();
+        let last = contacts.last().map(|contact| contact.sub_step);
+        let of_last = contacts.iter().filter(|contact| Some(contact.sub_step) == last);
+        of_last.map(|contact| contact.shapes).map(|[a, b]| [a.min(b), a.max(b)]).collect()
+    }
+
+    /// Shows the state after a step to the watcher.
+    pub(super) fn show_to_watcher(&self) {
+        // The end of a simulation restores what was before it: its last step is what is to be seen.
+        if self.clock.is_stopped() {
+            return;
+        }
+        let watcher = self.app.borrow_mut().watching.watcher.take();
+        if let Some(mut watcher) = watcher {
+            self.with_present(|present| watcher(present));
+            self.app.borrow_mut().watching.watcher = Some(watcher);
+        }
+    }
+
+    /// A script sends a message to all others, by convention with an `id`.
+    pub(super) fn note_broadcast(&self, id: Option<&Data>) {
+        let watching = &mut self.app.borrow_mut().watching;
+        if watching.watcher.is_some() {
+            let name = match id {
+                Some(Data::Text(name)) => String::from_utf8_lossy(name).into_owned(),
+                _ => "message".to_owned(),
+            };
+            watching.broadcasts.push(name);
+        }
+    }
+}

@@ -1,0 +1,19 @@
+sim = require 'sim'
+function sysCall_init()
+    ball = sim.createPrimitiveShape(sim.primitiveshape_spheroid, {0.2, 0.2, 0.2})
+    sim.setObjectAlias(ball, 'Ball')
+    joint = sim.createJoint(sim.joint_revolute_subtype, sim.jointmode_kinematic, 0)
+    sim.setObjectAlias(joint, 'Arm')
+end
+function sysCall_sensing()
+    local t = sim.getSimulationTime()
+    sim.setObjectPosition(ball, {t, 0, 0.5})
+    sim.setJointPosition(joint, t)
+    print('at', t)
+end
+function sysCall_actuation()
+    if sim.getSimulationTime() > 1.5 and not failed then
+        failed = true
+        error('oh')
+    end
+end
