@@ -62,7 +62,7 @@ impl Sim {
             steps: self.clock.steps(),
             errors: self.log.errors(),
             lines,
-            signals: self.app.borrow().signals.names().map(str::to_owned).collect(),
+            signals: scene.signals.names().chain(self.app.borrow().signals.names()).map(str::to_owned).collect(),
             broadcasts,
             contacts: self.touching(),
         })
