@@ -138,8 +138,9 @@ function sim.addObjectToCollection(collectionHandle, objectHandle, what, options
 
 --- Adds objects to the selection.
 ---@deprecated sim.setObjectSel
----@param what integer sim.handle_single, _tree, _chain or _all
+---@param what? any sim.handle_single, _tree, _chain or _all; or a list of handles, of which unknown ones are left out
 ---@param objectHandle? integer the object meant
+---@return integer result 1
 function sim.addObjectToSelection(what, objectHandle) end
 
 --- A source of particles. They are not simulated, with a warning.
@@ -168,7 +169,7 @@ function sim.addReferencedHandle(objectHandle, referencedHandle, tag, options) e
 
 --- Writes a line to the log in the name of this script, as an information.
 ---@deprecated sim.addLog
----@param message string the line
+---@param message? string the line; nil: none is written
 ---@return integer result 1
 function sim.addStatusbarMessage(message) end
 
@@ -1100,6 +1101,10 @@ function sim.getJointType(objectHandle) end
 ---@return number velocity rad/s or m/s
 function sim.getJointVelocity(jointHandle) end
 
+--- Reason of the last call of this script that was refused; it is forgotten.
+---@return string lastError empty if there was none
+function sim.getLastError() end
+
 --- State and colours of a light.
 ---@param lightHandle integer the light
 ---@return any state 1 when it is on
@@ -1333,6 +1338,12 @@ function sim.getObjectSelection() end
 ---@param objectHandle integer the object
 ---@return number sizeFactor the product
 function sim.getObjectSizeFactor(objectHandle) end
+
+--- Three numbers that are multiplied by every scaling of an object along its axes.
+---@deprecated
+---@param objectHandle integer the object
+---@return number[] sizeValues initially 1, 1, 1
+function sim.getObjectSizeValues(objectHandle) end
 
 --- Special properties of an object: collidable, measurable, detectable; its own flags, without those of models.
 ---@param objectHandle integer the object
@@ -1602,7 +1613,7 @@ function sim.getScriptFunctions(handle, scriptType) end
 
 --- Handle of a script.
 ---@deprecated sim.getObject
----@param scriptType any sim.scripttype_*, or sim.handle_self; V-REP gave the name of an object here, for its simulation script
+---@param scriptType? any sim.scripttype_*; sim.handle_self or nil for the caller; V-REP gave the name of an object here, for its simulation script
 ---@param scriptName? string path of the object the script belongs to, or the display name of an add-on
 ---@param objectHandle? integer the object the script belongs to
 ---@return integer scriptHandle
@@ -2188,6 +2199,14 @@ function sim.isObjectInSelection(objectHandle) end
 ---@return boolean loaded true if so
 function sim.isPluginLoaded(name) end
 
+--- Whether the script is a thread of V-REP.
+---@return integer result 0: threads are coroutines
+function sim.isScriptExecutionThreaded() end
+
+--- Whether the code runs in a thread of V-REP.
+---@return integer result 0: threads are coroutines
+function sim.isScriptRunningInThread() end
+
 --- Starts a program that goes on by itself.
 ---@param filename string path of the program, or a name to be looked up where the system looks for programs
 ---@param parameters? string its arguments, with spaces between; double quotes hold one together
@@ -2563,8 +2582,9 @@ function sim.removeObject(objectHandle) end
 
 --- Removes objects from the selection.
 ---@deprecated sim.setObjectSel
----@param what integer sim.handle_single, _tree, _chain or _all
+---@param what? any sim.handle_single, _tree, _chain or _all; or a list of handles
 ---@param objectHandle? integer the object meant
+---@return integer result 1
 function sim.removeObjectFromSelection(what, objectHandle) end
 
 --- Removes objects. Children that are not listed survive: they go to the nearest ancestor left.
@@ -2983,6 +3003,7 @@ function sim.setEventFilters(filters) end
 --- Sets whether a sensor or graph is left out when all are handled.
 ---@param objectHandle integer proximity sensor, vision sensor or graph; collision or distance object of an old scene
 ---@param explicitHandlingFlags integer 1 if so
+---@return integer result 1
 function sim.setExplicitHandling(objectHandle, explicitHandlingFlags) end
 
 --- Sets a property; names below `customData.` and `signal.` are created.
@@ -3041,12 +3062,14 @@ function sim.setGraphUserData(graphHandle, dataStreamName, data) end
 --- Sets an integer parameter.
 ---@param parameter integer sim.intparam_*
 ---@param parameterValue integer the new value
+---@return integer result 1
 function sim.setInt32Param(parameter, parameterValue) end
 
 --- Sets an integer parameter.
 ---@deprecated properties
 ---@param parameter integer sim.intparam_*
 ---@param parameterValue integer the new value
+---@return integer result 1
 function sim.setInt32Parameter(parameter, parameterValue) end
 
 --- Sets a signal.
@@ -3310,6 +3333,13 @@ function sim.setObjectSel(objectHandles) end
 ---@deprecated sim.setObjectSel
 ---@param objectHandles integer[] unknown ones are left out
 function sim.setObjectSelection(objectHandles) end
+
+--- Sets the three numbers that are multiplied by every scaling of an object.
+---@deprecated
+---@param objectHandle integer the object
+---@param sizeValues number[] one for each axis
+---@return integer result 1
+function sim.setObjectSizeValues(objectHandle, sizeValues) end
 
 --- Sets what an object can be to sensors and checks.
 ---@param objectHandle integer the object
@@ -3843,6 +3873,35 @@ function sim.yawPitchRollToAlphaBetaGamma(yaw, pitch, roll) end
 
 --- Same as sim.step.
 function sim.yield() end
+
+--- Writes custom data of an object under a number.
+---@param objectHandle integer the object
+---@param header integer the number
+---@param data string|table empty: removes the data
+---@return integer result 1
+function simAddObjectCustomData(objectHandle, header, data) end
+
+--- Writes custom data of the scene under a number.
+---@param header integer the number
+---@param data string|table empty: removes the data
+---@return integer result 1
+function simAddSceneCustomData(header, data) end
+
+--- Custom data of an object under a number.
+---@param objectHandle integer the object
+---@param header integer the number
+---@return any data empty if there is none
+function simGetObjectCustomData(objectHandle, header) end
+
+--- Custom data of the scene under a number.
+---@param header integer the number
+---@return any data empty if there is none
+function simGetSceneCustomData(header) end
+
+--- Time by the wall clock in milliseconds.
+---@param before? integer an earlier time: the difference is returned
+---@return integer time whole milliseconds
+function simGetSystemTimeInMilliseconds(before) end
 
 --- The counterpart of loadPlugin.
 ---@param name string the plugin

@@ -24,6 +24,7 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Globals", scripts::global::FUNCTIONS),
     ("Scripts", scripts::script::FUNCTIONS),
     ("Older script functions", old::script::FUNCTIONS),
+    ("Globals of V-REP", old::globals::FUNCTIONS),
     ("Time and chance", scripts::time::FUNCTIONS),
     ("Simulation", scripts::simulation::FUNCTIONS),
     ("Threads", scripts::thread::FUNCTIONS),

@@ -20,6 +20,8 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_explicit_handling,
     set_explicit_handling,
     get_object_size_factor,
+    get_object_size_values,
+    set_object_size_values,
     get_referenced_handles,
     set_referenced_handles,
     get_referenced_handles_tags,
@@ -165,19 +167,21 @@ fn get_explicit_handling(cx: &Cx, object_handle: Number) -> Result<i64> {
 ///
 /// @param objectHandle proximity sensor, vision sensor or graph; collision or distance object of an old scene
 /// @param explicitHandlingFlags 1 if so
+/// @return result 1
 #[api("sim.setExplicitHandling")]
-fn set_explicit_handling(cx: &mut Cx, object_handle: Number, explicit_handling_flags: Number) -> Result<()> {
+fn set_explicit_handling(cx: &mut Cx, object_handle: Number, explicit_handling_flags: Number) -> Result<i64> {
     let explicit = explicit_handling_flags.0 & 1 != 0;
     let mut scene = cx.scene_mut();
     if let Some(flag) = explicit_calculation(&mut scene, object_handle.0) {
         *flag = explicit;
-        return Ok(());
+        return Ok(1);
     }
     let handle = handled(&scene, object_handle.0)?.handle();
-    Ok(scene.try_modify(handle, Field::Sensor, |object| {
+    scene.try_modify(handle, Field::Sensor, |object| {
         *explicit_flag(object)? = explicit;
         Ok(())
-    })?)
+    })?;
+    Ok(1)
 }
 
 /// Product of all factors an object was scaled by.
@@ -187,6 +191,26 @@ fn set_explicit_handling(cx: &mut Cx, object_handle: Number, explicit_handling_f
 #[api("sim.getObjectSizeFactor")]
 fn get_object_size_factor(cx: &Cx, object_handle: Handle) -> Result<f64> {
     Ok(cx.scene().object(object_handle)?.size_factor)
+}
+
+/// Three numbers that are multiplied by every scaling of an object along its axes.
+///
+/// @param objectHandle the object
+/// @return sizeValues initially 1, 1, 1
+#[api("sim.getObjectSizeValues")]
+fn get_object_size_values(cx: &Cx, object_handle: Handle) -> Result<[f64; 3]> {
+    Ok(cx.scene().object(object_handle)?.size_values)
+}
+
+/// Sets the three numbers that are multiplied by every scaling of an object.
+///
+/// @param objectHandle the object
+/// @param sizeValues one for each axis
+/// @return result 1
+#[api("sim.setObjectSizeValues")]
+fn set_object_size_values(cx: &mut Cx, object_handle: Handle, size_values: [f64; 3]) -> Result<i64> {
+    cx.scene_mut().modify(object_handle, Field::Other, |object| object.size_values = size_values)?;
+    Ok(1)
 }
 
 /// Handles an object refers to.

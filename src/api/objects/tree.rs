@@ -267,48 +267,65 @@ fn set_object_sel(cx: &mut Cx, object_handles: Handles) -> Result<()> {
     Ok(())
 }
 
-/// The objects an old selection function means by `what` and `handle`.
-fn objects_of(cx: &Cx, what: i64, handle: Option<Handle>) -> Result<Vec<Handle>> {
+/// The objects an old selection function means by `what` and `handle`; unknown ones of a list stay unknown.
+fn objects_of(cx: &Cx, what: &Data, handle: Number) -> Result<Vec<i64>> {
     let scene = cx.scene();
+    let what = match what {
+        Data::Nil => return Ok(Vec::new()),
+        Data::Array(list) => return Ok(list.iter().filter_map(Data::as_f64).map(|raw| raw as i64).collect()),
+        what => what.as_f64().ok_or(ApiError::NotA { position: 1, expected: "number" })? as i64,
+    };
     if what == special::ALL {
-        return Ok(scene.objects().map(|object| object.handle()).collect());
+        return Ok(scene.objects().map(|object| object.handle().raw()).collect());
     }
-    let handle = handle.ok_or(ApiError::MoreArguments)?;
+    let handle = Handle::from_raw(handle.0).ok_or(SceneError::NoSuchObject)?;
     scene.object(handle)?;
-    Ok(match what {
+    let objects: Vec<Handle> = match what {
+        special::SINGLE => vec![handle],
         special::TREE => scene.subtree(handle),
         special::CHAIN => std::iter::once(handle).chain(scene.ancestors(handle)).collect(),
-        _ => vec![handle],
-    })
+        _ => return Err(SceneError::InvalidArgument.into()),
+    };
+    Ok(objects.into_iter().map(Handle::raw).collect())
 }
 
 /// Adds objects to the selection.
 ///
-/// @param what sim.handle_single, _tree, _chain or _all
+/// @param what sim.handle_single, _tree, _chain or _all; or a list of handles, of which unknown ones are left out
 /// @param objectHandle the object meant
+/// @return result 1
 #[api("sim.addObjectToSelection")]
-fn add_object_to_selection(cx: &mut Cx, what: Number, #[default(None)] object_handle: Option<Handle>) -> Result<()> {
-    let added = objects_of(cx, what.0, object_handle)?;
+fn add_object_to_selection(
+    cx: &mut Cx,
+    #[default(Data::Nil)] what: Data,
+    #[default(special::WORLD)] object_handle: Number,
+) -> Result<i64> {
+    let added = objects_of(cx, &what, object_handle)?;
+    let added = added.into_iter().filter_map(Handle::from_raw);
     let selection: Vec<Handle> = cx.scene().selection().iter().copied().chain(added).collect();
     cx.scene_mut().select(&selection);
-    Ok(())
+    Ok(1)
 }
 
 /// Removes objects from the selection.
 ///
-/// @param what sim.handle_single, _tree, _chain or _all
+/// @param what sim.handle_single, _tree, _chain or _all; or a list of handles
 /// @param objectHandle the object meant
+/// @return result 1
 #[api("sim.removeObjectFromSelection")]
 fn remove_object_from_selection(
     cx: &mut Cx,
-    what: Number,
-    #[default(None)] object_handle: Option<Handle>,
-) -> Result<()> {
-    let removed = objects_of(cx, what.0, object_handle)?;
+    #[default(Data::Nil)] what: Data,
+    #[default(special::WORLD)] object_handle: Number,
+) -> Result<i64> {
+    let removed = objects_of(cx, &what, object_handle)?;
+    if removed.iter().any(|&raw| Handle::from_raw(raw).is_none_or(|handle| !cx.scene().exists(handle))) {
+        return Err(SceneError::NoSuchObject.into());
+    }
     let mut selection = cx.scene().selection().to_vec();
-    selection.retain(|handle| !removed.contains(handle));
+    selection.retain(|handle| !removed.contains(&handle.raw()));
     cx.scene_mut().select(&selection);
-    Ok(())
+    Ok(1)
 }
 
 /// Whether an object is selected.
@@ -316,9 +333,10 @@ fn remove_object_from_selection(
 /// @param objectHandle the object
 /// @return result bit 0: selected; bit 1: last selected
 #[api("sim.isObjectInSelection")]
-fn is_object_in_selection(cx: &Cx, object_handle: Handle) -> Result<i64> {
+fn is_object_in_selection(cx: &Cx, object_handle: Number) -> Result<i64> {
     let scene = cx.scene();
-    let selected = scene.selection().contains(&object_handle);
-    let last = scene.selection().last() == Some(&object_handle);
+    let handle = Handle::from_raw(object_handle.0);
+    let selected = handle.is_some_and(|handle| scene.selection().contains(&handle));
+    let last = handle.is_some() && scene.selection().last().copied() == handle;
     Ok(i64::from(selected) | i64::from(last) << 1)
 }

@@ -15,6 +15,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_script_associated_with_object,
     get_customization_script_associated_with_object,
     get_script_handle,
+    get_last_error,
     get_script_name,
     get_script_attribute,
     get_script_execution_count,
@@ -156,19 +157,19 @@ fn get_customization_script_associated_with_object(cx: &Cx, object_handle: Numbe
 
 /// Handle of a script.
 ///
-/// @param scriptType sim.scripttype_*, or sim.handle_self; V-REP gave the name of an object here, for its simulation script
+/// @param scriptType sim.scripttype_*; sim.handle_self or nil for the caller; V-REP gave the name of an object here, for its simulation script
 /// @param scriptName path of the object the script belongs to, or the display name of an add-on
 /// @param objectHandle the object the script belongs to
 /// @return scriptHandle
 #[api("sim.getScriptHandle")]
 fn get_script_handle(
     cx: &Cx,
-    script_type: Data,
+    #[default(Data::Nil)] script_type: Data,
     #[default("")] script_name: String,
     #[default(special::WORLD)] object_handle: Number,
 ) -> Result<i64> {
     let script_type = match script_type {
-        Data::Int(special::SELF) => return Ok(cx.script().id),
+        Data::Nil | Data::Int(special::SELF) => return Ok(cx.script().id),
         Data::Int(number) => number,
         Data::Text(name) => {
             let name = String::from_utf8_lossy(&name).into_owned();
@@ -288,4 +289,12 @@ fn set_script_string_param(cx: &mut Cx, script_handle: Number, parameter_id: Num
 #[api("sim.setScriptText")]
 fn set_script_text(cx: &mut Cx, script_handle: Number, script_text: Bytes) -> Result<()> {
     write(cx, &script_of(cx, script_handle.0)?, Attribute::Text, Data::Text(script_text.0))
+}
+
+/// Reason of the last call of this script that was refused; it is forgotten.
+///
+/// @return lastError empty if there was none
+#[api("sim.getLastError")]
+fn get_last_error(cx: &Cx) -> Result<String> {
+    Ok(cx.env().last_error.take())
 }

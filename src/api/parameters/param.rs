@@ -31,6 +31,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 
 /// `sim.intparam_*` that are no property.
 mod int {
+    pub const ERROR_REPORT_MODE: i64 = 0;
     pub const PROGRAM_VERSION: i64 = 1;
     pub const DYNAMIC_ENGINE: i64 = 8;
     pub const EDIT_MODE_TYPE: i64 = 14;
@@ -40,6 +41,9 @@ mod int {
 
 /// The release that scripts see: 4.10.0 rev. 0.
 const PROGRAM_VERSION: i64 = 41_000;
+
+/// Bit of the error report mode: refused calls raise errors.
+const REPORT_ERRORS: i64 = 1;
 
 /// `sim.boolparam_*` that are no property and have a meaning here, or read true.
 mod switch {
@@ -90,6 +94,7 @@ fn get_int32_param(cx: &Cx, parameter: Number) -> Result<i64> {
         return Ok(value);
     }
     Ok(match parameter.0 {
+        int::ERROR_REPORT_MODE => cx.env().raises_errors.get().into(),
         int::PROGRAM_VERSION => PROGRAM_VERSION,
         int::PROGRAM_REVISION | int::EDIT_MODE_TYPE => 0,
         int::DYNAMIC_ENGINE => cx.scene().settings().dynamics.engine.engine.number(),
@@ -104,20 +109,22 @@ fn get_int32_param(cx: &Cx, parameter: Number) -> Result<i64> {
 ///
 /// @param parameter sim.intparam_*
 /// @param parameterValue the new value
+/// @return result 1
 #[api("sim.setInt32Param")]
-fn set_int32_param(cx: &mut Cx, parameter: Number, parameter_value: Number) -> Result<()> {
+fn set_int32_param(cx: &mut Cx, parameter: Number, parameter_value: Number) -> Result<i64> {
     let value = parameter_value.0;
     if param_property::write(cx, INTEGERS, parameter.0, value)? {
-        return Ok(());
+        return Ok(1);
     }
     match parameter.0 {
+        int::ERROR_REPORT_MODE => cx.env().raises_errors.set(value & REPORT_ERRORS != 0),
         int::DYNAMIC_ENGINE => cx.set_engine(value, 0)?,
         other => {
             let number = known(other, int::LAST)?;
             cx.app_mut().idle_params.integers.insert(number, value);
         }
     }
-    Ok(())
+    Ok(1)
 }
 
 /// A switch.

@@ -146,11 +146,13 @@ fn add_log(cx: &Cx, verbosity_level: i64, log_message: Option<String>) -> Result
 
 /// Writes a line to the log in the name of this script, as an information.
 ///
-/// @param message the line
+/// @param message the line; nil: none is written
 /// @return result 1
 #[api("sim.addStatusbarMessage")]
-fn add_statusbar_message(cx: &Cx, message: String) -> Result<i64> {
-    cx.env().log(verbosity::SCRIPT_INFOS, &message);
+fn add_statusbar_message(cx: &Cx, #[default(None)] message: Option<String>) -> Result<i64> {
+    if let Some(message) = message {
+        cx.env().log(verbosity::SCRIPT_INFOS, &message);
+    }
     Ok(1)
 }
 

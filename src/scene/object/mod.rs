@@ -61,6 +61,8 @@ pub struct Object {
     /// Shared with its copies.
     pub dna: Vec<u8>,
     pub size_factor: f64,
+    /// Numbers of scripts that are scaled with the object, for each axis.
+    pub size_values: [f64; 3],
     /// Order among siblings, for scripts.
     pub priority: ExecutionPriority,
     pub custom_data: CustomData,
@@ -193,6 +195,7 @@ impl Object {
             persistent_uid: String::new(),
             dna: Vec::new(),
             size_factor: 1.0,
+            size_values: [1.0; 3],
             priority: ExecutionPriority::Normal,
             custom_data: CustomData::default(),
             signals: CustomData::default(),

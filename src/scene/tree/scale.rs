@@ -54,6 +54,9 @@ impl Scene {
             Kind::Shape(shape) => {
                 let factors = shape.possible_factors(factors);
                 shape.scale_geometry(factors);
+                for (value, factor) in object.size_values.iter_mut().zip(factors) {
+                    *value *= factor;
+                }
             }
             _ => object.scale(factors[0]),
         })
@@ -77,6 +80,7 @@ impl Object {
     /// Scales all lengths, and what follows from them.
     fn scale(&mut self, factor: f64) {
         self.size_factor *= factor;
+        self.size_values = self.size_values.map(|value| value * factor);
         self.dynamics_reset = true;
         match &mut self.kind {
             Kind::Shape(shape) => shape.scale(factor),

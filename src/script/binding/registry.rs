@@ -97,6 +97,8 @@ pub(crate) struct Namespace {
     /// Functions for the Lua part, by the last part of their names.
     pub inner: Vec<(&'static str, FunctionId)>,
     old_names: HashMap<&'static str, &'static str>,
+    /// Functions that were never members, such as `simAddObjectCustomData`.
+    old_functions: HashMap<&'static str, FunctionId>,
 }
 
 impl Namespace {
@@ -119,6 +121,30 @@ impl Namespace {
     pub(crate) fn listed(&self) -> impl Iterator<Item = (&'static str, Member)> {
         let missing = self.names().into_iter().filter(|name| matches!(self.get(name), Some(Member::Missing(_))));
         self.listed.iter().copied().chain(missing).filter_map(|name| Some((name, self.get(name)?)))
+    }
+
+    /// The function of a global name from before there were modules that became no member.
+    pub(crate) fn old_function(&self, name: &str) -> Option<FunctionId> {
+        self.old_functions.get(name).copied()
+    }
+
+    /// What a global name from before there were modules stands for: `simGetObjectHandle` is `sim.getObjectHandle`, `sim_handle_all` is
+    /// `sim.handle_all`.
+    pub(crate) fn of_global(&self, name: &str) -> Option<Member> {
+        if let Some(id) = self.old_function(name) {
+            return Some(Member::Native(id));
+        }
+        if let Some(member) = self.of_old_name(name) {
+            return self.get(member);
+        }
+        let rest = name.strip_prefix("sim")?;
+        match (rest.strip_prefix('_'), rest.chars().next()?) {
+            (Some(constant), _) => self.get(constant),
+            (None, first) if first.is_ascii_uppercase() => {
+                self.get(&(first.to_ascii_lowercase().to_string() + &rest[1..]))
+            }
+            _ => None,
+        }
     }
 
     /// The member of a global name from before there were modules.
@@ -188,7 +214,11 @@ impl Registry {
     pub(crate) fn find(&self, name: &str) -> Option<Member> {
         match name.rsplit_once('.') {
             Some((module, member)) => self.module(module)?.get(member),
-            None => self.globals.iter().find(|(global, _)| *global == name).map(|&(_, id)| Member::Native(id)),
+            None => {
+                let global = self.globals.iter().find(|(global, _)| *global == name).map(|&(_, id)| id);
+                let old = || self.namespaces.first()?.old_function(name);
+                global.or_else(old).map(Member::Native)
+            }
         }
     }
 
@@ -223,6 +253,7 @@ impl Registry {
             listed: Vec::new(),
             inner: Vec::new(),
             old_names: pairs(module.old_names).collect(),
+            old_functions: HashMap::new(),
         };
         self.add_missing(&mut namespace);
         add_constants(&mut namespace);
@@ -266,7 +297,12 @@ impl Registry {
     ) {
         if !function.name.contains('.') {
             let id = self.add(function.name.into(), function, None, namespace.module.plugin_errors);
-            return self.globals.push((function.name, id));
+            if function.name.starts_with("sim") {
+                namespace.old_functions.insert(function.name, id);
+            } else {
+                self.globals.push((function.name, id));
+            }
+            return;
         }
         let member = last_part(function.name);
         let id =

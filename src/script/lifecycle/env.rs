@@ -41,6 +41,10 @@ pub(crate) struct Env {
     pub module_states: States,
     /// Permissions of the script.
     pub permissions: Permissions,
+    /// Whether refused calls raise errors; they only return -1 otherwise.
+    pub raises_errors: Cell<bool>,
+    /// Reason of the last refused call.
+    pub last_error: RefCell<String>,
     /// The memory of the state.
     pub budget: Rc<Budget>,
     warned: RefCell<HashSet<&'static str>>,
@@ -78,6 +82,8 @@ impl Env {
             events_wanted: Rc::clone(&sim.events.listening),
             module_states: States::default(),
             permissions: sim.options.permissions.clone(),
+            raises_errors: Cell::new(true),
+            last_error: RefCell::default(),
             budget: Rc::clone(&sim.scripts.budget),
             warned: RefCell::default(),
             warned_deprecated: RefCell::default(),

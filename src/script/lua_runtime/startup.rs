@@ -10,7 +10,7 @@ use super::user_modules::UserModule;
 use super::{coverage, library_globals, shared_process, threads, user_modules};
 use crate::script::binding::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE};
 use crate::script::binding::registry::{Member, MissingId, Namespace};
-use crate::script::binding::{deprecation_notice, error_text, push_function};
+use crate::script::binding::{deprecation_notice, error_text, push_function, push_function_of_old_name};
 use crate::script::lifecycle::instance::Script;
 use crate::script::lua::{self, LuaError, Stack, State, Type, push_callback};
 use crate::script::sim::Sim;
@@ -301,25 +301,21 @@ fn pairs_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     Ok(2)
 }
 
-/// Old global names: `simGetObjectHandle` is `sim.getObjectHandle`, `sim_handle_all` is `sim.handle_all`.
+/// Old global names. Their functions log no deprecation.
 fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     // Most of what scripts look for in vain is something else, which is not worth a copy.
     let Some(true) = stack.with_bytes(2, |name| name.starts_with(b"sim")) else { return Ok(0) };
     let Ok(name) = String::from_utf8(stack.bytes(2).unwrap_or_default()) else { return Ok(0) };
-    let Some(rest) = name.strip_prefix("sim") else { return Ok(0) };
-    let members = stack.owner().registry.members_of_sim();
-    let member = match members.of_old_name(&name) {
-        Some(member) => member.to_owned(),
-        None => match (rest.strip_prefix('_'), rest.chars().next()) {
-            (Some(constant), _) => constant.to_owned(),
-            (None, Some(first)) if first.is_ascii_uppercase() => first.to_ascii_lowercase().to_string() + &rest[1..],
-            _ => return Ok(0),
-        },
-    };
-    if !members.contains(&member) {
-        return Ok(0);
+    match stack.owner().registry.members_of_sim().of_global(&name) {
+        None => return Ok(0),
+        Some(Member::Native(id)) => push_function_of_old_name(stack, id),
+        Some(Member::Constant(value)) => stack.push_int(value),
+        Some(Member::Missing(id)) => push_missing(stack, id),
+        Some(Member::Lua { file, function, .. }) => {
+            let sim = stack.owner().sim.upgrade().ok_or("the simulator is gone.")?;
+            push_lua_member(stack, &sim, file, function)?;
+        }
     }
-    push_member(stack, &member)?;
     Ok(1)
 }
 

@@ -44,6 +44,7 @@ pub(super) fn fill(scene: &mut Scene, context: &Context<'_>, handle: Handle, obj
         identity(new, common);
         new.movement = movement(common);
         new.size_factor = common.size_factor.filter(|f| f.is_finite() && *f > 0.0).unwrap_or(1.0);
+        new.size_values = common.size_values.filter(|values| values.iter().all(|v| v.is_finite())).unwrap_or([1.0; 3]);
         new.special_property =
             common.special_property.map_or(new.special_property, |bits| SpecialFlags::from_bits_retain(bits.into()));
         new.hierarchy_colour = common.hierarchy_colour.unwrap_or(-1).into();

@@ -41,6 +41,7 @@ pub(super) fn common(context: &Context<'_>, object: &Object) -> SceneResult<Comm
         translation: Some((movement.preferred_axes.bits() as i32, movement.relativity[0].0 as i32, movement.step[0])),
         rotation: Some((movement.relativity[1].0 as i32, movement.step[1])),
         size_factor: Some(object.size_factor),
+        size_values: Some(object.size_values),
         custom_data: custom_data::chunk(&object.custom_data),
         user_params: user_params(object),
         acknowledgment: Some(acknowledgment(object)),

@@ -12,7 +12,7 @@ use super::api;
 use super::hooks::interrupt::Running;
 use super::seal::seal_top;
 use super::stack::Stack;
-use super::stack::frame::Facts;
+use super::stack::frame::{Facts, Frame};
 use entry::{Exit, push_function};
 
 /// "All results", for [`Stack::protected_call`].
@@ -70,9 +70,17 @@ impl Stack<'_> {
         LuaError { text }
     }
 
-    /// The line being executed by the function `level` calls up; -1 when that is not a Lua function.
-    pub(crate) fn current_line(self, level: c_int) -> c_int {
-        self.frame(level, Facts::LINE).map_or(-1, |frame| frame.line())
+    /// The line being executed by the function that called the running callback, passing over functions of chunks that `is_library`
+    /// names; -1 when that is not a Lua function.
+    pub(crate) fn line_of_caller(self, is_library: impl Fn(&str) -> bool) -> c_int {
+        let in_library = |frame: &Frame<'_>| frame.source().to_str().is_ok_and(&is_library);
+        let Some(caller) = self.frame(1, Facts::LINE_AND_SOURCE) else { return -1 };
+        if !in_library(&caller) {
+            return caller.line();
+        }
+        let frames = (2..).map_while(|level| self.frame(level, Facts::LINE_AND_SOURCE));
+        let script = frames.into_iter().find(|frame| !frame.is_native() && !in_library(frame));
+        script.unwrap_or(caller).line()
     }
 
     /// The text of Lua's own functions for an invalid argument, raised by the running callback.

@@ -18,7 +18,7 @@ pub(in crate::script::lua) struct Frame<'a> {
 pub(in crate::script::lua) struct Facts(&'static CStr);
 
 impl Facts {
-    pub(in crate::script::lua) const LINE: Self = Self(c"l");
+    pub(in crate::script::lua) const LINE_AND_SOURCE: Self = Self(c"lS");
     pub(in crate::script::lua) const NAME: Self = Self(c"n");
     pub(in crate::script::lua) const SOURCE: Self = Self(c"S");
     pub(in crate::script::lua) const ALL: Self = Self(c"nSl");
@@ -64,6 +64,11 @@ impl Frame<'_> {
     /// Its chunk, as errors name it.
     pub(in crate::script::lua) fn chunk(&self) -> &CStr {
         self.text(self.record.short_src.as_ptr()).unwrap_or_default()
+    }
+
+    /// The name its chunk was loaded by.
+    pub(in crate::script::lua) fn source(&self) -> &CStr {
+        self.text(self.record.source).unwrap_or_default()
     }
 
     /// The name of a local variable or temporary value; None where there is none.
