@@ -67,8 +67,8 @@ fn export(line: &str) -> Option<(&str, Vec<String>)> {
         let names = names.split_once('}')?.0.split(',').map(|name| name.trim().to_owned());
         return Some(("", names.filter(|name| !name.is_empty()).collect()));
     }
-    let words = rest.split([' ', '(', '*', '=']).filter(|word| !word.is_empty());
-    let name = words.skip_while(|word| ["async", "function", "class", "const", "let"].contains(word)).next()?;
+    let mut words = rest.split([' ', '(', '*', '=']).filter(|word| !word.is_empty());
+    let name = words.find(|word| !["async", "function", "class", "const", "let"].contains(word))?;
     Some((rest, vec![name.to_owned()]))
 }
 
