@@ -33,6 +33,7 @@ function sysCall_init()
     simUI.setPlotLabels(ui, plot, 'time (s)', 'value')
     simUI.setLegendVisibility(ui, plot, true)
     addCurve()
+    print('The oscillator stands still until its button is pressed.')
 end
 
 function setFrequency(_, _, value) hertz = value / 10 end

@@ -3,13 +3,16 @@
 use swanilda::scene::{Data, Key};
 use swanilda::{Options, ScriptKind, ScriptRef, Simulator, docs};
 
-/// These end the program, or wait for somebody.
-const NOT_CALLED: &[&str] = &["quitSimulator", "sim.quitSimulator", "sim.wait", "sim.systemSemaphore"];
+/// These end the program, wait for somebody, or choose that errors are not raised.
+const NOT_CALLED: &[&str] =
+    &["quitSimulator", "sim.quitSimulator", "sim.wait", "sim.systemSemaphore", "sim.setInt32Param"];
 
 /// Their answers differ from call to call, or they look at who is calling.
 const OTHER_ANSWERS: &[&str] = &[
     "sim.getSystemTime",
     "sim.getSystemTimeInMs",
+    "sim.getLastError",
+    "simGetSystemTimeInMilliseconds",
     "sim.getStackTraceback",
     "sim.executeScriptString",
     "sim.callScriptFunction",
