@@ -114,6 +114,11 @@ impl Simulator {
         self.sim.step_and_pause(steps);
     }
 
+    /// Asks for the end of the run, also of one that is about to pause.
+    pub(crate) fn stop_in_place_of_pause(&mut self) {
+        self.sim.stop_in_place_of_pause();
+    }
+
     /// Runs so many times as fast as the wall clock from now on; as fast as possible if that is 0.
     pub(crate) fn set_pace(&mut self, factor: f64) {
         self.sim.set_pace(factor);

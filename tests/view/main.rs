@@ -124,6 +124,20 @@ fn requests_are_done_and_answered() {
 }
 
 #[test]
+fn a_stop_right_after_an_error_ends_the_simulation() {
+    let script = "function sysCall_actuation() error('no') end";
+    let served = Served::start(script, &["--paused"]);
+    let mut page = Page::open(&served);
+    page.text();
+    // The first step fails, so that the second is the last before a pause.
+    assert_eq!(page.ask(json!({"do": "speed", "factor": 0.1})), Ok(json!(true)));
+    assert_eq!(page.ask(json!({"do": "play"})), Ok(json!(true)));
+    page.wait_for(|update| update["scene"]["errors"] == 1);
+    assert_eq!(page.ask(json!({"do": "stop"})), Ok(json!(true)));
+    page.wait_for(|update| update["scene"]["state"] == "stopped");
+}
+
+#[test]
 fn what_scripts_select_is_seen_and_errors_name_their_script() {
     let served = Served::start(SCRIPT, &["--paused"]);
     let mut page = Page::open(&served);

@@ -113,6 +113,13 @@ impl Clock {
         self.pause_requested.set(false);
     }
 
+    /// The run goes on where only one step was missing to a pause.
+    pub(in crate::script) fn cancel_begun_pause(&self) {
+        if self.state() == SimulationState::LastBeforePause {
+            self.state.set(SimulationState::Running);
+        }
+    }
+
     /// Refused when not running or when a stop is requested.
     pub(in crate::script) fn request_pause(&self) {
         if self.state().is_advancing() && !self.stop_requested.get() {

@@ -219,6 +219,13 @@ impl Sim {
         }
     }
 
+    /// Asks for the end of the run as a person does, who does not see that a pause has begun: a script's request would wait until the
+    /// simulation resumes (spec: simulation 2).
+    pub(crate) fn stop_in_place_of_pause(self: &Rc<Self>) {
+        self.clock.cancel_begun_pause();
+        self.stop();
+    }
+
     /// Asks for the end of the run; a paused one resumes for its last steps.
     pub(crate) fn stop(self: &Rc<Self>) {
         match self.clock.state() {

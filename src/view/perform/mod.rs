@@ -21,7 +21,7 @@ pub(crate) fn perform(sim: &mut Simulator, action: &Action, lines: &mut Vec<Rece
     match action {
         Action::Play => sim.play(),
         Action::Pause => sim.pause(),
-        Action::Stop => sim.request_stop(),
+        Action::Stop => sim.stop_in_place_of_pause(),
         Action::Step(count) => sim.step_and_pause(*count),
         Action::Speed(factor) => sim.set_pace(*factor),
         Action::Select(handles) => {
@@ -164,6 +164,28 @@ mod tests {
             sim.iterate();
         }
         assert_eq!(sim.state(), State::Stopped);
+    }
+
+    #[test]
+    fn a_stop_ends_also_what_is_about_to_pause() {
+        use crate::SimulationState as State;
+        let code = b"function sysCall_actuation() error('no') end";
+        let mut states = Vec::new();
+        for iterations in 0..6 {
+            let mut sim = simulator();
+            sim.add_script(ScriptKind::Customization, "", code).unwrap();
+            done(&mut sim, &Action::Play).unwrap();
+            for _ in 0..iterations {
+                sim.iterate();
+            }
+            states.push(sim.state());
+            done(&mut sim, &Action::Stop).unwrap();
+            for _ in 0..5 {
+                sim.iterate();
+            }
+            assert_eq!(sim.state(), State::Stopped, "after {:?}", states.last());
+        }
+        assert!(states.contains(&State::LastBeforePause) && states.contains(&State::Paused), "{states:?}");
     }
 
     #[test]
