@@ -101,6 +101,8 @@ def edits_properties(browser):
     field = "document.querySelector('[data-name=alias] input')"
     browser.shows(f"{field}?.value == 'box'", "the field")
     browser.evaluate(f"{field}.value = 'crate'; {field}.dispatchEvent(new Event('change'))")
+    layer = "document.querySelector('[data-name=layer] .value')"
+    same("an integer", browser.evaluate(f"{layer}.value ?? {layer}.textContent"), "1")
     browser.shows(f"{TREE}.includes('crate')", "the new name")
 
 
@@ -181,6 +183,11 @@ def is_accessible(browser):
     same("serious findings", found, [])
 
 
+def console_has_no_errors(browser):
+    errors = [event["params"]["entry"] for event in browser.events if event["method"] == "Log.entryAdded" and event["params"]["entry"]["level"] == "error"]
+    same("errors in the browser's console", errors, [])
+
+
 def notices_the_end(browser, sim):
     sim.process.kill()
     browser.shows("document.getElementById('notice').textContent.startsWith('The simulator has')", "the notice")
@@ -209,6 +216,7 @@ def main():
         keys_work(browser)
         is_accessible(browser)
         fits_small_screens(browser)
+        console_has_no_errors(browser)
         notices_the_end(browser, sim)
         says_nothing(browser)
 

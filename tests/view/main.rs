@@ -76,6 +76,8 @@ fn the_page_comes_compressed_with_its_policy() {
     assert_eq!(get(&served, "", &[("If-None-Match", tag)]).status, 304);
     assert_eq!(get(&served, "main.js", &[]).status, 200);
     assert_eq!(get(&served, "../Cargo.toml", &[]).status, 404);
+    let none = get(&served, "recording", &[]);
+    assert!(none.status == 204 && none.body.is_empty() && !none.head.contains("Content-Length"));
 }
 
 #[test]

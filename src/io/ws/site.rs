@@ -237,7 +237,8 @@ async fn respond(stream: &mut TcpStream, reply: &SiteReply, method: &str, goes_o
     let body = (*reply.body).as_ref();
     let connection = if goes_on { "keep-alive" } else { "close" };
     let mut head = format!("HTTP/1.1 {} {reason}\r\nConnection: {connection}\r\n", reply.status);
-    if reply.status != StatusCode::NOT_MODIFIED.as_u16() {
+    let has_no_body = [StatusCode::NO_CONTENT, StatusCode::NOT_MODIFIED].map(|status| status.as_u16());
+    if !has_no_body.contains(&reply.status) {
         head.push_str(&format!("Content-Length: {}\r\n", body.len()));
     }
     for (name, value) in &reply.headers {

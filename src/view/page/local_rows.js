@@ -6,7 +6,7 @@ const HIDDEN = new Set(['meshes', 'volume', 'boundingBox', 'blob', 'handle', 'pa
 
 const INTEGERS = new Set(['handle', 'uid', 'layer', 'linkedDummy']);
 
-const kind = (name, value) => (INTEGERS.has(name) ? 'int' : Array.isArray(value) ? `vector${value.length}` : { boolean: 'bool', number: 'float' }[typeof value] ?? typeof value);
+const kind = (name, value) => (INTEGERS.has(name) ? 'int' : name === 'resolution' ? 'intarray2' : Array.isArray(value) ? `vector${value.length}` : { boolean: 'bool', number: 'float' }[typeof value] ?? typeof value);
 
 /** @param {import('./store.js').Store} store @param {number} handle */
 export function localRows(store, handle) {

@@ -54,6 +54,9 @@ impl Site for ViewSite {
             let blob = Hash::from_text(hash).and_then(|hash| self.shared.mirror().blob(hash));
             return blob.map_or_else(not_found, blob_reply);
         }
+        if name == "recording" {
+            return no_recording();
+        }
         let name = if name.is_empty() { "index.html" } else { name };
         assets::find(name).map_or_else(not_found, |asset| asset_reply(asset, known))
     }
@@ -80,6 +83,11 @@ pub(super) fn not_found() -> SiteReply {
     let mut headers = common_headers();
     headers.push(("Content-Type", "text/plain; charset=utf-8".to_owned()));
     SiteReply { status: 404, headers, body: Arc::new(b"There is nothing at this address.".to_vec()) }
+}
+
+/// Every page asks for a recording first: that there is none is no error.
+fn no_recording() -> SiteReply {
+    SiteReply { status: 204, headers: common_headers(), body: Arc::new(Vec::new()) }
 }
 
 fn blob_reply(blob: Arc<Blob>) -> SiteReply {
@@ -149,6 +157,13 @@ mod tests {
         assert!(
             reply.headers.iter().any(|(name, value)| *name == "Content-Security-Policy" && !value.contains("unsafe"))
         );
+    }
+
+    #[test]
+    fn a_simulator_that_runs_has_no_recording() {
+        let reply = site().get("/0123456789abcdef0123456789abcdef/recording", None);
+        assert_eq!((reply.status, (*reply.body).as_ref().len()), (204, 0));
+        assert_eq!(site().get("/0123456789abcdef0123456789abcdef/recording/0", None).status, 404);
     }
 
     #[test]

@@ -3,9 +3,11 @@ import { el } from '../dom.js';
 
 const NUMBERS = new Set(['int', 'long', 'float', 'handle']);
 
-/** Numbers with a fixed width behind the point. */
+const INTEGERS = new Set(['int', 'long', 'handle', 'intarray', 'intarray2']);
+
+/** Numbers with a fixed width behind the point, except integers. */
 function number(x, type) {
-  if (type === 'int' || type === 'long' || type === 'handle' || x === null) return String(x);
+  if (INTEGERS.has(type) || (type === 'table' && Number.isInteger(x))) return String(x);
   const size = Math.abs(x);
   return size !== 0 && (size < 1e-4 || size >= 1e7) ? x.toExponential(4) : x.toFixed(4);
 }
