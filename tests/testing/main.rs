@@ -5,6 +5,7 @@ use std::process::Command;
 use std::time::Duration;
 
 mod goldens;
+mod recordings;
 #[path = "../support/mod.rs"]
 mod support;
 use support::process::run_for_code;

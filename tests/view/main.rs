@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests start programs and wait for them")]
 
 mod page;
+mod recorded;
 mod served;
 mod stream;
 

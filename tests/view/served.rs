@@ -25,11 +25,15 @@ impl Served {
     /// The same with another command that has a viewer.
     pub fn start_command(command: &str, script: &str, options: &[&str]) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
-        let scene = folder.path().join("scene.lua");
-        std::fs::write(&scene, script).expect("the scene is written");
+        std::fs::write(folder.path().join("scene.lua"), script).expect("the scene is written");
+        Self::start_file(command, folder, "scene.lua", options)
+    }
+
+    /// The same with a file of a folder, which is removed at the end.
+    pub fn start_file(command: &str, folder: tempfile::TempDir, file: &str, options: &[&str]) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_swanilda"))
             .arg(command)
-            .arg(&scene)
+            .arg(folder.path().join(file))
             .args(options)
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
