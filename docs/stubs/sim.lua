@@ -1846,11 +1846,6 @@ function sim.getThreadSwitchAllowed() end
 ---@return number value milliseconds times 1000, as in 4.10
 function sim.getThreadSwitchTiming() end
 
---- Handle of a custom user interface of V-REP; there are none.
----@param name string of it
----@return integer handle -1
-function sim.getUIHandle(name) end
-
 --- A parameter of an object.
 ---@param objectHandle integer the object
 ---@param parameterName string its name
@@ -3902,6 +3897,98 @@ function simGetSceneCustomData(header) end
 ---@param before? integer an earlier time: the difference is returned
 ---@return integer time whole milliseconds
 function simGetSystemTimeInMilliseconds(before) end
+
+--- Text of a button, label or edit box.
+---@param elementHandle integer the user interface
+---@param buttonHandle integer number of the button
+---@return string buttonLabel what it shows when it is up
+function simGetUIButtonLabel(elementHandle, buttonHandle) end
+
+--- Properties of a button.
+---@param elementHandle integer the user interface
+---@param buttonHandle integer number of the button
+---@return integer buttonProperty bits 0 and 1: 0 button, 1 label, 2 slider, 3 edit box; 0x8 stays down, 0x10 enabled, 0x20 borderless, 0x100 is down
+function simGetUIButtonProperty(elementHandle, buttonHandle) end
+
+--- Size of a button.
+---@param elementHandle integer the user interface
+---@param buttonHandle integer number of the button
+---@return integer[] size width and height, pixels
+function simGetUIButtonSize(elementHandle, buttonHandle) end
+
+--- The button that was pressed. Nobody presses them: the user interfaces are not shown.
+---@param elementHandle integer the user interface
+---@return integer buttonHandle -1
+function simGetUIEventButton(elementHandle) end
+
+--- A custom user interface of an old scene.
+---@param elementName string its old-style name
+---@return integer elementHandle its handle
+function simGetUIHandle(elementName) end
+
+--- Position of a user interface.
+---@param elementHandle integer the user interface
+---@return integer[] position x and y, pixels
+function simGetUIPosition(elementHandle) end
+
+--- Properties of a user interface.
+---@param elementHandle integer the user interface
+---@return integer elementProperty sim.ui_property_*
+function simGetUIProperty(elementHandle) end
+
+--- Position of a slider.
+---@param elementHandle integer the user interface
+---@param buttonHandle integer number of the slider
+---@return integer position 0 to 1000
+function simGetUISlider(elementHandle, buttonHandle) end
+
+--- Removes user interfaces.
+---@param elementHandle integer the user interface, or sim.handle_all
+---@return integer result 1
+function simRemoveUI(elementHandle) end
+
+--- Sets colours of a button, each red, green, blue from 0 to 1.
+---@param elementHandle integer the user interface
+---@param buttonHandle integer number of the button
+---@param upStateColor? number[] nil: stays as it is
+---@param downStateColor? number[] nil: stays as it is
+---@param labelColor? number[] nil: stays as it is
+---@return integer result 1
+function simSetUIButtonColor(elementHandle, buttonHandle, upStateColor, downStateColor, labelColor) end
+
+--- Sets the text of a button, label or edit box.
+---@param elementHandle integer the user interface
+---@param buttonHandle integer number of the button
+---@param upStateLabel? string nil: stays as it is
+---@param downStateLabel? string of a button that is down; nil: stays as it is
+---@return integer result 1
+function simSetUIButtonLabel(elementHandle, buttonHandle, upStateLabel, downStateLabel) end
+
+--- Sets properties of a button.
+---@param elementHandle integer the user interface
+---@param buttonHandle integer number of the button
+---@param buttonProperty integer as simGetUIButtonProperty returns
+---@return integer result 1
+function simSetUIButtonProperty(elementHandle, buttonHandle, buttonProperty) end
+
+--- Moves a user interface.
+---@param elementHandle integer the user interface
+---@param position number[] x and y, pixels
+---@return integer result 1
+function simSetUIPosition(elementHandle, position) end
+
+--- Sets properties of a user interface.
+---@param elementHandle integer the user interface
+---@param elementProperty integer sim.ui_property_*
+---@return integer result 1
+function simSetUIProperty(elementHandle, elementProperty) end
+
+--- Moves a slider.
+---@param elementHandle integer the user interface
+---@param buttonHandle integer number of the slider
+---@param position integer 0 to 1000
+---@return integer result 1
+function simSetUISlider(elementHandle, buttonHandle, position) end
 
 --- The counterpart of loadPlugin.
 ---@param name string the plugin

@@ -153,8 +153,9 @@ fn current_name(written: &str) -> Option<String> {
         };
         registry.members_of_sim().contains(&member).then(|| format!("sim.{member}"))
     };
-    let current = registry.members_of_sim().of_old_name(written);
-    let current = current.filter(|member| !member.starts_with('_')).map(|member| format!("sim.{member}"));
+    let members = registry.members_of_sim();
+    let current = members.of_old_name(written).filter(|member| members.contains(member) && !member.starts_with('_'));
+    let current = current.map(|member| format!("sim.{member}"));
     current.or_else(by_rule).or_else(|| old_names::current(written).map(str::to_owned))
 }
 

@@ -44,6 +44,13 @@ pub enum SceneError {
     NoSuchCollisionObject,
     #[error("distance object does not exist.")]
     NoSuchDistanceObject,
+    /// No custom user interface of V-REP.
+    #[error("UI does not exist.")]
+    NoSuchInterface,
+    #[error("UI button does not exist.")]
+    NoSuchButton,
+    #[error("button is not a slider.")]
+    NotASlider,
     /// No object and no collection.
     #[error("entity does not exist.")]
     NoSuchEntity,

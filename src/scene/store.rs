@@ -11,6 +11,7 @@ use super::object::objects::Objects;
 use super::object::{Kind, Object};
 use super::shape::mesh_owners::MeshOwners;
 use super::shape::{Part, Shape};
+use super::tree::button_interfaces::ButtonInterfaces;
 use super::tree::calculation_objects::{CollisionObjects, DistanceObjects};
 use super::tree::collection::Collections;
 use super::tree::old_names::OldNames;
@@ -34,6 +35,7 @@ pub struct Scene {
     pub(super) drawings: Drawings,
     pub(super) collision_objects: CollisionObjects,
     pub(super) distance_objects: DistanceObjects,
+    pub(super) button_interfaces: ButtonInterfaces,
     pub(super) referrers: Referrers,
     pub(super) dependent_joints: DependentJoints,
     /// A simulation runs: new objects remember their state.

@@ -182,28 +182,6 @@ function M.fileDialog(mode, title, startPath, initName, extName, ext)
     if #files > 0 then return table.concat(files, ';') end
 end
 
----------------------------------------------------------------- custom user interfaces of V-REP
-
---- Handle of a custom user interface of V-REP; there are none.
--- @api int handle = sim.getUIHandle(string name)
--- @param name of it
--- @return handle -1
-function M.getUIHandle(name) return -1 end
-
--- What there is nothing of can be set, and asked for, without effect.
-function M.getUIProperty(handle) return 0 end
-function M.setUIProperty(handle, property) return 0 end
-function M.getUIButtonProperty(handle, button) return 0 end
-function M.setUIButtonProperty(handle, button, property) return 0 end
-function M.getUISlider(handle, button) return 0 end
-function M.setUISlider(handle, button, position) return 0 end
-function M.getUIEventButton(handle) return -1 end
-function M.getUIButtonLabel(handle, button) return '' end
-function M.setUIButtonLabel(handle, button, label, downLabel) return 0 end
-function M.setUIButtonColor(handle, button, color) return 0 end
-function M.setUIPosition(handle, position) return 0 end
-function M.removeUI(handle) return 0 end
-
 ---------------------------------------------------------------- wireless messages of V-REP
 
 -- Signals live as long as the script that set them.

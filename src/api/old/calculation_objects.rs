@@ -2,9 +2,9 @@
 
 use api_macro::api;
 
-use crate::api::objects::old_name::OldName;
+use crate::api::objects::old_name::{OldName, suffix_of_script};
 use crate::api::{ApiFn, Cx, Result, functions};
-use crate::scene::{Data, Handle, Scene, SceneError, name_suffix, special};
+use crate::scene::{Data, Handle, Scene, SceneError, special};
 use crate::script::{Number, Results};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
@@ -20,10 +20,8 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 
 /// Looks up an old name.
 fn handle_of(cx: &Cx, name: &str, find: impl Fn(&Scene, &str) -> Option<i64>, missing: SceneError) -> Result<i64> {
-    let scene = cx.scene();
-    let object = cx.script().owner().or(cx.script().object).and_then(|object| scene.object(object).ok());
-    let name = OldName::read(name, object.map_or(-1, |object| name_suffix(object.old_name()).0));
-    match find(&scene, &name.name) {
+    let name = OldName::read(name, suffix_of_script(cx));
+    match find(&cx.scene(), &name.name) {
         None if name.no_error => Ok(-1),
         found => found.ok_or(missing.into()),
     }

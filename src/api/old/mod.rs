@@ -1,5 +1,6 @@
 //! `sim.*`: old functions whose replacement differs in more than its name.
 
+pub(in crate::api) mod button_interfaces;
 pub(in crate::api) mod calculation_objects;
 pub(in crate::api) mod engine_param;
 pub(in crate::api) mod globals;

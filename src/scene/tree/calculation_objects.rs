@@ -38,22 +38,11 @@ pub struct CalculationObjects<R, const FIRST: i64> {
 impl<R, const FIRST: i64> CalculationObjects<R, FIRST> {
     /// Adds one; where its name is taken it gets a number.
     pub fn add(&mut self, mut object: CalculationObject<R>) -> i64 {
-        object.name = self.free_name(object.name);
+        object.name = super::old_names::free_name(object.name, |name| self.named(name).is_some());
         let handle = FIRST + self.made;
         self.made += 1;
         self.by_handle.insert(handle, object);
         handle
-    }
-
-    /// The name, or what is before its last digits with the first free number.
-    fn free_name(&self, name: String) -> String {
-        if self.named(&name).is_none() {
-            return name;
-        }
-        let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
-        let number = name[stem.len()..].parse::<u64>().map_or(0, |number| number.saturating_add(1));
-        let mut names = (number..=u64::MAX).map(|number| format!("{stem}{number}"));
-        names.find(|name| self.named(name).is_none()).unwrap_or(name)
     }
 
     pub fn is_empty(&self) -> bool {

@@ -1,5 +1,6 @@
 //! The tree that objects form: hierarchy, names and paths, selection, collections, copies, references.
 
+pub mod button_interfaces;
 pub mod calculation_objects;
 pub(in crate::scene) mod collection;
 pub(in crate::scene) mod copy;

@@ -56,6 +56,16 @@ fn split_number(name: &str) -> (&str, Option<u64>) {
     (stem, name[stem.len()..].parse().ok())
 }
 
+/// The name, or what is before its last digits with the first free number.
+pub(super) fn free_name(name: String, is_taken: impl Fn(&str) -> bool) -> String {
+    if !is_taken(&name) {
+        return name;
+    }
+    let (stem, number) = split_number(&name);
+    let mut names = (number.map_or(0, |number| number.saturating_add(1))..=u64::MAX).map(|n| format!("{stem}{n}"));
+    names.find(|name| !is_taken(name)).unwrap_or(name)
+}
+
 /// The number after the `#` of a name, -1 without one, and what is before it.
 pub fn suffix(name: &str) -> (i64, &str) {
     let Some((stem, number)) = name.rsplit_once('#') else { return (-1, name) };

@@ -265,6 +265,11 @@ impl Registry {
             let id = self.add(function.name.into(), function, None, namespace.module.plugin_errors);
             namespace.inner.push((last_part(function.name), id));
         }
+        for (old, new) in pairs(module.old_names) {
+            if let Some(id) = namespace.old_function(new) {
+                namespace.old_functions.insert(old, id);
+            }
+        }
         self.add_aliases(&mut namespace, &deprecated);
         namespace
     }

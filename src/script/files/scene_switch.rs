@@ -123,6 +123,7 @@ impl Sim {
         scene.textures_mut().clear();
         *scene.collision_objects_mut() = Default::default();
         *scene.distance_objects_mut() = Default::default();
+        scene.button_interfaces_mut().remove_all();
         scene.modify_settings(|settings| *settings = Settings::default());
         for namespace in [Namespace::CustomData, Namespace::Signal] {
             scene.edit_named_values(None, namespace, Edit::Clear)?;

@@ -1,5 +1,6 @@
 //! Loads a file into a scene: objects with new handles, then references between them (spec: scene-files 10).
 
+mod button_interfaces;
 pub(super) mod cells;
 mod common;
 mod custom_data;
@@ -125,6 +126,7 @@ impl SceneFile {
             scene.number_names(&common::names(&file.contents.objects, &objects))?;
         }
         references::calculation_objects(scene, &file, &objects, &map, &collections);
+        button_interfaces::add(scene, &file, &objects, &map);
         let filters = file.contents.objects.iter().zip(&objects).filter_map(|(o, handle)| filters::script(o, *handle));
         let scripts: Vec<LoadedScript> = scripts.into_iter().chain(filters).collect();
         Ok(Loaded { objects, root, scripts })

@@ -94,7 +94,7 @@ pub(super) fn calculation_objects(
 }
 
 /// A name of the file with the suffix that objects with the same suffix have in the scene.
-fn numbered(scene: &Scene, file: &File, objects: &[Handle], name: String) -> String {
+pub(super) fn numbered(scene: &Scene, file: &File, objects: &[Handle], name: String) -> String {
     let (own, stem) = name_suffix(&name);
     let has_it =
         |object: &FileObject| object.common.name.as_ref().is_some_and(|name| name_suffix(&name.decode()).0 == own);

@@ -3,6 +3,7 @@
 //! Written is what the scene holds. Chunks that only programs before 4.5 look at are left out, apart from the geometry frames that
 //! early revisions of 4.5.1 still use.
 
+mod button_interfaces;
 mod calculation_objects;
 mod cells;
 mod colour;
@@ -103,6 +104,7 @@ fn contents(scene: &Scene, order: &[Handle], base: Option<Handle>, scripts: &[Lo
         collections: settings::collections(&context),
         collisions: calculation_objects::collisions(&context),
         distances: calculation_objects::distances(&context),
+        button_blocks: button_interfaces::blocks(&context, base.is_some()),
         objects,
         mesh_pool: Some(context.pool.arrays.pool),
         ..Contents::default()
