@@ -1,6 +1,5 @@
 //! Blobs: meshes, textures and points as bytes, named by a hash of their content. Little endian; docs/VIEW_PROTOCOL.md has their layout.
 
-use std::fmt;
 use std::sync::Arc;
 
 use nalgebra::Point3;
@@ -10,29 +9,12 @@ use crate::perception::vision::texture_coordinates;
 use crate::scene::appearance::texture::Texture;
 use crate::scene::shape::Part;
 
-/// The first 16 bytes of the SHA-256 of a blob. Shown in hexadecimal.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Hash(pub [u8; 16]);
+pub(crate) use super::hash::Hash;
 
 impl Hash {
     fn of(bytes: &[u8]) -> Self {
         let digest = digest(&SHA256, bytes);
         Self(*digest.as_ref().first_chunk().expect("SHA-256 has 32 bytes"))
-    }
-
-    /// The hash that is written so; None where the text is none.
-    pub(crate) fn from_text(text: &str) -> Option<Self> {
-        let digits = text.as_bytes();
-        if digits.len() != 32 || !digits.iter().all(|digit| matches!(digit, b'0'..=b'9' | b'a'..=b'f')) {
-            return None;
-        }
-        u128::from_str_radix(text, 16).ok().map(|number| Self(number.to_be_bytes()))
-    }
-}
-
-impl fmt::Display for Hash {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:032x}", u128::from_be_bytes(self.0))
     }
 }
 

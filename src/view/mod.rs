@@ -8,6 +8,7 @@
 //! Requests of pages are checked on the server's thread ([`request`]) and carried out by the simulation's between two iterations ([`Viewer`]).
 
 pub(crate) mod blobs;
+mod hash;
 pub(crate) mod mcap;
 pub(crate) mod mirror;
 pub(crate) mod observe;
