@@ -10,7 +10,7 @@ use super::approximated::difference;
 use super::lua_tokens::{Kind, Token, tokens};
 use super::{module_stubs, modules};
 use crate::format::scene_file::old_names;
-use crate::script::{Member, ReferenceModule};
+use crate::script::{Member, ReferenceModule, member_by_rule};
 
 /// Support for a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -144,16 +144,11 @@ fn current_name(written: &str) -> Option<String> {
         return None;
     }
     let registry = crate::modules::registry();
-    let by_rule = || {
-        let rest = &written[3..];
-        let member = match rest.strip_prefix('_') {
-            Some(constant) => constant.to_owned(),
-            None if rest.starts_with(|c: char| c.is_ascii_uppercase()) => rest[..1].to_ascii_lowercase() + &rest[1..],
-            None => return None,
-        };
-        registry.members_of_sim().contains(&member).then(|| format!("sim.{member}"))
-    };
     let members = registry.members_of_sim();
+    let by_rule = || {
+        let member = member_by_rule(written).filter(|member| members.contains(member))?;
+        Some(format!("sim.{member}"))
+    };
     let current = members.of_old_name(written).filter(|member| members.contains(member) && !member.starts_with('_'));
     let current = current.map(|member| format!("sim.{member}"));
     current.or_else(by_rule).or_else(|| old_names::current(written).map(str::to_owned))

@@ -48,7 +48,7 @@ pub use video::{VideoFailure, VideoOptions, VideoView};
 pub(crate) use binding::by_handle::ByHandle;
 pub(crate) use binding::data::{push_buffer, read_buffer};
 pub(crate) use binding::module::pairs;
-pub(crate) use binding::registry::{Member, Registry};
+pub(crate) use binding::registry::{Member, Registry, member_by_rule};
 pub(crate) use binding::states::States;
 pub(crate) use binding::{functions, needs_lua};
 pub(crate) use calls::handler::Handler;

@@ -137,19 +137,23 @@ impl Namespace {
         if let Some(member) = self.of_old_name(name) {
             return self.get(member);
         }
-        let rest = name.strip_prefix("sim")?;
-        match (rest.strip_prefix('_'), rest.chars().next()?) {
-            (Some(constant), _) => self.get(constant),
-            (None, first) if first.is_ascii_uppercase() => {
-                self.get(&(first.to_ascii_lowercase().to_string() + &rest[1..]))
-            }
-            _ => None,
-        }
+        self.get(&member_by_rule(name)?)
     }
 
     /// The member of a global name from before there were modules.
     pub(crate) fn of_old_name(&self, name: &str) -> Option<&'static str> {
         self.old_names.get(name).copied()
+    }
+}
+
+/// The member that the global name of V-REP stands for, if it is one of the regular ones: `getObject` for `simGetObject`, `handle_all` for
+/// `sim_handle_all`.
+pub(crate) fn member_by_rule(global: &str) -> Option<String> {
+    let rest = global.strip_prefix("sim")?;
+    match (rest.strip_prefix('_'), rest.chars().next()?) {
+        (Some(constant), _) => Some(constant.to_owned()),
+        (None, first) if first.is_ascii_uppercase() => Some(first.to_ascii_lowercase().to_string() + &rest[1..]),
+        _ => None,
     }
 }
 

@@ -1,6 +1,7 @@
 // Parts that are drawn by one call: the same mesh, texture and way of drawing, each with its slot.
 import { PLACES } from './gl.js';
 import { MergedBatch } from './merged.js';
+import { PartList } from './part_list.js';
 
 /**
  * @typedef {Object} Part
@@ -12,28 +13,13 @@ import { MergedBatch } from './merged.js';
  * @property {{texture: any, decal: boolean, culling: boolean, wireframe: boolean, edgeColor: number[]|null, order: number}} look
  */
 
-class Batch {
+class Batch extends PartList {
   constructor(gl, part) {
+    super();
     Object.assign(this, { gl, mesh: part.mesh, look: part.look, symbol: part.symbol });
-    this.parts = [];
     this.buffer = gl.createBuffer();
     this.bindings = part.mesh.bindings(this.buffer, part.look.wireframe ? part.mesh.wires() : part.mesh.indices);
     this.edgeBindings = part.look.edgeColor && part.mesh.edges && part.mesh.bindings(this.buffer, part.mesh.edges);
-    this.stale = true;
-  }
-
-  add(part) {
-    this.stale = true;
-    part.place = this.parts.push(part) - 1;
-  }
-
-  remove(part) {
-    const last = this.parts.pop();
-    if (last !== part) {
-      this.parts[part.place] = last;
-      last.place = part.place;
-    }
-    this.stale = true;
   }
 
   prepare() {

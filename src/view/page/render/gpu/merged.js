@@ -1,34 +1,20 @@
 // Small meshes that are there once, joined in one buffer with a slot per vertex: a thousand different parts cost a few calls.
 import { buffer, PLACES } from './gl.js';
+import { PartList } from './part_list.js';
 
 const PARTS = 128; // of a buffer; a part that comes or goes makes only its own buffer anew
 
 /** As a `Batch`, for parts with different meshes. */
-export class MergedBatch {
+export class MergedBatch extends PartList {
   /** @param {WebGL2RenderingContext} gl @param {import('./batches.js').Part} part the first one */
   constructor(gl, part) {
+    super();
     Object.assign(this, { gl, look: part.look, symbol: part.symbol, hasUvs: !!part.mesh.uvs });
-    this.parts = [];
     this.buffers = [];
-    this.stale = true;
   }
 
   get full() {
     return this.parts.length >= PARTS;
-  }
-
-  add(part) {
-    this.stale = true;
-    part.place = this.parts.push(part) - 1;
-  }
-
-  remove(part) {
-    const last = this.parts.pop();
-    if (last !== part) {
-      this.parts[part.place] = last;
-      last.place = part.place;
-    }
-    this.stale = true;
   }
 
   prepare() {
