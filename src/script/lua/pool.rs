@@ -7,7 +7,6 @@
 //! A state has small blocks already when it gets its pool. They stay with the allocator that made them, and an address says whose a
 //! small block is: a pool's lie 8 bytes behind a multiple of 16, those of mlua's allocator on one.
 
-use std::alloc::{Layout, alloc, dealloc, handle_alloc_error};
 use std::ffi::c_void;
 use std::ptr::{NonNull, null_mut};
 use std::rc::Rc;
@@ -26,11 +25,16 @@ const LARGE: usize = LARGEST + 1;
 const OFFSET: usize = 8;
 const _: () = assert!(ffi::SYS_MIN_ALIGN == STEP, "blocks of mlua's allocator must be told apart by their alignment");
 
-const FIRST_CHUNK: usize = 8 << 10;
-const LARGEST_CHUNK: usize = 256 << 10;
+/// Sizes of chunks, in lines of `STEP` bytes.
+const FIRST_CHUNK: usize = (8 << 10) / STEP;
+const LARGEST_CHUNK: usize = (256 << 10) / STEP;
 
 /// A free block: it holds the link to the next one of its class.
 struct Free(Option<NonNull<Free>>);
+
+/// What chunks are made of, for its size and alignment.
+type Line = u128;
+const _: () = assert!(size_of::<Line>() == STEP && align_of::<Line>() == STEP, "blocks of the pool are aligned by it");
 
 /// An allocator as Lua calls it, with the data it is called with.
 #[derive(Clone, Copy)]
@@ -39,12 +43,18 @@ pub(super) struct Allocator {
     pub(super) data: *mut c_void,
 }
 
+/// A block that Lua has returned: it is `size` bytes long, made by the pool or its base, and nobody else's.
+struct Block {
+    start: NonNull<u8>,
+    size: usize,
+}
+
 pub(super) struct Pool {
     pub(super) budget: Rc<Budget>,
     /// The allocator of large blocks, and of the small ones from before the pool.
     base: Allocator,
     free: [Option<NonNull<Free>>; CLASSES],
-    chunks: Vec<(NonNull<u8>, Layout)>,
+    chunks: Vec<Vec<Line>>,
     /// The unused rest of the newest chunk.
     rest: NonNull<u8>,
     rest_len: usize,
@@ -63,37 +73,25 @@ impl Pool {
     /// A block is from this function, or from `base` before; it has `old_size` bytes, and is not used any more.
     #[inline]
     pub(super) unsafe fn allocate(&mut self, old: *mut c_void, old_size: usize, size: usize) -> *mut c_void {
-        let Some(block) = NonNull::new(old.cast::<u8>()) else { return self.new_block(size) };
-        let pooled = is_pooled(block, old_size);
-        if size == 0 && pooled {
-            // SAFETY: as promised by the caller.
-            unsafe { self.release(block, old_size) };
+        let Some(start) = NonNull::new(old.cast()) else { return self.new_block(size) };
+        let block = Block { start, size: old_size };
+        if size == 0 {
+            self.free_block(block);
             return null_mut();
         }
-        // SAFETY: as promised by the caller.
-        unsafe { self.resize(block, old_size, size, pooled) }
+        self.resize(block, size)
     }
 
-    /// # Safety
-    /// As for `allocate`; `pooled` is true for a block of this pool.
-    unsafe fn resize(&mut self, block: NonNull<u8>, old_size: usize, size: usize, pooled: bool) -> *mut c_void {
-        let old = block.as_ptr().cast();
-        // SAFETY: as promised by the caller. `pooled` says who made the block, which alone resizes and frees it; a new block has the smaller
-        // of both sizes at least, and is apart from the old one.
-        unsafe {
-            match size {
-                1..=LARGEST if pooled && class_of(size) == class_of(old_size) => old,
-                LARGE.. if !pooled => (self.base.function)(self.base.data, old, old_size, size),
-                0 => {
-                    self.free_block(block, old_size, pooled);
-                    null_mut()
-                }
-                _ => {
-                    let new = self.new_block(size);
-                    std::ptr::copy_nonoverlapping(old, new, old_size.min(size));
-                    self.free_block(block, old_size, pooled);
-                    new
-                }
+    fn resize(&mut self, block: Block, size: usize) -> *mut c_void {
+        match size {
+            1..=LARGEST if block.is_pooled() && class_of(size) == class_of(block.size) => block.start.as_ptr().cast(),
+            LARGE.. if !block.is_pooled() => self.call_base(Some(block), size),
+            _ => {
+                let new = self.new_block(size);
+                // SAFETY: both blocks have the smaller of the sizes at least, and the new one is apart from the old one.
+                unsafe { block.start.as_ptr().copy_to_nonoverlapping(new.cast(), block.size.min(size)) };
+                self.free_block(block);
+                new
             }
         }
     }
@@ -103,22 +101,24 @@ impl Pool {
         match size {
             0 => null_mut(),
             1..=LARGEST => self.acquire(size).as_ptr().cast(),
-            // SAFETY: `base` can be called, and no block is resized.
-            _ => unsafe { (self.base.function)(self.base.data, null_mut(), 0, size) },
+            _ => self.call_base(None, size),
         }
     }
 
-    /// # Safety
-    /// As for `allocate`; `pooled` is true for a block of this pool.
-    unsafe fn free_block(&mut self, block: NonNull<u8>, size: usize, pooled: bool) {
-        // SAFETY: the block goes back to the one that made it.
-        unsafe {
-            if pooled {
-                self.release(block, size);
-            } else {
-                (self.base.function)(self.base.data, block.as_ptr().cast(), size, 0);
-            }
+    #[inline]
+    fn free_block(&mut self, block: Block) {
+        if block.is_pooled() {
+            self.release(block);
+        } else {
+            self.call_base(Some(block), 0);
         }
+    }
+
+    /// Resizes one of its blocks, frees it, or makes one.
+    fn call_base(&self, block: Option<Block>, size: usize) -> *mut c_void {
+        let (old, old_size) = block.map_or((null_mut(), 0), |block| (block.start.as_ptr().cast(), block.size));
+        // SAFETY: `base` can be called, and the block is one of its own.
+        unsafe { (self.base.function)(self.base.data, old, old_size, size) }
     }
 
     /// A block of at least `size` bytes, 1 to [`LARGEST`].
@@ -140,50 +140,40 @@ impl Pool {
             self.add_chunk();
         }
         let block = self.rest;
-        // SAFETY: the rest of the chunk has at least `size` bytes.
-        self.rest = unsafe { block.add(size) };
+        self.rest = advanced(block, size);
         self.rest_len -= size;
         block
     }
 
-    /// Returns a block to its list.
-    ///
-    /// # Safety
-    /// It came from `acquire` of this pool with a size of the same class, and is not used any more.
+    /// Returns a block of the pool to its list.
     #[inline]
-    unsafe fn release(&mut self, block: NonNull<u8>, size: usize) {
-        let class = class_of(size);
-        let block = block.cast::<Free>();
-        // SAFETY: every block has room for a link and is aligned for it.
+    fn release(&mut self, block: Block) {
+        let class = class_of(block.size);
+        let block = block.start.cast::<Free>();
+        // SAFETY: every block of the pool has room for a link and is aligned for it.
         unsafe { block.write(Free(self.free[class])) };
         self.free[class] = Some(block);
     }
 
     fn add_chunk(&mut self) {
-        let size = self.chunks.last().map_or(FIRST_CHUNK, |(_, last)| (last.size() * 2).min(LARGEST_CHUNK));
-        let layout =
-            Layout::from_size_align(size, STEP).expect("chunks are small and their alignment is a power of two");
-        // SAFETY: the layout is not empty.
-        let Some(chunk) = NonNull::new(unsafe { alloc(layout) }) else { handle_alloc_error(layout) };
-        self.chunks.push((chunk, layout));
-        // SAFETY: the chunk is larger than the offset.
-        self.rest = unsafe { chunk.add(OFFSET) };
-        self.rest_len = size - STEP;
+        let lines = self.chunks.last().map_or(FIRST_CHUNK, |last| (last.capacity() * 2).min(LARGEST_CHUNK));
+        let mut chunk = Vec::<Line>::with_capacity(lines);
+        let start = NonNull::from(chunk.spare_capacity_mut()).cast();
+        self.chunks.push(chunk);
+        self.rest = advanced(start, OFFSET);
+        self.rest_len = (lines - 1) * STEP;
     }
 }
 
-impl Drop for Pool {
-    fn drop(&mut self) {
-        for (chunk, layout) in self.chunks.drain(..) {
-            // SAFETY: allocated by `add_chunk` with that layout.
-            unsafe { dealloc(chunk.as_ptr(), layout) };
-        }
+impl Block {
+    /// Whether the pool made it, not its base.
+    fn is_pooled(&self) -> bool {
+        self.size <= LARGEST && self.start.addr().get() % STEP == OFFSET
     }
 }
 
-/// Whether a block of the state is from its pool.
-fn is_pooled(block: NonNull<u8>, size: usize) -> bool {
-    size <= LARGEST && block.as_ptr().addr() % STEP == OFFSET
+fn advanced(block: NonNull<u8>, bytes: usize) -> NonNull<u8> {
+    block.map_addr(|address| address.checked_add(bytes).expect("a chunk does not end at the end of memory"))
 }
 
 fn class_of(size: usize) -> usize {
