@@ -113,14 +113,20 @@ where
     let limit = if below > 0.0 { below * below } else { return None };
     let pairs = NodePairs::new(a, b, place);
     let mut search = Search { pairs, open: BinaryHeap::new(), limit, best: None, across: Vector::zeros() };
-    search.put([0, 0]);
+    search.put([0, 0], search.pairs.distance_squared([0, 0]));
     while let Some(Candidate { bound, nodes }) = search.open.pop() {
         if bound >= search.limit {
             break;
         }
         match search.pairs.larger(nodes) {
-            Some(Side::A(children)) => children.into_iter().for_each(|child| search.put([child, nodes[1]])),
-            Some(Side::B(children)) => children.into_iter().for_each(|child| search.put([nodes[0], child])),
+            Some(Side::A(children)) => {
+                let bounds = search.pairs.distances_squared(children, nodes[1]);
+                children.into_iter().zip(bounds).for_each(|(child, bound)| search.put([child, nodes[1]], bound));
+            }
+            Some(Side::B(children)) => {
+                let pairs = children.map(|child| [nodes[0], child]);
+                pairs.into_iter().for_each(|pair| search.put(pair, search.pairs.distance_squared(pair)));
+            }
             None => search.compare_leaves(nodes),
         }
     }
@@ -144,8 +150,7 @@ where
     B: Items,
     A::Item: Compare<B::Item>,
 {
-    fn put(&mut self, nodes: [u32; 2]) {
-        let bound = self.pairs.distance_squared(nodes);
+    fn put(&mut self, nodes: [u32; 2], bound: f64) {
         if bound < self.limit {
             self.open.push(Candidate { bound, nodes });
         }
@@ -160,7 +165,7 @@ where
             let other = A::Item::moved(&b.item(j), &place);
             for i in items_a.clone() {
                 let item = a.item(i);
-                let gap = item.gap_along(&other, &across);
+                let gap = item.lower_bound(&other, &across);
                 if gap <= 0.0 || gap * gap < self.limit {
                     self.offer(item.closest(&other));
                 }

@@ -36,8 +36,9 @@ pub(crate) trait Compare<Other> {
         self.closest(other).2 == 0.0
     }
 
-    /// A quick lower bound of the distance: the gap along a direction of unit length that leads from the first to the other thing.
-    fn gap_along(&self, _other: &Self::Moved, _direction: &Vector) -> f64 {
+    /// A quick lower bound of the distance: the gap along a direction of unit length that leads from the first to the other thing, or along
+    /// another one.
+    fn lower_bound(&self, _other: &Self::Moved, _direction: &Vector) -> f64 {
         f64::NEG_INFINITY
     }
 }
@@ -112,7 +113,7 @@ impl Compare<Triangle> for Triangle {
     }
 
     #[inline]
-    fn gap_along(&self, other: &Triangle, direction: &Vector) -> f64 {
+    fn lower_bound(&self, other: &Triangle, direction: &Vector) -> f64 {
         let [own, others] = [self, other].map(|triangle| triangle.map(|p| p.dot(direction)));
         others[0].min(others[1]).min(others[2]) - own[0].max(own[1]).max(own[2])
     }
@@ -131,11 +132,18 @@ impl Compare<SolidBox> for Triangle {
         (forth.point(&p), forth.point(&q), squared)
     }
 
+    /// The other direction leads from the middle of the triangle to the box.
     #[inline]
-    fn gap_along(&self, (other, [forth, _]): &Self::Moved, direction: &Vector) -> f64 {
-        let reach = forth.rotation.tr_mul(direction).abs().dot(&other.half);
-        let own = self.map(|p| p.dot(direction));
-        forth.point(&other.centre).dot(direction) - reach - own[0].max(own[1]).max(own[2])
+    fn lower_bound(&self, (other, [forth, back]): &Self::Moved, direction: &Vector) -> f64 {
+        let centre = forth.point(&other.centre);
+        let gap = |direction: &Vector| {
+            let reach = forth.rotation.tr_mul(direction).abs().dot(&other.half);
+            let own = self.map(|p| p.dot(direction));
+            centre.dot(direction) - reach - own[0].max(own[1]).max(own[2])
+        };
+        let middle = (self[0] + self[1] + self[2]) / 3.0;
+        let to_box = forth.point(&other.closest_to_point(&back.point(&middle))) - middle;
+        gap(direction).max(to_box.try_normalize(0.0).map_or(f64::NEG_INFINITY, |direction| gap(&direction)))
     }
 }
 

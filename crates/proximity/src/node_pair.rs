@@ -61,22 +61,54 @@ impl<'a, A: Items, B: Items> NodePairs<'a, A, B> {
         self.distance_squared(nodes) <= self.rounding
     }
 
-    /// A lower bound of the square of the distance (m²): the gaps along the axes of one box, or along those of the other one.
+    /// A lower bound of the square of the distance (m²).
     pub fn distance_squared(&self, nodes: [u32; 2]) -> f64 {
-        let (a, b) = (self.a.oriented_box(nodes[0]), self.b.oriented_box(nodes[1]));
-        gap_squared(&a, &b, &self.place)
+        gap_squared(&self.a.oriented_box(nodes[0]), &self.placed_box(nodes[1]))
+    }
+
+    /// The same for two nodes of the first tree.
+    pub fn distances_squared(&self, nodes: [u32; 2], other: u32) -> [f64; 2] {
+        let other = self.placed_box(other);
+        nodes.map(|node| gap_squared(&self.a.oriented_box(node), &other))
+    }
+
+    /// The box of a node of the second tree, in the first one's frame.
+    #[inline]
+    fn placed_box(&self, node: u32) -> OrientedBox {
+        let own = self.b.oriented_box(node);
+        OrientedBox { centre: self.place.point(&own.centre), axes: self.place.rotation * own.axes, half: own.half }
     }
 }
 
+/// A lower bound of the square of the distance of two boxes (m²), the largest of four: from the gaps along the axes of either box, and from the
+/// gap along the line that leads from either box to the centre of the other one, which is larger where a corner or an edge is closest.
 #[inline]
-fn gap_squared(a: &OrientedBox, b: &OrientedBox, place: &Transform) -> f64 {
+fn gap_squared(a: &OrientedBox, b: &OrientedBox) -> f64 {
     // The axes of `b` in those of `a`: an entry is the cosine between two.
-    let turn: Matrix3<f64> = a.axes.tr_mul(&(place.rotation * b.axes));
-    let apart = a.axes.tr_mul(&(place.point(&b.centre) - a.centre));
+    let turn: Matrix3<f64> = a.axes.tr_mul(&b.axes);
     let reach = turn.abs();
-    let in_a = apart.abs() - a.half - reach * b.half;
-    let in_b = turn.tr_mul(&apart).abs() - b.half - reach.tr_mul(&a.half);
-    positive_squared(&in_a).max(positive_squared(&in_b))
+    let in_a = a.axes.tr_mul(&(b.centre - a.centre));
+    let in_b = turn.tr_mul(&in_a);
+    let along_axes_of_a = positive_squared(&(in_a.abs() - a.half - reach * b.half));
+    let along_axes_of_b = positive_squared(&(in_b.abs() - b.half - reach.tr_mul(&a.half)));
+    let (from_a, from_b) = (outside(&in_a, &a.half), outside(&in_b, &b.half));
+    let along_lines =
+        gap_along(&from_a, &turn.tr_mul(&from_a), b).max(gap_along(&from_b, &(turn * from_b), a)).max(0.0);
+    along_axes_of_a.max(along_axes_of_b).max(along_lines * along_lines)
+}
+
+/// The line from the point of a box that is closest to `p` to `p`, both in the axes of the box.
+#[inline]
+fn outside(p: &Vector, half: &Vector) -> Vector {
+    p.zip_map(half, |x, half| x - x.max(-half).min(half))
+}
+
+/// The gap between a point and a box along the line to the box's centre. `turned` is the line in the axes of the box. Not a number
+/// for a line without length.
+#[inline]
+fn gap_along(line: &Vector, turned: &Vector, to: &OrientedBox) -> f64 {
+    let length = line.norm();
+    length - turned.abs().dot(&to.half) / length
 }
 
 #[inline]

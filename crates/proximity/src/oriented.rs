@@ -1,5 +1,7 @@
 //! Boxes whose axes fit the surface in them: flat where the surface is, so that lower bounds of distances are tight.
 
+use std::ops::Range;
+
 use nalgebra::Matrix3;
 
 use crate::bounds::Bounds;
@@ -50,21 +52,28 @@ impl OrientedBox {
     }
 }
 
-/// A box for each node of a tree over triangles: of leaves around their corners, of others around the boxes of their children.
+/// Up to so many triangles get the smallest box with its axes; the boxes of nodes with more are around those of their children.
+const FEW: usize = 128;
+
+/// A box for each node of a tree over triangles.
 pub(crate) fn boxes_of(tree: &Tree, triangles: &[Triangle]) -> Vec<OrientedBox> {
     let mut boxes: Vec<OrientedBox> = tree.nodes.iter().map(|node| OrientedBox::upright(&node.bounds)).collect();
     // Sum of the normals weighted by area, and of their lengths.
     let mut normals = vec![(Vector::zeros(), 0.0); tree.nodes.len()];
+    let mut items: Vec<Range<usize>> = tree.nodes.iter().map(Node::items).collect();
     // Children lie behind their parents.
     for (i, node) in tree.nodes.iter().enumerate().rev() {
-        normals[i] = if node.is_leaf() {
-            sum(triangles[node.items()].iter().map(|[a, b, c]| (b - a).cross(&(c - a))).map(|n| (n, n.norm())))
+        if node.is_leaf() {
+            let own = triangles[node.items()].iter();
+            normals[i] = sum(own.map(|[a, b, c]| (b - a).cross(&(c - a))).map(|n| (n, n.norm())));
         } else {
-            sum(tree.children(node).map(|child| normals[child as usize]).into_iter())
-        };
+            let [first, last] = tree.children(node).map(|child| child as usize);
+            normals[i] = sum([first, last].map(|child| normals[child]).into_iter());
+            items[i] = items[first].start..items[last].end;
+        }
         let Some(axes) = axes(node, &normals[i]) else { continue };
-        let fitted = if node.is_leaf() {
-            around_corners(&axes, &triangles[node.items()])
+        let fitted = if items[i].len() <= FEW {
+            around_corners(&axes, &triangles[items[i].clone()])
         } else {
             around_boxes(&axes, tree.children(node).map(|child| boxes[child as usize]))
         };

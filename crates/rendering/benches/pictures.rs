@@ -74,6 +74,8 @@ fn pictures(c: &mut Criterion) {
         for (size, width, height) in [("256x256", 256, 256), ("640x480", 640, 480)] {
             let both = Channels { colour: false, ..Channels::ALL };
             let cases = [
+                ("depth", Channels::DEPTH, 1),
+                ("ids", Channels::IDS, 1),
                 ("depth and ids", both, 1),
                 ("colour", Channels::COLOUR, 1),
                 ("all", Channels::ALL, 1),
