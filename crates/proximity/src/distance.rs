@@ -112,23 +112,13 @@ where
 {
     let limit = if below > 0.0 { below * below } else { return None };
     let pairs = NodePairs::new(a, b, place);
-    let mut search = Search { pairs, open: BinaryHeap::new(), limit, best: None, across: Vector::zeros() };
+    let mut search = Search { pairs, waiting: BinaryHeap::new(), limit, best: None, across: Vector::zeros() };
     search.put([0, 0], search.pairs.distance_squared([0, 0]));
-    while let Some(Candidate { bound, nodes }) = search.open.pop() {
+    while let Some(Candidate { bound, nodes }) = search.waiting.pop() {
         if bound >= search.limit {
             break;
         }
-        match search.pairs.larger(nodes) {
-            Some(Side::A(children)) => {
-                let bounds = search.pairs.distances_squared(children, nodes[1]);
-                children.into_iter().zip(bounds).for_each(|(child, bound)| search.put([child, nodes[1]], bound));
-            }
-            Some(Side::B(children)) => {
-                let pairs = children.map(|child| [nodes[0], child]);
-                pairs.into_iter().for_each(|pair| search.put(pair, search.pairs.distance_squared(pair)));
-            }
-            None => search.compare_leaves(nodes),
-        }
+        search.open(nodes);
     }
     search.best
 }
@@ -136,7 +126,7 @@ where
 /// The state of a descent.
 struct Search<'a, A, B> {
     pairs: NodePairs<'a, A, B>,
-    open: BinaryHeap<Candidate>,
+    waiting: BinaryHeap<Candidate>,
     /// Square of the distance that a pair must be nearer than.
     limit: f64,
     best: Option<Pair>,
@@ -150,9 +140,25 @@ where
     B: Items,
     A::Item: Compare<B::Item>,
 {
+    /// Puts the children of one node in the place of a pair, or compares what is in two leaves.
+    fn open(&mut self, nodes: [u32; 2]) {
+        let [a, b] = nodes;
+        match self.pairs.larger(nodes) {
+            Some(Side::A([first, second])) => {
+                let bounds = self.pairs.distances_squared([first, second], b);
+                self.put([first, b], bounds[0]);
+                self.put([second, b], bounds[1]);
+            }
+            Some(Side::B(children)) => {
+                children.into_iter().for_each(|child| self.put([a, child], self.pairs.distance_squared([a, child])));
+            }
+            None => self.compare_leaves(nodes),
+        }
+    }
+
     fn put(&mut self, nodes: [u32; 2], bound: f64) {
         if bound < self.limit {
-            self.open.push(Candidate { bound, nodes });
+            self.waiting.push(Candidate { bound, nodes });
         }
     }
 

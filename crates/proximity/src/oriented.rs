@@ -55,25 +55,26 @@ impl OrientedBox {
 /// Up to so many triangles get the smallest box with its axes; the boxes of nodes with more are around those of their children.
 const FEW: usize = 128;
 
+/// The triangles below a node.
+#[derive(Clone, Default)]
+struct Surface {
+    items: Range<usize>,
+    /// Sum of their normals, weighted by area.
+    normal: Vector,
+    /// Sum of the lengths of these.
+    length: f64,
+}
+
 /// A box for each node of a tree over triangles.
 pub(crate) fn boxes_of(tree: &Tree, triangles: &[Triangle]) -> Vec<OrientedBox> {
+    let surfaces = surfaces_of(tree, triangles);
     let mut boxes: Vec<OrientedBox> = tree.nodes.iter().map(|node| OrientedBox::upright(&node.bounds)).collect();
-    // Sum of the normals weighted by area, and of their lengths.
-    let mut normals = vec![(Vector::zeros(), 0.0); tree.nodes.len()];
-    let mut items: Vec<Range<usize>> = tree.nodes.iter().map(Node::items).collect();
     // Children lie behind their parents.
     for (i, node) in tree.nodes.iter().enumerate().rev() {
-        if node.is_leaf() {
-            let own = triangles[node.items()].iter();
-            normals[i] = sum(own.map(|[a, b, c]| (b - a).cross(&(c - a))).map(|n| (n, n.norm())));
-        } else {
-            let [first, last] = tree.children(node).map(|child| child as usize);
-            normals[i] = sum([first, last].map(|child| normals[child]).into_iter());
-            items[i] = items[first].start..items[last].end;
-        }
-        let Some(axes) = axes(node, &normals[i]) else { continue };
-        let fitted = if items[i].len() <= FEW {
-            around_corners(&axes, &triangles[items[i].clone()])
+        let Some(axes) = axes(node, &surfaces[i]) else { continue };
+        let items = surfaces[i].items.clone();
+        let fitted = if items.len() <= FEW {
+            around_corners(&axes, &triangles[items])
         } else {
             around_boxes(&axes, tree.children(node).map(|child| boxes[child as usize]))
         };
@@ -84,13 +85,35 @@ pub(crate) fn boxes_of(tree: &Tree, triangles: &[Triangle]) -> Vec<OrientedBox> 
     boxes
 }
 
-fn sum(normals: impl Iterator<Item = (Vector, f64)>) -> (Vector, f64) {
-    normals.fold((Vector::zeros(), 0.0), |total, normal| (total.0 + normal.0, total.1 + normal.1))
+fn surfaces_of(tree: &Tree, triangles: &[Triangle]) -> Vec<Surface> {
+    let mut surfaces = vec![Surface::default(); tree.nodes.len()];
+    for (i, node) in tree.nodes.iter().enumerate().rev() {
+        surfaces[i] = if node.is_leaf() {
+            Surface::of_leaf(node.items(), triangles)
+        } else {
+            let [first, last] = tree.children(node).map(|child| &surfaces[child as usize]);
+            Surface {
+                items: first.items.start..last.items.end,
+                normal: first.normal + last.normal,
+                length: first.length + last.length,
+            }
+        };
+    }
+    surfaces
+}
+
+impl Surface {
+    fn of_leaf(items: Range<usize>, triangles: &[Triangle]) -> Self {
+        let normals = triangles[items.clone()].iter().map(|[a, b, c]| (b - a).cross(&(c - a)));
+        let (normal, length) =
+            normals.fold((Vector::zeros(), 0.0), |sum, normal| (sum.0 + normal, sum.1 + normal.norm()));
+        Self { items, normal, length }
+    }
 }
 
 /// Axes along the mean normal, and along the longest side of the upright box as far as it is across the normal. `None` for what is curved too
 /// much for it.
-fn axes(node: &Node, (normal, length): &(Vector, f64)) -> Option<Matrix3<f64>> {
+fn axes(node: &Node, Surface { normal, length, .. }: &Surface) -> Option<Matrix3<f64>> {
     if normal.norm() <= CURVED * length {
         return None;
     }
