@@ -5,11 +5,12 @@ graph becomes one that is handled explicitly, so that no main script records it 
 
 A script may decide itself what is recorded and when: its own `sysCall_init` calls `graph.init()`, and it calls `graph.handle(time)` as it likes.
 
-Opens no dialog and draws nothing: there is no display. `updateCurves`, `clearCurves` and `prepareCurves`, which draw, do nothing.
+Its dialog is a window of simUI. The plots are those of `swanilda view`, so `updateCurves`, `clearCurves` and `prepareCurves`, which draw, do nothing (spec: models 3).
 ]]
 
 sim = package.loaded.sim or require 'sim' -- scripts find it as a global, as in the original
 local graph = {}
+_S.graph = graph
 
 local INFO_TAG <const> = 'ABC_GRAPH_INFO'
 local DEFAULT_INFO <const> = {bitCoded = 15, graphPos = 0, updateFreq = 2} -- what is shown, where and how often
@@ -61,9 +62,56 @@ function graph.clearCurves() end
 
 function graph.prepareCurves() end
 
-function graph.cleanup() end
+---------------------------------------------------------------- the dialog
+
+local SHOWN_RUNNING <const>, SHOWN_STOPPED <const>, TIME <const>, XY <const>, EQUAL_AXES <const>, NO_3D <const> = 1, 2, 4, 8, 16, 32
+local PLACES <const> = {'bottom right', 'top right', 'top left', 'bottom left', 'centre'}
+local OFTEN <const> = {'each time', 'every 2nd time', 'every 4th time', 'every 10th time', 'every 100th time'}
+
+local function option(text, bit)
+    return {
+        kind = 'check', text = text,
+        read = function() return graph.readInfo().bitCoded & bit ~= 0 end,
+        write = function(isOn)
+            local info = graph.readInfo()
+            info.bitCoded = isOn and info.bitCoded | bit or info.bitCoded & ~bit
+            graph.writeInfo(info)
+        end,
+    }
+end
+
+local function choice(text, items, name)
+    return {
+        kind = 'choice', text = text, items = items,
+        read = function() return graph.readInfo()[name] end,
+        write = function(value)
+            local info = graph.readInfo()
+            info[name] = value
+            graph.writeInfo(info)
+        end,
+    }
+end
+
+local function openDialog()
+    if graph.dialog or not graph.model then return end
+    require('swanilda.settings_window').open(graph, '_S.graph', 'dialog', sim.getObjectAlias(graph.model, 1), {
+        option('visible while a simulation runs', SHOWN_RUNNING), option('visible while stopped', SHOWN_STOPPED),
+        option('plot over time', TIME), option('plot of x and y', XY), option('equal axes', EQUAL_AXES), option('no curves in 3D', NO_3D),
+        choice('position', PLACES, 'graphPos'), choice('update', OFTEN, 'updateFreq'),
+    })
+end
+
+function graph.cleanup()
+    if graph.dialog then require('swanilda.settings_window').close(graph, 'dialog') end
+end
+
+---------------------------------------------------------------- callbacks
 
 function sysCall_init() graph.init() end
+
+function sysCall_userConfig()
+    if sim.getSimulationState() == sim.simulation_stopped then openDialog() end
+end
 
 function sysCall_beforeSimulation() graph.reset() end
 

@@ -1,204 +1,201 @@
 --[[
-Shared by sim/pathobject.lua and path_customization.lua: path objects in the scene. A path object is a dummy that carries control points
-and a sampled path as custom data; dummies below it mark the control points and can be moved, copied and removed.
+Shared by sim/pathobject.lua and path_customization.lua: path objects in the scene (spec: paths 2). A path object is a dummy that carries control
+points and a sampled path as custom data; dummies below it mark the control points and can be moved, copied and removed.
 
-Does not draw a path; M.update applies movements of the dummies when it is called.
+When a path is made anew is decided by path_customization.lua.
 ]]
 
 local sim = package.loaded.sim or require 'sim'
+local points = require 'swanilda.paths.points'
+local sampling = require 'swanilda.paths.sampling'
 local M = {}
-local quaternion = require 'swanilda.quaternion'
 
-local HIDDEN <const>, CLOSED <const>, EXTRUDED <const>, COMPUTE_ORIENTATION <const> = 1, 2, 4, 16 -- the other options are about drawing
-local TYPES <const> = {0, 0, 0, 2, 2, 2, 2}
+local HIDDEN <const>, CLOSED <const>, EXTRUDED <const> = 1, 2, 4 -- other options are about drawing
 local SECTION <const> = {0.01, -0.01, 0.01, 0.01, -0.01, 0.01, -0.01, -0.01, 0.01, -0.01}
-local INFO <const>, POINT <const>, SHAPE <const> = 'customData.ABC_PATH_INFO', 'customData.ABC_PATHCTRLPT', 'customData.ABC_PATHSHAPE'
-local CONTROL_POINTS <const>, PATH <const> = 'customData.PATHCTRLPTS', 'customData.PATH'
-local MOVED <const> = 1e-6 -- m, and parts of a quaternion
+local INFO <const>, CREATION <const> = 'customData.ABC_PATH_INFO', 'customData.ABC_PATH_CREATION'
+-- The second is what earlier versions of Swanilda wrote.
+local SHAPE <const>, EARLIER_SHAPE <const> = 'customData.ABC_PATHSHAPE_INFO', 'customData.ABC_PATHSHAPE'
+local COLOUR <const> = {0.85, 0.85, 0.85}
+local FINGERPRINT <const> = '__pathFingerPrint__'
+local MOVED <const> = 1e-4 -- m, and parts of a quaternion
+local BLOCKS <const> = {'PATHCTRLPTS', 'PATH', 'PATHCTRLPTS_X', 'PATH_X'}
 
----------------------------------------------------------------- orientations
-
-local function normalized(v)
-    local norm = math.sqrt(v[1] ^ 2 + v[2] ^ 2 + v[3] ^ 2)
-    return norm > 1e-12 and {v[1] / norm, v[2] / norm, v[3] / norm} or nil
-end
-
-local function cross(a, b)
-    return {a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1]}
-end
-
--- Which axes point along the path and up, by orientation mode.
-local AXES <const> = {[0] = {'x', 'y'}, {'x', 'z'}, {'y', 'x'}, {'y', 'z'}, {'z', 'x'}, {'z', 'y'}}
-
-local function orientationAlong(direction, up, mode)
-    local along = normalized(direction)
-    local side = along and normalized(cross(up, along))
-    if not side then return nil end
-    local axes, names = {}, AXES[mode] or AXES[0]
-    axes[names[1]], axes[names[2]] = along, cross(along, side)
-    axes.x = axes.x or cross(axes.y, axes.z)
-    axes.y = axes.y or cross(axes.z, axes.x)
-    axes.z = axes.z or cross(axes.x, axes.y)
-    return quaternion.fromAxes(axes.x, axes.y, axes.z)
-end
-
--- The direction at a point is that from the point before it to the one after it. A closed path ends where it begins.
-local function orientAlongPath(path, closed, up, mode)
-    local count = #path // 7
-    local function position(i)
-        i = closed and (i - 1) % (count - 1) + 1 or math.max(1, math.min(count, i))
-        return path[7 * i - 6], path[7 * i - 5], path[7 * i - 4]
-    end
-    for i = 1, count do
-        local ax, ay, az = position(i - 1)
-        local bx, by, bz = position(i + 1)
-        local q = orientationAlong({bx - ax, by - ay, bz - az}, up, mode)
-        if q then table.move(q, 1, 4, 7 * i - 3, path) end
-    end
-end
-
----------------------------------------------------------------- sampling
-
---- The path through control points: pointCnt poses at equal distances.
-function M.sample(points, info)
-    local lengths, total = sim.getPathLengths(points, 7)
-    if total == 0 then return table.move(points, 1, 7 * math.min(info.pointCnt, #lengths), 1, {}) end
-    local closed = info.bitCoded & CLOSED ~= 0
-    local method = {type = 'quadraticBezier', strength = info.smoothing, forceOpen = not closed, closed = closed}
-    -- Corners are shorter when they are rounded: equal distances take a second pass, over twice as many points.
-    local fine = sim.resamplePath(points, lengths, 2 * info.pointCnt, method, TYPES)
-    local path = sim.resamplePath(fine, sim.getPathLengths(fine, 7), info.pointCnt, nil, TYPES)
-    if info.bitCoded & COMPUTE_ORIENTATION ~= 0 and info.autoOrientation >= 0 then
-        orientAlongPath(path, closed, info.upVector, info.autoOrientation)
-    end
-    return path
-end
-
----------------------------------------------------------------- the objects
+---------------------------------------------------------------- settings
 
 local function read(object, name) return sim.getBufferProperty(object, name, {noError = true}) end
 
-local function write(object, name, numbers) sim.setBufferProperty(object, name, sim.packDoubleTable(numbers)) end
-
-local function children(object)
-    local list, child = {}, sim.getObjectChild(object, 0)
-    while child >= 0 do
-        list[#list + 1] = child
-        child = sim.getObjectChild(object, #list)
-    end
-    return list
+local function unpacked(object, name)
+    local packed = read(object, name)
+    local data = packed and #packed > 0 and sim.unpackTable(packed)
+    return type(data) == 'table' and data or nil
 end
 
---- What a path is made with: bitCoded, pointCnt, smoothing, autoOrientation, upVector. Nil of an object that is no path.
-function M.info(path)
-    local packed = read(path, INFO)
-    local info = packed and #packed > 0 and sim.unpackTable(packed)
-    if type(info) ~= 'table' then return nil end
-    info.bitCoded = math.tointeger(info.bitCoded) or 0
-    info.pointCnt = math.max(2, math.tointeger(info.pointCnt) or 100)
+local function vector(value)
+    local isVector = type(value) == 'table' and tonumber(value[1]) and tonumber(value[2]) and tonumber(value[3])
+    return isVector and value or {0, 0, 1}
+end
+
+local function complete(info)
+    info.bitCoded = math.tointeger(info.bitCoded) or 1
+    info.pointCnt = math.max(2, math.tointeger(info.pointCnt) or 200)
     info.autoOrientation = math.tointeger(info.autoOrientation) or 0
-    info.smoothing, info.upVector = tonumber(info.smoothing) or 1.0, info.upVector or {0, 0, 1}
+    info.smoothing, info.upVector = tonumber(info.smoothing) or 1.0, vector(info.upVector)
+    info.ctrlPtFixedSize = info.ctrlPtFixedSize or false
+    info.line = info.line or {color = {0, 0.96, 0.66}, thickness = 3}
     return info
 end
 
---- The dummies of the control points in order. A copy of one comes after it.
-function M.controlPoints(path)
-    local found = {}
-    for place, child in ipairs(children(path)) do
-        local packed = read(child, POINT)
-        local index = packed and #packed > 0 and sim.unpackTable(packed).index
-        if index then found[#found + 1] = {handle = child, index = index, place = place} end
+--- Whether an object is a path.
+function M.isPath(object) return read(object, INFO) ~= nil or read(object, CREATION) ~= nil end
+
+--- What a path is made with: bitCoded, pointCnt, smoothing, autoOrientation, upVector, line, ctrlPtFixedSize.
+function M.info(path) return complete(unpacked(path, INFO) or {}) end
+
+--- Stores what a path is made with.
+function M.writeInfo(path, info) sim.setBufferProperty(path, INFO, sim.packTable(info)) end
+
+---------------------------------------------------------------- new paths
+
+local function writeBlocks(path, rows, sampled)
+    local controlPoses, controlExtra = sampling.split(rows)
+    local poses, extra = sampling.split(sampled)
+    local lists = {controlPoses, poses, controlExtra, extra}
+    for i, name in ipairs(BLOCKS) do
+        sim.setBufferProperty(path, 'customData.' .. name, sim.packDoubleTable(lists[i]))
     end
-    table.sort(found, function(a, b)
-        if a.index ~= b.index then return a.index < b.index end
-        return a.place < b.place
-    end)
-    local handles = {}
-    for i, point in ipairs(found) do handles[i] = point.handle end
-    return handles
+    return lists
 end
 
-local function mark(point, index) sim.setBufferProperty(point, POINT, sim.packTable{handle = point, index = index}) end
-
-local function addPoint(path, pose, index)
-    local point = sim.createDummy(0.01)
-    sim.setObjectAlias(point, 'ctrlPt')
-    sim.setObjectParent(point, path, true)
-    sim.setObjectPose(point, pose, path)
-    mark(point, index)
+local function addPoints(path, poses)
+    for i = 1, #poses // 7 do points.add(path, table.move(poses, 7 * i - 6, 7 * i, 1, {}), i) end
 end
 
 --- A path object with its control points; info as returned by M.info.
-function M.create(points, info)
+function M.create(poses, info)
     local path = sim.createDummy(0.04)
     sim.setObjectAlias(path, 'Path')
     sim.setBoolProperty(path, 'modelBase', true)
-    sim.setBufferProperty(path, INFO, sim.packTable(info))
-    for i = 1, #points // 7 do addPoint(path, table.move(points, 7 * i - 6, 7 * i, 1, {}), i) end
-    write(path, CONTROL_POINTS, points)
-    write(path, PATH, M.sample(points, info))
+    M.writeInfo(path, info)
+    addPoints(path, poses)
+    local rows = sampling.ofPoses(poses)
+    writeBlocks(path, rows, sampling.sample(rows, complete(info)))
     local script = sim.createScript(sim.scripttype_customization, "path = require('path_customization')")
     sim.setObjectParent(script, path, true)
     return path
 end
 
----------------------------------------------------------------- what follows the control points
-
-local function differ(a, b)
-    if #a ~= #b then return true end
-    for i = 1, #a do
-        if math.abs(a[i] - b[i]) > MOVED then return true end
+--- Replaces the control points and settings of a path.
+function M.renew(path, poses, info)
+    local old = {}
+    for _, child in ipairs(points.children(path)) do
+        if sim.getObjectType(child) == sim.sceneobject_dummy then old[#old + 1] = child end
     end
-    return false
+    if #old > 0 then sim.removeObjects(old) end
+    M.writeInfo(path, info)
+    addPoints(path, poses)
 end
 
-local function posesOf(handles, path)
-    local poses = {}
-    for i, handle in ipairs(handles) do table.move(sim.getObjectPose(handle, path), 1, 7, 7 * i - 6, poses) end
-    return poses
+--- Does what the block of `sim.createPath` of the original asks for: control points and settings are new.
+function M.renewFromBlock(path)
+    local wanted = unpacked(path, CREATION)
+    if not wanted then return end
+    sim.setBufferProperty(path, CREATION, '')
+    local info = M.info(path)
+    info.bitCoded, info.pointCnt = wanted.options or 0, wanted.subdivisions or info.pointCnt
+    info.smoothing, info.autoOrientation = wanted.smoothness or info.smoothing, wanted.orientationMode or 0
+    info.upVector = wanted.up or info.upVector
+    M.renew(path, wanted.ctrlPts or {}, complete(info))
 end
 
-local function extrude(path, closed, up)
-    local shape = sim.generateShapeFromPath(path, SECTION, closed and 4 or 0, up)
-    sim.setShapeColor(shape, nil, sim.colorcomponent_ambient_diffuse, {0.85, 0.85, 0.85})
-    return shape
-end
+---------------------------------------------------------------- the path along control points
 
--- shaping(path, closed, upVector) makes the shape along a path, extrude where a script does not say how.
-local function replaceShape(object, path, info, shaping)
-    for _, child in ipairs(children(object)) do
-        if read(child, SHAPE) then sim.removeObjects{child} end
+local function fingerprint(poses, info) return {sim.packFloatTable(poses), sim.packTable(info)} end
+
+local function isSame(path, poses, info)
+    local before = sim.readCustomTableData(path, FINGERPRINT)
+    if type(before) ~= 'table' or not before[1] or tostring(before[2]) ~= tostring(sim.packTable(info)) then return false end
+    local old = sim.unpackFloatTable(before[1])
+    if #old ~= #poses then return false end
+    for i = 1, #poses do
+        if math.abs(poses[i] - old[i]) > MOVED then return false end
     end
-    if info.bitCoded & EXTRUDED == 0 then return end
-    local made, shape = pcall(shaping or extrude, path, info.bitCoded & CLOSED ~= 0, info.upVector)
-    if not made then error('the shape along the path: ' .. tostring(shape), 0) end
-    sim.setObjectParent(shape, object, false)
-    sim.setBufferProperty(shape, SHAPE, sim.packTable{1})
-end
-
---- Resamples a path if its control points have moved. Returns whether they have.
-function M.update(object, shaping)
-    local info, handles = M.info(object), M.controlPoints(object)
-    if not info or #handles < 2 then return false end
-    local points, before = posesOf(handles, object), read(object, CONTROL_POINTS)
-    if before and not differ(points, sim.unpackDoubleTable(before)) then return false end
-    for i, handle in ipairs(handles) do mark(handle, i) end
-    local path = M.sample(points, info)
-    write(object, CONTROL_POINTS, points)
-    write(object, PATH, path)
-    replaceShape(object, path, info, shaping)
     return true
 end
 
---- The shape along a path that was just made.
-function M.addShape(object)
-    replaceShape(object, sim.unpackDoubleTable(read(object, PATH)), M.info(object))
+local function stored(path)
+    local lists = {}
+    for i, name in ipairs(BLOCKS) do
+        local packed = read(path, 'customData.' .. name)
+        if not packed then return nil end
+        lists[i] = sim.unpackDoubleTable(packed)
+    end
+    return lists
 end
+
+--- The lists of a path: poses of the control points, poses of the path, and what both have beside poses. They are sampled if control points or
+--- settings have changed, or if it is forced; the second result says so.
+function M.update(path, list, isForced)
+    local info, rows = M.info(path), points.rows(list, path)
+    local poses = sampling.split(rows)
+    local known = not isForced and isSame(path, poses, info) and stored(path)
+    if known then return known, false end
+    local lists = writeBlocks(path, rows, sampling.sample(rows, info))
+    sim.writeCustomTableData(path, FINGERPRINT, fingerprint(poses, info))
+    if not info.ctrlPtFixedSize then points.resize(list, poses) end
+    return lists, true
+end
+
+---------------------------------------------------------------- the shape along a path
+
+local function extrude(path, closed, up)
+    local shape = sim.generateShapeFromPath(path, SECTION, closed and 4 or 0, up)
+    sim.setShapeColor(shape, nil, sim.colorcomponent_ambient_diffuse, COLOUR)
+    return shape
+end
+
+local function shapesOf(path)
+    local found = {}
+    for _, child in ipairs(points.children(path)) do
+        if read(child, SHAPE) or read(child, EARLIER_SHAPE) then found[#found + 1] = child end
+    end
+    return found
+end
+
+local function colourOf(shape)
+    if not shape or sim.getObjectType(shape) ~= sim.sceneobject_shape then return nil end
+    local _, colour = sim.getShapeColor(shape, nil, sim.colorcomponent_ambient_diffuse)
+    return colour
+end
+
+--- Makes a shape that of a path, instead of the one it had. -1: it has none.
+function M.setShape(path, shape)
+    local old = shapesOf(path)
+    if #old > 0 then sim.removeObjects(old) end
+    if shape == -1 then return end
+    sim.setObjectParent(shape, path, false)
+    sim.setObjectAlias(shape, 'shape')
+    sim.setBufferProperty(shape, SHAPE, 'a')
+end
+
+--- Makes the shape along a path anew, if its settings ask for one.
+-- @param shaping function(path, closed, upVector) returning a shape; default: a square section
+function M.shape(path, poses, shaping)
+    local info, colour = M.info(path), colourOf(shapesOf(path)[1])
+    if info.bitCoded & EXTRUDED == 0 then return M.setShape(path, -1) end
+    M.setShape(path, -1)
+    local made, shape = pcall(shaping or extrude, poses, info.bitCoded & CLOSED ~= 0, info.upVector)
+    if not made then error('the shape along the path: ' .. tostring(shape), 0) end
+    if not math.tointeger(shape) then return end
+    if colour then sim.setShapeColor(shape, nil, sim.colorcomponent_ambient_diffuse, colour) end
+    M.setShape(path, shape)
+end
+
+--- The shape along a path that was just made.
+function M.addShape(path) M.shape(path, sim.unpackDoubleTable(read(path, 'customData.PATH'))) end
 
 --- Hides a path during a simulation, or shows it again, if its options say so.
 function M.setHidden(path, hidden)
-    local info = M.info(path)
-    if not info or info.bitCoded & HIDDEN == 0 then return end
+    if M.info(path).bitCoded & HIDDEN == 0 then return end
     local property = sim.getModelProperty(path)
     local flag = sim.modelproperty_not_visible
     sim.setModelProperty(path, hidden and property | flag or property & ~flag)
