@@ -11,6 +11,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use super::interrupt::Interrupt;
 use super::permissions::PermissionArgs;
 use super::refuse;
+use super::resources::ResourceArgs;
 use super::setup::{named_param, seconds};
 use crate::Options;
 use crate::testing::batch::{self, Batch, Run, Store};
@@ -57,6 +58,8 @@ pub(super) struct Args {
     /// Start over and overwrite existing results
     #[arg(long)]
     force: bool,
+    #[command(flatten)]
+    resources: ResourceArgs,
     #[command(flatten)]
     permissions: PermissionArgs,
 }
@@ -141,7 +144,11 @@ impl Args {
             simulated: f64::INFINITY,
             memory: (self.memory as usize) << 20,
         };
-        Config { permissions: self.permissions.permissions(), ..Config::new(jobs, allowance, interrupt.flag()) }
+        Config {
+            permissions: self.permissions.permissions(),
+            resources: self.resources.folder(),
+            ..Config::new(jobs, allowance, interrupt.flag())
+        }
     }
 }
 

@@ -26,7 +26,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use session::{graphs, interrupt, live, output, permissions, progress, recording, setup, video};
+use session::{graphs, interrupt, live, output, permissions, progress, recording, resources, setup, video};
 
 /// Exit code for a wrong command line or a file that cannot be read or written; clap uses the same.
 const USAGE: u8 = 2;

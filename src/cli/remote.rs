@@ -2,6 +2,7 @@
 
 use std::io::{Error, ErrorKind};
 use std::net::{IpAddr, Ipv4Addr, TcpListener};
+use std::path::PathBuf;
 
 use super::interrupt::Interrupt;
 use super::output::Output;
@@ -70,6 +71,11 @@ fn ip_address(text: &str) -> Result<IpAddr, String> {
     text.parse().map_err(|_| "an IP address is needed, such as 127.0.0.1 or 0.0.0.0".to_owned())
 }
 
+/// The folder of the scene, and that of an installation of CoppeliaSim.
+fn readable_folders(options: &Options) -> impl Iterator<Item = &PathBuf> {
+    options.package_dirs.iter().chain(&options.resources)
+}
+
 impl Remote {
     /// Whether the ZeroMQ remote API is asked for.
     pub(super) fn asks_for_zmq(&self) -> bool {
@@ -86,7 +92,7 @@ impl Remote {
         let is_open = !self.bind.is_loopback() && !self.allow_unsafe && !self.permissions.is_restricted();
         let permissions = if is_open { Permissions::strict() } else { self.permissions.permissions() };
         Options {
-            permissions: options.package_dirs.iter().fold(permissions, |set, folder| set.of_scene(folder)),
+            permissions: readable_folders(&options).fold(permissions, |set, folder| set.of_scene(folder)),
             listen_address: self.bind,
             web_origins: self.allow_origin.clone(),
             ..options

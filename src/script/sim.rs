@@ -41,6 +41,8 @@ pub struct Options {
     pub named_params: BTreeMap<String, String>,
     /// Folder of the data scripts keep beyond the life of the program; None: where the system keeps the user's.
     pub data_dir: Option<std::path::PathBuf>,
+    /// Folder of an installation of CoppeliaSim, with its `models` and `lua`. Scripts read it where they may read the scene's folder.
+    pub resources: Option<std::path::PathBuf>,
     /// Folders `require` looks into first.
     pub package_dirs: Vec<std::path::PathBuf>,
     /// Lua instructions a thread may run per millisecond of its time slice.
@@ -70,6 +72,7 @@ impl Default for Options {
             verbosity: verbosity::SCRIPT_INFOS,
             named_params: BTreeMap::new(),
             data_dir: None,
+            resources: None,
             package_dirs: Vec::new(),
             instructions_per_ms: 100_000,
             permissions: Permissions::all(),

@@ -63,6 +63,8 @@ pub struct Config {
     pub allowance: Allowance,
     /// Permissions of scripts; the scene's folder is that of the test's file.
     pub permissions: Permissions,
+    /// Folder of an installation of CoppeliaSim ([`crate::Options::resources`]).
+    pub resources: Option<PathBuf>,
     /// The command that runs a test in a process of its own and prints its outcome by [`run_child`]; None: tests run here.
     pub isolate: Option<fn(&TestCase) -> std::process::Command>,
     /// Number and repetition of the only test to run.
@@ -72,6 +74,12 @@ pub struct Config {
 }
 
 impl Config {
+    /// The permissions of scripts of a scene in `folder`.
+    fn permissions_in(&self, folder: &std::path::Path) -> Permissions {
+        let set = self.permissions.clone().of_scene(folder);
+        self.resources.iter().fold(set, |set, resources| set.of_scene(resources))
+    }
+
     /// Nothing chosen yet, everything once.
     pub fn new(jobs: usize, allowance: Allowance, interrupted: Arc<AtomicBool>) -> Self {
         Self {
@@ -88,6 +96,7 @@ impl Config {
             coverage: None,
             allowance,
             permissions: Permissions::all(),
+            resources: None,
             isolate: None,
             only: None,
             interrupted,

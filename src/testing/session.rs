@@ -41,7 +41,8 @@ impl Session {
             count_lines: config.coverage.is_some(),
             package_dirs: vec![folder.to_owned()],
             // The file itself is read by Lua.
-            permissions: config.permissions.clone().of_scene(folder).allow_read(file),
+            permissions: config.permissions_in(folder).allow_read(file),
+            resources: config.resources.clone(),
             data_dir: data.as_ref().map(|data| data.path().to_owned()),
             ..Options::default()
         };

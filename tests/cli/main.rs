@@ -8,6 +8,7 @@ mod interrupts;
 mod messages;
 mod recording;
 mod render;
+mod resources;
 mod video;
 
 use std::fs;

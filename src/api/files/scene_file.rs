@@ -2,7 +2,7 @@
 //!
 //! A scene is a file of CoppeliaSim, or a Lua file on top of the default scene, or the default scene alone.
 
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
 use api_macro::api;
 
@@ -35,7 +35,10 @@ fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
             ));
         }
         FileOrBytes::Name(name) if name.is_empty() => (SceneSource::Default, None),
-        FileOrBytes::Name(name) => (named_scene(cx, &name)?, Some(absolute(&name))),
+        FileOrBytes::Name(name) => {
+            let name = located(cx, &name);
+            (named_scene(cx, &name)?, Some(absolute(&name)))
+        }
         FileOrBytes::Bytes(bytes) => (scene_source(cx, "the buffer", bytes, None)?, None),
     };
     cx.switch_scene(source, path)?;
@@ -44,7 +47,8 @@ fn load_scene(cx: &mut Cx, filename_or_buffer: Data) -> Result<i64> {
 
 /// Adds a model to the scene, where it was saved.
 ///
-/// @param filenameOrBuffer a `.ttm` or `.simmodel.xml` file or its bytes, or a folder that `swanilda unpack` made
+/// @param filenameOrBuffer a `.ttm` or `.simmodel.xml` file or its bytes, or a folder that `swanilda unpack` made; with `--resources DIR` also a file below DIR, such as
+/// `models/robots/mobile/dr12.ttm`
 /// @param onlyThumbnails of no use: nothing is shown
 /// @return objectHandle the base of the model
 #[api("sim.loadModel")]
@@ -53,7 +57,7 @@ fn load_model(cx: &mut Cx, filename_or_buffer: Data, #[default(false)] only_thum
         return Err(ApiError::Other("thumbnails of models are not implemented in Swanilda.".into()));
     }
     let file = match FileOrBytes::new(filename_or_buffer)? {
-        FileOrBytes::Name(name) => named_model(cx, &name)?,
+        FileOrBytes::Name(name) => named_model(cx, &located(cx, &name))?,
         FileOrBytes::Bytes(bytes) => scene_file(cx, "the buffer", &bytes, None)?,
     };
     let root = cx.load_model(file)?;
@@ -110,6 +114,22 @@ fn read(cx: &Cx, name: &str) -> Result<Vec<u8>> {
         std::io::ErrorKind::NotFound => ApiError::Other("file does not exist.".into()),
         _ => ApiError::Other(format!("'{name}' could not be read: {error}.")),
     })
+}
+
+/// A relative name that is no file here is one of the user's installation of CoppeliaSim.
+fn located(cx: &Cx, name: &str) -> String {
+    let installed = cx.options().resources.as_ref().and_then(|resources| installed_file(resources, name));
+    let is_there = |path: &Path| cx.permissions().check_read(path).is_ok() && path.exists();
+    match installed.filter(|path| !is_there(Path::new(name)) && is_there(path)) {
+        Some(path) => path.to_string_lossy().into_owned(),
+        None => name.to_owned(),
+    }
+}
+
+/// Where an installation has a file, for names that do not lead out of it.
+fn installed_file(resources: &Path, name: &str) -> Option<PathBuf> {
+    let is_inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+    is_inside.then(|| resources.join(name))
 }
 
 fn named_scene(cx: &Cx, name: &str) -> Result<SceneSource> {

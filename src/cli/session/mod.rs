@@ -7,6 +7,7 @@ pub(super) mod output;
 pub(super) mod permissions;
 pub(super) mod progress;
 pub(super) mod recording;
+pub(super) mod resources;
 pub(super) mod setup;
 pub(super) mod video;
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::interrupt::Interrupt;
 use super::output::{Format, Output};
 use super::progress::Progress;
+use super::resources::ResourceArgs;
 use crate::format::scene_file::{self, SceneFile};
 use crate::format::scene_input::SceneInput;
 use crate::format::script_file;
@@ -37,6 +38,8 @@ pub(in crate::cli) struct Setup {
     /// Folder for persistent data of scripts [default: the user's data folder]
     #[arg(long, value_name = "FOLDER")]
     data_dir: Option<PathBuf>,
+    #[command(flatten)]
+    resources: ResourceArgs,
     /// Lua file to load as an add-on; may be repeated
     #[arg(long, value_name = "FILE")]
     addon: Vec<PathBuf>,
@@ -119,6 +122,7 @@ impl Setup {
         let mut options = Options {
             named_params: self.define.iter().cloned().collect(),
             data_dir: self.data_dir.clone(),
+            resources: self.resources.folder(),
             package_dirs: scene.map(folder_of).into_iter().collect(),
             stop: interrupt.flag(),
             original_errors: self.original_errors,

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use super::interrupt::Interrupt;
 use super::permissions::PermissionArgs;
+use super::resources::ResourceArgs;
 use super::setup::seconds;
 use crate::Options;
 use crate::testing::{self, Allowance, Config, Summary};
@@ -92,6 +93,8 @@ pub(super) struct Args {
     #[command(flatten)]
     reports: ReportArgs,
     #[command(flatten)]
+    resources: ResourceArgs,
+    #[command(flatten)]
     permissions: PermissionArgs,
 }
 
@@ -173,6 +176,7 @@ impl Args {
                 memory: (self.memory as usize) << 20,
             },
             permissions: self.permissions.permissions(),
+            resources: self.resources.folder(),
             isolate: self.isolate.then_some(isolate::command),
             only: None,
             interrupted: interrupt.flag(),

@@ -1,6 +1,7 @@
 //! Initialisation of a fresh Lua state: library, `sim`, package path (spec: scripts 9).
 
 use std::ffi::{CStr, c_int};
+use std::path::Path;
 use std::rc::Rc;
 
 use mlua::{Function, Lua, Table};
@@ -93,9 +94,17 @@ fn install_package(sim: &Sim, stack: Stack<'_>) {
 /// The file extension of native libraries.
 const LIBRARY_EXTENSION: &str = if cfg!(windows) { "dll" } else { "so" };
 
+/// Where the modules of an installation of CoppeliaSim are. They go before the scene's own, as there.
+fn installed_paths(resources: &Path) -> String {
+    let resources = resources.display();
+    let folders = ["", "lua/", "lua/models/deprecated/", "lua/deprecated/", "bwf/"];
+    folders.map(|folder| format!("{resources}/{folder}?.lua;{resources}/{folder}?/init.lua;")).concat()
+}
+
 /// Files in the scene's folders go before those of Lua's own default. The table `package` is on top.
 fn install_paths(sim: &Sim, stack: Stack<'_>) {
-    let (mut path, mut cpath) = (String::new(), String::new());
+    let mut path = sim.options.resources.as_deref().map(installed_paths).unwrap_or_default();
+    let mut cpath = String::new();
     for dir in &sim.options.package_dirs {
         let dir = dir.display();
         path.push_str(&format!("{dir}/?.lua;{dir}/?/init.lua;"));

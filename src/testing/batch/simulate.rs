@@ -55,7 +55,8 @@ pub(in super::super) fn simulate(config: &Config, job: &Job, stop: &Arc<AtomicBo
         limits: Some(Limits { memory: config.allowance.memory }),
         named_params: job.params.clone(),
         package_dirs: folder.map(Path::to_owned).into_iter().collect(),
-        permissions: folder.into_iter().fold(config.permissions.clone(), Permissions::of_scene),
+        permissions: folder.map_or_else(|| config.permissions.clone(), |folder| config.permissions_in(folder)),
+        resources: config.resources.clone(),
         ..Options::default()
     };
     let mut outcome = Outcome::new(Arc::clone(&job.case), Status::Passed, "");

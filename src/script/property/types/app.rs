@@ -78,6 +78,7 @@ impl AppData {
             named_params,
             storage: AppStorage::new(options.data_dir.as_deref()).restricted(&options.permissions),
             random: Random::new(options.seed),
+            inert: installed_folders(options),
             ..Self::default()
         }
     }
@@ -107,9 +108,15 @@ pub(in crate::script::property) const VERBOSITY_WORDS: &[Accessor] = &[
     Accessor { name: "dialogVerbosityStr", read: None, write: Some(|s, word| set_level(s, "dialogVerbosity", word)) },
 ];
 
-/// Folders this program has. Those of CoppeliaSim's installation are empty: what they hold is part of the program.
+/// Folders of this program, and of the user's installation of CoppeliaSim: empty without one, as what they hold is part of the program.
 pub(in crate::script::property) const PATHS: &[Accessor] = subject_properties! {
-    "appPath": String, |_s| program_folder();
+    "appPath": String, |s| installed(&s.sim.options, "").unwrap_or_else(program_folder);
+    "resourcePath": String, |s| installed(&s.sim.options, "").unwrap_or_default();
+    "luaPath": String, |s| installed(&s.sim.options, "lua").unwrap_or_default();
+    "pythonPath": String, |s| installed(&s.sim.options, "python").unwrap_or_default();
+    "mujocoPath": String, |s| installed(&s.sim.options, "mujoco").unwrap_or_default();
+    "systemPath": String, |s| installed(&s.sim.options, "system").unwrap_or_default();
+    "addOnPath": String, |s| installed(&s.sim.options, "addOns").unwrap_or_default();
     "tempPath": String, |_s| temporary_folder();
     "sceneTempPath": String, |_s| temporary_folder();
     "settingsPath": String, |s| text_of(s.sim.options.data_dir.as_deref());
@@ -158,6 +165,23 @@ fn temporary_folder() -> String {
 }
 
 /// Empty for none.
+/// The folders that file dialogs begin with.
+fn installed_folders(options: &Options) -> InertValues {
+    let mut values = InertValues::default();
+    for (name, folder) in [("scenePath", "scenes"), ("modelPath", "models")] {
+        if let Some(path) = installed(options, folder) {
+            values.set(name, Data::text(&path));
+        }
+    }
+    values
+}
+
+/// A folder of the installation of CoppeliaSim; None without an installation.
+fn installed(options: &Options, folder: &str) -> Option<String> {
+    let resources = options.resources.as_deref()?;
+    Some(text_of(Some(&if folder.is_empty() { resources.to_owned() } else { resources.join(folder) })))
+}
+
 fn text_of(path: Option<&Path>) -> String {
     path.map_or_else(String::new, |path| path.to_string_lossy().into_owned())
 }
