@@ -8,7 +8,7 @@
 ---
 --- A script may decide itself what is recorded and when: its own `sysCall_init` calls `graph.init()`, and it calls `graph.handle(time)` as it likes.
 ---
---- Opens no dialog and draws nothing: there is no display. `updateCurves`, `clearCurves` and `prepareCurves`, which draw, do nothing.
+--- Its dialog is a window of simUI. The plots are those of `swanilda view`, so `updateCurves`, `clearCurves` and `prepareCurves`, which draw, do nothing (spec: models 3).
 local graph = {}
 
 function graph.cleanup() end

@@ -2220,7 +2220,9 @@ function sim.launchThreadedChildScripts() end
 function sim.loadImage(options, filename) end
 
 --- Adds a model to the scene, where it was saved.
----@param filenameOrBuffer any a `.ttm` or `.simmodel.xml` file or its bytes, or a folder that `swanilda unpack` made
+---
+--- `models/robots/mobile/dr12.ttm`
+---@param filenameOrBuffer any a `.ttm` or `.simmodel.xml` file or its bytes, or a folder that `swanilda unpack` made; with `--resources DIR` also a file below DIR, such as
 ---@param onlyThumbnails? boolean of no use: nothing is shown
 ---@return integer objectHandle the base of the model
 function sim.loadModel(filenameOrBuffer, onlyThumbnails) end
