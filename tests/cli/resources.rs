@@ -64,7 +64,7 @@ fn run(installation: &TempDir, args: &[&str]) -> Output {
     Scene::new(USES_IT).run(&all)
 }
 
-const FOUND: &str = "true, /Arm\nfalse, file does not exist.\nmylib, from lua\noldlib, from deprecated\nfolder, a folder\nutils, ours\nfrom lua\n";
+const FOUND: &str = "true, /Arm\nfalse, -1: in sim.loadModel: file does not exist.\nmylib, from lua\noldlib, from deprecated\nfolder, a folder\nutils, ours\nfrom lua\n";
 
 #[test]
 fn models_and_modules_are_found() {
@@ -78,14 +78,20 @@ fn models_and_modules_are_found() {
 fn they_are_readable_with_no_unsafe_and_nothing_beside_them() {
     let installation = installation();
     let output = stdout(&run(&installation, &["--no-unsafe"]));
-    assert!(output.starts_with("true, /Arm\nfalse, reading 'models/../../secret.ttm' is not allowed"), "{output}");
+    assert!(
+        output.starts_with("true, /Arm\nfalse, -1: in sim.loadModel: reading 'models/../../secret.ttm' is not allowed"),
+        "{output}"
+    );
     assert!(output.contains("mylib, from lua\noldlib, from deprecated\n"), "{output}");
 }
 
 #[test]
 fn they_are_not_with_deny_all() {
     let output = stdout(&run(&installation(), &["--deny-all"]));
-    assert!(output.starts_with("false, reading 'models/robots/arm.ttm' is not allowed"), "{output}");
+    assert!(
+        output.starts_with("false, -1: in sim.loadModel: reading 'models/robots/arm.ttm' is not allowed"),
+        "{output}"
+    );
     assert!(output.contains("mylib, none\n"), "{output}");
 }
 
@@ -95,7 +101,7 @@ fn without_them_a_model_is_missing() {
         "sim = require 'sim' print(pcall(sim.loadModel, 'models/robots/arm.ttm')) print(sim.getStringParam(141) == '')",
     )
     .run(&["--no-start", "--loops", "1", "--quiet"]);
-    assert_eq!(stdout(&output), "false, file does not exist.\ntrue\n");
+    assert_eq!(stdout(&output), "false, -1: in sim.loadModel: file does not exist.\ntrue\n");
 }
 
 #[test]
