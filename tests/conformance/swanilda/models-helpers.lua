@@ -64,5 +64,5 @@ print(#vertices, #indices)
 function sysCall_init()
     local server = sim.createScript(sim.scripttype_customization, "require('b0RemoteApiServer')")
     sim.initScript(server)
-    print(pcall(require, 'models.arucoMarker_customization'))
+    print((pcall(require, 'models.arucoMarker_customization')))
 end
