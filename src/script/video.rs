@@ -52,8 +52,9 @@ pub enum VideoView {
 /// The videos of a simulator.
 #[derive(Default)]
 pub(crate) struct Videos {
-    of_user: Option<Recorder>,
-    of_scripts: Option<Recorder>,
+    // Boxes, since both are taken out for each step.
+    of_user: Option<Box<Recorder>>,
+    of_scripts: Option<Box<Recorder>>,
 }
 
 /// Why a video ends before its time.
@@ -87,8 +88,8 @@ struct Film {
 }
 
 impl Recorder {
-    fn new(options: VideoOptions) -> Self {
-        Self { options, elapsed: 0.0, shown: 0, film: None, failure: None }
+    fn new(options: VideoOptions) -> Box<Self> {
+        Box::new(Self { options, elapsed: 0.0, shown: 0, film: None, failure: None })
     }
 
     /// Takes the pictures of the time until the next step.
@@ -180,7 +181,7 @@ impl Sim {
     /// Completes the video of the user.
     pub(crate) fn finish_video(&self) -> Result<(), VideoFailure> {
         let recorder = self.app.borrow_mut().videos.of_user.take();
-        recorder.map_or(Ok(()), Recorder::finish)
+        recorder.map_or(Ok(()), |recorder| recorder.finish())
     }
 
     /// Takes pictures after a step, and ends the video of scripts with the simulation.
@@ -205,12 +206,12 @@ impl Sim {
                 self.continue_video(Recorder::new(VideoOptions { file: self.video_file(), ..Default::default() }))
             }
             (Some(recorder), true) => self.continue_video(recorder),
-            (Some(recorder), false) => self.end_video(recorder),
+            (Some(recorder), false) => self.end_video(*recorder),
         }
     }
 
     /// Takes the next pictures of the video of scripts; it ends when that fails.
-    fn continue_video(&self, mut recorder: Recorder) {
+    fn continue_video(&self, mut recorder: Box<Recorder>) {
         let file = &recorder.options.file;
         let may = self.options.permissions.check_write(file).and_then(|()| match video::needs_program(file) {
             true => self.options.permissions.check_run(video::PROGRAM),
@@ -221,7 +222,7 @@ impl Sim {
             Err(denied) => recorder.failure = Some(VideoFailure(denied.to_string())),
         }
         match recorder.failure {
-            Some(_) => self.end_video(recorder),
+            Some(_) => self.end_video(*recorder),
             None => self.app.borrow_mut().videos.of_scripts = Some(recorder),
         }
     }
@@ -229,7 +230,7 @@ impl Sim {
     pub(crate) fn end_video_of_scripts(&self) {
         let recorder = self.app.borrow_mut().videos.of_scripts.take();
         if let Some(recorder) = recorder {
-            self.end_video(recorder);
+            self.end_video(*recorder);
         }
     }
 
