@@ -157,6 +157,16 @@ impl Simulator {
         Ok(address)
     }
 
+    /// Serves programs with `simxStart`, one at a time: the legacy remote API. Clients may use the synchronous mode.
+    ///
+    /// # Errors
+    /// When the listener cannot be used.
+    pub fn serve_legacy(&mut self, listener: TcpListener) -> std::io::Result<SocketAddr> {
+        let event_loop = self.sim.event_loop.get()?;
+        let age = Duration::from_secs_f64(self.sim.clock.wall_seconds());
+        modules::sim_remote_api::serve(&self.sim.modules.states, &event_loop, listener, age)
+    }
+
     /// Streams events (protocol 3) to those that connect by WebSocket, as CoppeliaSim's add-on "Visualization stream" does.
     ///
     /// # Errors

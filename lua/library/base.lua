@@ -140,6 +140,15 @@ for i = 1, #KNOWN do
 end
 KNOWN = nil
 
+-- Its plugin made it a global of all scripts, which never required it.
+simRemoteApi = setmetatable({}, {
+    __index = function(proxy, key)
+        local module = quietRequire('simRemoteApi')
+        if rawget(_G, 'simRemoteApi') == proxy then simRemoteApi = module end
+        return module[key]
+    end,
+})
+
 local function removeProxies(name)
     for global in pairs(proxied) do
         local value = rawget(_G, global)

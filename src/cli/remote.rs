@@ -36,6 +36,9 @@ const STREAM: Api = Api {
     start_param: "visualizationStream.ws.enable",
 };
 
+/// Where programs with `simxStart` look for a simulator.
+const LEGACY_PORT: &str = "19997";
+
 impl Api {
     fn is_refused(&self, setup: &Setup) -> bool {
         matches!(setup.param(self.start_param), Some("false" | "0"))
@@ -51,6 +54,9 @@ pub(super) struct Remote {
     /// Serve the WebSocket remote API as well [default: first free port from 23050]
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
     ws_remote_api: Option<Option<u16>>,
+    /// Serve the legacy remote API (simxStart) as well, at PORT; may be repeated: a port serves one program [default port: 19997]
+    #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true, default_missing_value = LEGACY_PORT)]
+    legacy_remote_api: Vec<u16>,
     /// Serve CoppeliaSim's visualization stream for its web front end [default: first free port from 23020]
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
     visualization_stream: Option<Option<u16>>,
@@ -99,7 +105,7 @@ impl Remote {
         }
     }
 
-    /// Starts the remote APIs unless disabled by parameters, and prints their addresses: ZeroMQ if `zmq`, WebSocket on request.
+    /// Starts the remote APIs unless disabled by parameters, and prints their addresses: ZeroMQ if `zmq`, the others on request.
     ///
     /// # Errors
     /// When a port is not free.
@@ -120,6 +126,10 @@ impl Remote {
             let listener = self.listener(setup, &WS, port)?;
             output.listening(WS.name, sim.serve_ws(listener).map_err(failed)?);
         }
+        for &port in &self.legacy_remote_api {
+            let listener = listener_at(self.bind, port)?;
+            output.listening("Legacy", sim.serve_legacy(listener).map_err(failed)?);
+        }
         if let Some(port) = self.visualization_stream.filter(|_| !STREAM.is_refused(setup)) {
             let listener = self.listener(setup, &STREAM, port)?;
             output.streaming(sim.serve_visualization_stream(listener).map_err(failed)?);
@@ -132,7 +142,7 @@ impl Remote {
         let Api { first_port, param, .. } = api;
         let given = setup.param(param).map(|text| text.parse().map_err(|_| format!("{param}: no port: {text}")));
         if let Some(port) = port.or(given.transpose()?) {
-            return TcpListener::bind((address, port)).map_err(|error| cannot_listen(address, port, &error));
+            return listener_at(address, port);
         }
         for port in *first_port..first_port + TRIED_PORTS {
             match TcpListener::bind((address, port)) {
@@ -143,6 +153,10 @@ impl Remote {
         }
         Err(format!("ports {first_port} to {} are all in use at {address}", first_port + TRIED_PORTS - 1))
     }
+}
+
+fn listener_at(address: IpAddr, port: u16) -> Result<TcpListener, String> {
+    TcpListener::bind((address, port)).map_err(|error| cannot_listen(address, port, &error))
 }
 
 fn cannot_listen(address: IpAddr, port: u16, error: &Error) -> String {

@@ -6,7 +6,7 @@
 use std::future::Future;
 use std::io;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
 use tokio::runtime::Runtime;
@@ -95,6 +95,11 @@ impl EventLoop {
         self.runtime().block_on(future)
     }
 
+    /// A bell for another thread, which ends waits.
+    pub(super) fn bell(&self) -> Bell {
+        Bell { waiting: self.waiting.clone(), has_rung: AtomicBool::new(false) }
+    }
+
     /// Runs a task until it ends or what is returned is dropped.
     pub(super) fn spawn(&self, task: impl Future<Output = ()> + Send + 'static) -> Task {
         Task(self.runtime().spawn(task).abort_handle())
@@ -122,6 +127,35 @@ pub(super) struct Task(AbortHandle);
 impl Drop for Task {
     fn drop(&mut self) {
         self.0.abort();
+    }
+}
+
+/// Ends waits of an event loop from another thread, until the simulator has looked at what there is.
+pub(super) struct Bell {
+    waiting: Arc<Waiting>,
+    has_rung: AtomicBool,
+}
+
+impl Bell {
+    /// There is something to look at.
+    pub(super) fn ring(&self) {
+        if !self.has_rung.swap(true, Ordering::AcqRel) {
+            self.waiting.count.fetch_add(1, Ordering::Relaxed);
+            self.waiting.more.notify_one();
+        }
+    }
+
+    /// The simulator looks.
+    pub(super) fn answer(&self) {
+        if self.has_rung.swap(false, Ordering::AcqRel) {
+            self.waiting.count.fetch_sub(1, Ordering::Relaxed);
+        }
+    }
+}
+
+impl Drop for Bell {
+    fn drop(&mut self) {
+        self.answer();
     }
 }
 
@@ -200,6 +234,20 @@ mod tests {
         drop(inbox);
         assert_eq!(event_loop.waiting.count.load(Ordering::Relaxed), 0);
         event_loop.wait(Duration::from_millis(1));
+    }
+
+    #[test]
+    fn a_bell_of_another_thread_ends_a_wait() {
+        let event_loop = EventLoop::new().expect("an event loop");
+        let bell = Arc::new(event_loop.bell());
+        let ringing = bell.clone();
+        let thread = std::thread::spawn(move || ringing.ring());
+        event_loop.wait(Duration::from_secs(10));
+        thread.join().expect("it does not panic");
+        bell.ring();
+        assert_eq!(event_loop.waiting.count.load(Ordering::Relaxed), 1);
+        bell.answer();
+        assert_eq!(event_loop.waiting.count.load(Ordering::Relaxed), 0);
     }
 
     #[test]

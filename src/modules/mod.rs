@@ -9,6 +9,7 @@ pub(crate) mod remote;
 mod sim_convex;
 mod sim_geom;
 mod sim_im;
+pub(crate) mod sim_remote_api;
 mod sim_subprocess;
 mod sim_ui;
 mod sim_vision;
@@ -39,6 +40,7 @@ pub(crate) static ALL: &[&Module] = &[
     &sim_convex::MODULE,
     &sim_geom::MODULE,
     &sim_im::MODULE,
+    &sim_remote_api::MODULE,
     &sim_subprocess::MODULE,
     &sim_ui::MODULE,
     &sim_vision::MODULE,

@@ -5,6 +5,7 @@ pub mod cbor_head;
 pub(crate) mod mime;
 pub mod number_buffer;
 pub mod pack;
+pub(crate) mod simx;
 
 use crate::scene::Data;
 

@@ -117,6 +117,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("syn", "crates/api-macro"),
     ("tempfile", "src/cli/test"),
     ("tempfile", "src/format"),
+    ("tempfile", "src/modules/sim_remote_api"),
     ("tempfile", "src/permissions/tests.rs"),
     ("tempfile", "src/script/files/app_storage"),
     ("tempfile", "src/testing"),

@@ -242,7 +242,8 @@ fn wrong_command_lines_and_files_exit_with_2() {
 fn a_port_in_use_is_refused() {
     let taken = std::net::TcpListener::bind(("127.0.0.1", 0)).expect("a port is free");
     let port = taken.local_addr().expect("it has an address").port();
-    for option in [format!("--remote-api={port}"), "-DzmqRemoteApi.rpcPort=nonsense".to_owned()] {
+    let legacy = format!("--legacy-remote-api={port}");
+    for option in [format!("--remote-api={port}"), legacy, "-DzmqRemoteApi.rpcPort=nonsense".to_owned()] {
         let refused = swanilda().args(["serve", &option]).output().expect("the command starts");
         assert_eq!(refused.status.code(), Some(2), "{option}");
         assert!(stderr(&refused).contains("port") || stderr(&refused).contains(&port.to_string()), "{option}");

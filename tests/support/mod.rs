@@ -5,6 +5,7 @@
 pub mod compare;
 pub mod lines;
 pub mod process;
+pub mod simx;
 
 use std::io::Write;
 

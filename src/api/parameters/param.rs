@@ -54,6 +54,7 @@ mod switch {
     pub const VISION_SENSORS: i64 = 10;
     pub const HEADLESS: i64 = 34;
     pub const EXIT_REQUEST: i64 = 41;
+    pub const WAITING_FOR_TRIGGER: i64 = 45;
     pub const USING_SCRIPT_OBJECTS: i64 = 61;
     pub const LAST: i64 = 61;
 }
@@ -138,6 +139,7 @@ fn get_bool_param(cx: &Cx, parameter: Number) -> Result<bool> {
     }
     Ok(match parameter.0 {
         switch::EXIT_REQUEST => cx.clock().quit_is_requested(),
+        switch::WAITING_FOR_TRIGGER => cx.clock().is_waiting_for_trigger(),
         switch::HEADLESS | switch::USING_SCRIPT_OBJECTS => true,
         switch::COLLISION => cx.scene().settings().calculations.collision,
         switch::DISTANCE => cx.scene().settings().calculations.distance,

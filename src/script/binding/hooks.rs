@@ -1,12 +1,16 @@
 //! Hooks of modules: functions that run at fixed moments, so that a module owns all of its state.
 
+use std::cell::Ref;
 use std::rc::Rc;
 
 use crate::io::EventLoop;
-use crate::scene::Data;
+use crate::scene::object::script_object::ScriptType;
+use crate::scene::{Data, Scene};
 use crate::script::calls::handler::Handler;
+use crate::script::error::{ApiError, ApiResult};
 use crate::script::lifecycle::instance::Script;
-use crate::script::sim::Sim;
+use crate::script::sim::{Options, Sim};
+use crate::script::step::clock::Clock;
 
 /// A function of a module that runs outside of calls.
 pub type ModuleHook = fn(&Host<'_>);
@@ -16,12 +20,14 @@ pub type ModuleHook = fn(&Host<'_>);
 pub struct Hooks {
     /// At the start of each loop iteration, before any script runs.
     pub start_of_iteration: Option<ModuleHook>,
+    /// Before each simulation step that is due; true holds it back. It is asked again in the next iteration.
+    pub before_step: Option<fn(&Host<'_>) -> bool>,
     /// At the end of a simulation, after `sysCall_afterSimulation`.
     pub end_of_simulation: Option<ModuleHook>,
 }
 
 impl Hooks {
-    pub const NONE: Self = Self { start_of_iteration: None, end_of_simulation: None };
+    pub const NONE: Self = Self { start_of_iteration: None, before_step: None, end_of_simulation: None };
 }
 
 /// The parts of the simulator that a hook may access.
@@ -56,6 +62,43 @@ impl Host<'_> {
     pub(crate) fn log(&self, level: i64, text: &str) {
         self.sim.log(level, text);
     }
+
+    /// The options of the simulator.
+    pub(crate) fn options(&self) -> &Options {
+        &self.sim.options
+    }
+
+    /// State and time of the simulation.
+    pub(crate) fn clock(&self) -> &Clock {
+        &self.sim.clock
+    }
+
+    pub(crate) fn scene(&self) -> Ref<'_, Scene> {
+        self.sim.scene.borrow()
+    }
+
+    /// Distinguishes this scene from others.
+    pub(crate) fn scene_uid(&self) -> i64 {
+        self.sim.scene_uid()
+    }
+
+    /// Calls `module.function` in the name of the sandbox, with plain values.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub(crate) fn call_api(&self, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+        let sandbox = self.sim.scripts.detached(ScriptType::Sandbox).ok_or(ApiError::NoSuchScript)?;
+        self.sim.call_api(&sandbox, name, args)
+    }
+
+    /// Calls a global function of a script.
+    ///
+    /// # Errors
+    /// When there is no such script or function, or the function fails.
+    pub(crate) fn call_function(&self, script: i64, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+        let script = self.sim.script(script).ok_or(ApiError::NoSuchScript)?;
+        self.sim.call_function(&script, name, args)
+    }
 }
 
 impl Sim {
@@ -63,5 +106,15 @@ impl Sim {
     pub(in crate::script) fn run_hooks(self: &Rc<Self>, moment: impl Fn(&Hooks) -> Option<ModuleHook>) {
         let host = Host { sim: self };
         self.modules.registry.hooks.iter().filter_map(moment).for_each(|hook| hook(&host));
+    }
+
+    /// Whether a module holds the step back that is due. All are asked: each does what it has to do before a step.
+    pub(in crate::script) fn step_is_held(self: &Rc<Self>) -> bool {
+        let host = Host { sim: self };
+        let mut held = false;
+        for hook in self.modules.registry.hooks.iter().filter_map(|hooks| hooks.before_step) {
+            held |= hook(&host);
+        }
+        held
     }
 }

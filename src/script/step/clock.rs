@@ -46,6 +46,8 @@ pub(crate) struct Clock {
     starting: Cell<bool>,
     /// A script requested the end of the program.
     quit_requested: Cell<bool>,
+    /// A client of the legacy remote API must allow the next step.
+    waiting_for_trigger: Cell<bool>,
     /// Wall-clock seconds at which a run in real time had simulation time zero.
     real_time_origin: Cell<f64>,
     created: Instant,
@@ -63,6 +65,7 @@ impl Clock {
             paused_at_time: Cell::new(false),
             starting: Cell::new(false),
             quit_requested: Cell::new(false),
+            waiting_for_trigger: Cell::new(false),
             real_time_origin: Cell::new(0.0),
             created: wall_clock::now(),
         }
@@ -97,6 +100,16 @@ impl Clock {
 
     pub(crate) fn quit_is_requested(&self) -> bool {
         self.quit_requested.get()
+    }
+
+    /// Whether a client of the legacy remote API must allow the next step.
+    pub(crate) fn is_waiting_for_trigger(&self) -> bool {
+        self.waiting_for_trigger.get()
+    }
+
+    /// Only for the legacy remote API, which decides about that.
+    pub(crate) fn set_waiting_for_trigger(&self, on: bool) {
+        self.waiting_for_trigger.set(on);
     }
 
     pub(in crate::script) fn set_state(&self, state: SimulationState) {

@@ -42,7 +42,7 @@ impl Sim {
     }
 
     fn step_if_due(self: &Rc<Self>) {
-        if !self.step_is_due() {
+        if !self.step_is_due() || self.step_is_held() {
             self.broadcast(SysCall::RealTimeIdle, &[]);
         } else if !self.main_script_is_vetoed() {
             self.simulation_step();

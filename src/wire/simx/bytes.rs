@@ -1,0 +1,183 @@
+//! Numbers and texts in the byte order of a client.
+
+use super::Violation;
+
+/// The byte order of a client.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Order {
+    #[default]
+    Little,
+    Big,
+}
+
+/// Reads fields one after the other.
+pub(crate) struct Reader<'a> {
+    bytes: &'a [u8],
+    order: Order,
+}
+
+impl<'a> Reader<'a> {
+    pub(crate) fn new(bytes: &'a [u8], order: Order) -> Self {
+        Self { bytes, order }
+    }
+
+    /// The next `count` bytes.
+    ///
+    /// # Errors
+    /// When there are fewer.
+    pub(crate) fn take(&mut self, count: usize) -> Result<&'a [u8], Violation> {
+        let (taken, rest) = self.bytes.split_at_checked(count).ok_or(Violation::Malformed)?;
+        self.bytes = rest;
+        Ok(taken)
+    }
+
+    /// All bytes that are left.
+    pub(crate) fn rest(&mut self) -> &'a [u8] {
+        std::mem::take(&mut self.bytes)
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.bytes.is_empty()
+    }
+
+    fn array<const N: usize>(&mut self) -> Result<[u8; N], Violation> {
+        let mut array: [u8; N] = self.take(N)?.try_into().map_err(|_| Violation::Malformed)?;
+        if self.order == Order::Big {
+            array.reverse();
+        }
+        Ok(array)
+    }
+
+    /// # Errors
+    /// As all readers of numbers: when there are not enough bytes.
+    pub(crate) fn byte(&mut self) -> Result<u8, Violation> {
+        self.array().map(u8::from_le_bytes)
+    }
+
+    /// # Errors
+    /// When there are not enough bytes.
+    pub(crate) fn short(&mut self) -> Result<u16, Violation> {
+        self.array().map(u16::from_le_bytes)
+    }
+
+    /// # Errors
+    /// When there are not enough bytes.
+    pub(crate) fn int(&mut self) -> Result<i32, Violation> {
+        self.array().map(i32::from_le_bytes)
+    }
+
+    /// # Errors
+    /// When there are not enough bytes, or the number is negative.
+    pub(crate) fn size(&mut self) -> Result<usize, Violation> {
+        usize::try_from(self.int()?).map_err(|_| Violation::Malformed)
+    }
+
+    /// # Errors
+    /// When there are not enough bytes.
+    pub(crate) fn float(&mut self) -> Result<f32, Violation> {
+        self.array().map(f32::from_le_bytes)
+    }
+
+    /// The bytes up to the next zero, which is skipped.
+    ///
+    /// # Errors
+    /// When there is no zero.
+    pub(crate) fn text(&mut self) -> Result<&'a [u8], Violation> {
+        let end = self.bytes.iter().position(|&byte| byte == 0).ok_or(Violation::Malformed)?;
+        let text = self.take(end)?;
+        self.take(1)?;
+        Ok(text)
+    }
+}
+
+/// Writes fields one after the other.
+#[derive(Default)]
+pub(crate) struct Writer {
+    bytes: Vec<u8>,
+    order: Order,
+}
+
+impl Writer {
+    pub(crate) fn new(order: Order) -> Self {
+        Self { bytes: Vec::new(), order }
+    }
+
+    pub(crate) fn into_bytes(self) -> Vec<u8> {
+        self.bytes
+    }
+
+    pub(crate) fn bytes(&mut self, bytes: &[u8]) {
+        self.bytes.extend_from_slice(bytes);
+    }
+
+    fn array<const N: usize>(&mut self, mut array: [u8; N]) {
+        if self.order == Order::Big {
+            array.reverse();
+        }
+        self.bytes(&array);
+    }
+
+    pub(crate) fn byte(&mut self, value: u8) {
+        self.bytes.push(value);
+    }
+
+    pub(crate) fn short(&mut self, value: u16) {
+        self.array(value.to_le_bytes());
+    }
+
+    pub(crate) fn int(&mut self, value: i32) {
+        self.array(value.to_le_bytes());
+    }
+
+    /// A size or a count. What is too large for the protocol becomes the largest number, which no client accepts.
+    pub(crate) fn size(&mut self, value: usize) {
+        self.int(i32::try_from(value).unwrap_or(i32::MAX));
+    }
+
+    pub(crate) fn float(&mut self, value: f32) {
+        self.array(value.to_le_bytes());
+    }
+
+    /// A text up to its first zero, and a zero.
+    pub(crate) fn text(&mut self, text: &[u8]) {
+        self.bytes(text.split(|&byte| byte == 0).next().unwrap_or_default());
+        self.byte(0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read_in_both_orders() {
+        for order in [Order::Little, Order::Big] {
+            let mut writer = Writer::new(order);
+            writer.byte(7);
+            writer.short(0x1234);
+            writer.int(-2);
+            writer.float(0.5);
+            writer.text(b"ab\0c");
+            writer.bytes(b"rest");
+            let bytes = writer.into_bytes();
+            let mut reader = Reader::new(&bytes, order);
+            assert_eq!((reader.byte(), reader.short(), reader.int()), (Ok(7), Ok(0x1234), Ok(-2)));
+            assert_eq!((reader.float(), reader.text()), (Ok(0.5), Ok(&b"ab"[..])));
+            assert_eq!((reader.rest(), reader.is_empty()), (&b"rest"[..], true));
+        }
+    }
+
+    #[test]
+    fn the_order_is_that_of_the_bytes() {
+        let mut writer = Writer::new(Order::Big);
+        writer.int(5);
+        assert_eq!(writer.into_bytes(), [0, 0, 0, 5]);
+    }
+
+    #[test]
+    fn what_is_not_there_is_an_error() {
+        assert_eq!(Reader::new(&[1, 2, 3], Order::Little).int(), Err(Violation::Malformed));
+        assert_eq!(Reader::new(b"no end", Order::Little).text(), Err(Violation::Malformed));
+        assert_eq!(Reader::new(&[0xff; 4], Order::Little).size(), Err(Violation::Malformed));
+    }
+}

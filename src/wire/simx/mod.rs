@@ -1,0 +1,34 @@
+//! The protocol of the legacy remote API (`simx...`), server side: bytes in, commands out; results in, bytes out (spec:
+//! legacy-remote-api). It knows neither sockets nor what commands mean.
+
+mod bytes;
+mod message;
+mod packets;
+mod pending;
+mod session;
+mod splits;
+
+pub(crate) use bytes::{Order, Reader, Writer};
+pub(crate) use message::{Command, Stamp};
+pub(crate) use packets::{Packets, cut};
+pub(crate) use session::{Answer, Received, Session};
+
+/// The version of the protocol that both sides report.
+pub(crate) const VERSION: u8 = 11;
+
+/// Bytes of one message, and of one command, that are accepted.
+pub(crate) const MAX_SIZE: usize = 256 << 20;
+
+/// Commands of one message, and commands that wait, that are accepted.
+pub(crate) const MAX_COMMANDS: usize = 10_000;
+
+/// Why a connection is closed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum Violation {
+    #[error("the data is not of the legacy remote API.")]
+    Malformed,
+    #[error("the data is larger than {MAX_SIZE} bytes.")]
+    TooLarge,
+    #[error("there are more than {MAX_COMMANDS} commands.")]
+    TooMany,
+}

@@ -1,0 +1,280 @@
+//! What a server knows of its client: commands that wait, and results that wait to be fetched (spec: legacy-remote-api 2).
+
+use std::collections::VecDeque;
+
+use super::bytes::{Order, Writer};
+use super::message::{self, Command, Mode, ReplyHead, ReplyPiece, Stamp};
+use super::pending::{Job, Pending};
+use super::splits::{Split, size_of_piece};
+use super::{MAX_SIZE, Violation};
+
+/// Ends the connection.
+const KILL_CONNECTION: u16 = 0x000a;
+
+/// Lines for the monitor that are kept.
+const MAX_LINES: usize = 1000;
+
+/// The state of one server, of which one client is served at a time.
+#[derive(Default)]
+pub(crate) struct Session {
+    /// Where the client is; None without one.
+    peer: Option<String>,
+    /// How many clients there were.
+    connections: u64,
+    client: Client,
+    head: ReplyHead,
+    traffic: Traffic,
+    /// What happens, for people; None where nobody wants to know.
+    monitor: Option<VecDeque<String>>,
+}
+
+/// What ends with the connection.
+#[derive(Default)]
+struct Client {
+    order: Order,
+    has_checksum: bool,
+    version: Option<u8>,
+    /// Id and time of the last message.
+    last: Option<(i32, i32)>,
+    /// Whether its commands have not been executed yet.
+    is_waiting: bool,
+    pending: Pending,
+    splits: Vec<Split>,
+    /// Results as bytes.
+    outbox: Vec<u8>,
+    results: usize,
+}
+
+impl Default for ReplyHead {
+    fn default() -> Self {
+        Self { id: -1, client_time: 0, stamp: Stamp::default() }
+    }
+}
+
+/// What `simRemoteApi.status` reports, times in milliseconds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Traffic {
+    pub last_request: i64,
+    pub last_reply: i64,
+    pub between_requests: i64,
+    pub commands_in_request: usize,
+    pub commands_in_reply: usize,
+}
+
+/// What a message asks the server to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Received {
+    /// Commands wait that can be executed now.
+    pub is_waiting: bool,
+    /// The connection ends after the reply.
+    pub ends: bool,
+}
+
+/// Commands to be executed, and their results so far.
+pub(crate) struct Batch {
+    connection: u64,
+    stamp: Stamp,
+    pub order: Order,
+    jobs: VecDeque<Job>,
+    answers: Vec<(Job, Answer)>,
+    size: usize,
+}
+
+/// The result of a command.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Answer {
+    pub failed: bool,
+    pub data: Vec<u8>,
+    /// A stream is over.
+    pub ends_stream: bool,
+}
+
+impl Answer {
+    pub(crate) fn failure() -> Self {
+        Self { failed: true, ..Self::default() }
+    }
+}
+
+impl Batch {
+    /// The next command that is to be executed. Discontinued streams need no execution.
+    pub(crate) fn next(&mut self) -> Option<std::sync::Arc<Command>> {
+        while let Some(job) = self.jobs.front() {
+            if job.command.mode != Mode::Discontinue {
+                return Some(job.command.clone());
+            }
+            self.answer(Answer::default());
+        }
+        None
+    }
+
+    /// Whether the results are as many as a reply can have.
+    pub(crate) fn is_full(&self) -> bool {
+        self.size > MAX_SIZE / 4
+    }
+
+    /// The result of that command.
+    pub(crate) fn answer(&mut self, answer: Answer) {
+        if let Some(job) = self.jobs.pop_front() {
+            self.size += answer.data.len();
+            self.answers.push((job, answer));
+        }
+    }
+}
+
+impl Session {
+    pub(crate) fn new(is_monitored: bool) -> Self {
+        Self { monitor: is_monitored.then(VecDeque::new), ..Self::default() }
+    }
+
+    /// A client has come.
+    pub(crate) fn connect(&mut self, peer: String) {
+        self.note(|| "connecting to client...".into());
+        self.connections += 1;
+        self.peer = Some(peer);
+        self.client = Client::default();
+        self.head = ReplyHead { stamp: self.head.stamp, ..ReplyHead::default() };
+        self.note(|| "connected to client.".into());
+    }
+
+    /// The client is gone, and with it what it wanted.
+    pub(crate) fn disconnect(&mut self) {
+        self.peer = None;
+        self.client = Client::default();
+        self.note(|| "disconnected from client.".into());
+    }
+
+    /// The number of the connection; None without a client.
+    pub(crate) fn connection(&self) -> Option<u64> {
+        self.peer.as_ref().map(|_| self.connections)
+    }
+
+    pub(crate) fn peer(&self) -> Option<&str> {
+        self.peer.as_deref()
+    }
+
+    pub(crate) fn client_version(&self) -> Option<u8> {
+        self.client.version
+    }
+
+    pub(crate) fn traffic(&self) -> Traffic {
+        self.traffic
+    }
+
+    /// What has happened since the last time.
+    pub(crate) fn take_lines(&mut self) -> Vec<String> {
+        self.monitor.as_mut().map(|lines| lines.drain(..).collect()).unwrap_or_default()
+    }
+
+    fn note(&mut self, line: impl FnOnce() -> String) {
+        if let Some(lines) = &mut self.monitor {
+            if lines.len() >= MAX_LINES {
+                lines.pop_front();
+            }
+            lines.push_back(line());
+        }
+    }
+
+    /// Whether there is something to execute, and room for its results.
+    pub(crate) fn is_ready(&self) -> bool {
+        self.client.outbox.is_empty() && !self.client.pending.is_empty()
+    }
+
+    /// Whether the commands of the last message have not been executed yet, though they could be.
+    pub(crate) fn is_waiting(&self) -> bool {
+        self.client.is_waiting && self.is_ready()
+    }
+
+    /// Takes a message of the client; `now` is in milliseconds.
+    ///
+    /// # Errors
+    /// When the connection is to be closed.
+    pub(crate) fn receive(&mut self, message: &[u8], order: Order, now: i64) -> Result<Received, Violation> {
+        let (head, pieces) = message::parse(message, order)?;
+        let traffic = &mut self.traffic;
+        traffic.between_requests = now - if traffic.last_request == 0 { now } else { traffic.last_request };
+        (traffic.last_request, traffic.commands_in_request) = (now, pieces.len());
+        self.note(|| format!("data received: {} bytes (message ID = {})", message.len(), head.id));
+        let client = &mut self.client;
+        (client.order, client.has_checksum) = (order, head.has_checksum);
+        (client.version, client.last) = (Some(head.version), Some((head.id, head.time)));
+        let mut ends = false;
+        for piece in pieces {
+            if piece.command.id == KILL_CONNECTION {
+                ends = true;
+            } else if client.pending.receive(piece)? {
+                client.is_waiting = true;
+            }
+        }
+        Ok(Received { is_waiting: self.is_waiting(), ends })
+    }
+
+    /// The reply to the message that was received, which fetches the results; `now` is in milliseconds.
+    pub(crate) fn reply(&mut self, now: i64) -> Vec<u8> {
+        let client = &mut self.client;
+        let mut writer = Writer::new(client.order);
+        writer.bytes(&client.outbox);
+        client.splits.retain_mut(|split| !split.write_next(&mut writer));
+        let reply = message::reply(self.head, &writer.into_bytes(), client.has_checksum, client.order);
+        client.outbox = Vec::new();
+        let results = std::mem::take(&mut client.results);
+        (self.traffic.last_reply, self.traffic.commands_in_reply) = (now, results);
+        let (id, streams) = (self.head.id, client.pending.streams());
+        let size = reply.len();
+        self.note(|| format!("reply sent: {size} bytes (message ID = {id}, stream cmd cnt = {streams})"));
+        self.head.id = -1;
+        reply
+    }
+
+    /// The commands to be executed now. None before the last results are fetched, and when there are none.
+    pub(crate) fn due(&mut self, stamp: Stamp) -> Option<Batch> {
+        let client = &mut self.client;
+        if !client.outbox.is_empty() {
+            return None;
+        }
+        self.head.stamp = stamp;
+        (self.head.id, self.head.client_time) = client.last?;
+        client.is_waiting = false;
+        let is_sent = |place| client.splits.iter().all(|split| split.place != place);
+        let jobs = client.pending.take_due(stamp.system_time, is_sent);
+        let (connection, order) = (self.connections, client.order);
+        let batch = Batch { connection, stamp, order, jobs: jobs.into(), answers: Vec::new(), size: 0 };
+        (!batch.jobs.is_empty()).then_some(batch)
+    }
+
+    /// Takes the results of commands. Those of a client that is gone are dropped.
+    pub(crate) fn complete(&mut self, batch: Batch) {
+        if self.connection() != Some(batch.connection) {
+            return;
+        }
+        let mut writer = Writer::new(batch.order);
+        for (job, answer) in batch.answers {
+            if answer.ends_stream {
+                self.client.pending.remove(&job);
+            }
+            if job.command.mode == Mode::Discontinue {
+                let identity = job.command.identity();
+                self.client.splits.retain(|split| split.command.identity() != identity);
+            }
+            self.client.add_result(job, answer, batch.stamp.simulation_time, &mut writer);
+        }
+        self.client.outbox = writer.into_bytes();
+    }
+}
+
+impl Client {
+    fn add_result(&mut self, job: Job, answer: Answer, time: i32, writer: &mut Writer) {
+        let Answer { failed, data, .. } = answer;
+        let command = job.command;
+        let in_pieces = match command.mode {
+            Mode::OneshotSplit if data.is_empty() => return,
+            Mode::OneshotSplit | Mode::StreamingSplit => data.len() > size_of_piece(&command),
+            _ => false,
+        };
+        self.results += 1;
+        if in_pieces {
+            self.splits.push(Split { place: job.place, command, failed, time, data, sent: 0 });
+        } else {
+            ReplyPiece { command: &command, failed, time, offset: 0, full: data.len(), data: &data }.write(writer);
+        }
+    }
+}
