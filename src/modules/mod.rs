@@ -7,6 +7,7 @@ mod lfs;
 mod mime;
 pub(crate) mod remote;
 mod sim_convex;
+mod sim_eigen;
 mod sim_geom;
 mod sim_im;
 pub(crate) mod sim_remote_api;
@@ -38,6 +39,7 @@ pub(crate) static ALL: &[&Module] = &[
     &remote::ZMQ,
     &cbor::SIM_CBOR,
     &sim_convex::MODULE,
+    &sim_eigen::MODULE,
     &sim_geom::MODULE,
     &sim_im::MODULE,
     &sim_remote_api::MODULE,

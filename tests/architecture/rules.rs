@@ -65,6 +65,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("imaging", "src/modules"),
     ("indicatif", "src/cli"),
     ("libc", "src/io/signals.rs"),
+    ("libm", "src/modules/sim_eigen"),
     ("libm", "src/perception"),
     ("libm", "crates/kinematics"),
     ("libm", "crates/rendering"),
