@@ -9,6 +9,7 @@ Only lists the stages, in the order of 4.10; they are implemented natively.
 local handleEmbeddedScripts, handleAddOnScripts = sim.handleEmbeddedScripts, sim.handleAddOnScripts
 local handleSandboxScript, handleSimulationScripts = sim.handleSandboxScript, sim.handleSimulationScripts
 local handleJointMotion, handleDynamics = sim.handleJointMotion, sim.handleDynamics
+local handlePath = simHandlePath
 local handleSensingStart, handleProximitySensor = sim.handleSensingStart, sim.handleProximitySensor
 local handleVisionSensor, getTimeStep = sim.handleVisionSensor, sim.getSimulationTimeStep
 local ACTUATION <const>, SENSING <const>, CLEANUP <const> = sim.syscb_actuation, sim.syscb_sensing, sim.syscb_cleanup
@@ -26,6 +27,7 @@ function sysCall_init() sim.handleSimulationStart() end
 function sysCall_actuation()
     tellScripts(ACTUATION)
     handleJointMotion()
+    handlePath(NOT_EXPLICIT, getTimeStep())
     handleDynamics(getTimeStep())
 end
 

@@ -25,6 +25,7 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Scripts", scripts::script::FUNCTIONS),
     ("Older script functions", old::script::FUNCTIONS),
     ("Globals of V-REP", old::globals::FUNCTIONS),
+    ("Paths of V-REP", old::paths::FUNCTIONS),
     ("Custom user interfaces of V-REP", old::button_interfaces::FUNCTIONS),
     ("Time and chance", scripts::time::FUNCTIONS),
     ("Simulation", scripts::simulation::FUNCTIONS),

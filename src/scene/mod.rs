@@ -11,6 +11,7 @@ pub mod joint;
 pub mod journal;
 pub mod object;
 pub mod parameters;
+pub mod path_object;
 pub mod pose;
 pub mod sensor;
 pub mod shape;

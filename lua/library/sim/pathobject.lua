@@ -27,7 +27,10 @@ local CREATE_ARGS = {
 -- @param orientationMode axes along the path and up: 0 xy, 1 xz, 2 yx, 3 yz, 4 zx, 5 zy
 -- @param upVector what is up when the orientation is computed
 -- @return pathHandle a dummy, with custom data PATHCTRLPTS and PATH (seven doubles per point); dummies below it are the control points
+--
+-- With a number first it is a path object of V-REP: attributes, integer parameters, floating-point parameters, colours.
 function M.createPath(...)
+    if type((...)) == 'number' then return sim._createPathObject(...) end
     local ctrlPts, options, subdiv, smoothness, mode, up = check(CREATE_ARGS, ...)
     if subdiv < 2 then error('subdiv has to be 2 at least.', 2) end
     if subdiv > MOST_POINTS then error('subdiv has to be ' .. MOST_POINTS .. ' at most.', 2) end

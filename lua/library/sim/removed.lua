@@ -51,13 +51,6 @@ function M.resetMilling(objectHandle) return 0 end
 -- @return result 0
 function M.handleJoint(jointHandle, deltaTime) return 0 end
 
---- Does nothing: path objects are gone.
--- @api int result = sim.handlePath(int pathHandle, float deltaTime)
--- @param pathHandle any
--- @param deltaTime seconds
--- @return result 0
-function M.handlePath(pathHandle, deltaTime) return 0 end
-
 --- Does nothing.
 -- @api int result = sim.handleVarious()
 -- @return result 0

@@ -89,6 +89,8 @@ fn explicit_flag(object: &mut Object) -> std::result::Result<&mut bool, SceneErr
         Kind::ProximitySensor(sensor) => Ok(&mut sensor.explicit),
         Kind::VisionSensor(sensor) => Ok(&mut sensor.explicit),
         Kind::Graph(graph) => Ok(&mut graph.explicit),
+        Kind::Path(path) => Ok(&mut path.explicit),
+        Kind::Joint(joint) => Ok(&mut joint.explicit),
         _ => Err(SceneError::InvalidArgument),
     }
 }
@@ -158,6 +160,8 @@ fn get_explicit_handling(cx: &Cx, object_handle: Number) -> Result<i64> {
         Kind::ProximitySensor(sensor) => sensor.explicit,
         Kind::VisionSensor(sensor) => sensor.explicit,
         Kind::Graph(graph) => graph.explicit,
+        Kind::Path(path) => path.explicit,
+        Kind::Joint(joint) => joint.explicit,
         _ => return Err(SceneError::InvalidArgument.into()),
     };
     Ok(i64::from(explicit))

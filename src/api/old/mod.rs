@@ -6,6 +6,7 @@ pub(in crate::api) mod engine_param;
 pub(in crate::api) mod globals;
 pub(in crate::api) mod joint_shape;
 pub(in crate::api) mod object_param;
+pub(in crate::api) mod paths;
 pub(in crate::api) mod script;
 pub(in crate::api) mod signal;
 pub(in crate::api) mod tube;

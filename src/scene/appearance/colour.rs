@@ -118,6 +118,7 @@ impl Kind {
             Self::Camera(_) => [1.0, 0.294, 0.294],
             Self::Dummy(_) => [1.0, 0.8, 0.55],
             Self::ProximitySensor(_) => [1.0, 0.217, 0.665],
+            Self::Path(_) => [0.1, 0.75, 1.0],
             Self::VisionSensor(_) => [0.05, 0.42, 1.0],
             Self::ForceSensor(_) => [1.0, 0.111, 0.111],
             Self::Light(_) => [0.7075, 0.7075, 0.9925],

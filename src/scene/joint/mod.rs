@@ -104,6 +104,8 @@ pub struct Joint {
     pub screw_lead: f64,
     pub dependency: Option<Dependency>,
     pub solver: JointSolver,
+    /// Tagged for explicit handling by a script; the tag changes nothing else.
+    pub explicit: bool,
     /// The kinematic motion in progress.
     pub motion: Option<Motion>,
     /// Length and diameter, for display.
@@ -168,6 +170,7 @@ impl Joint {
             screw_lead: 0.0,
             dependency: None,
             solver: JointSolver::Exact,
+            explicit: false,
             motion: None,
             size: [0.15, 0.02],
             error: None,

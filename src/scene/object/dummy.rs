@@ -1,5 +1,6 @@
 //! Dummies: frames, and the ends of loop closures.
 
+use crate::scene::path_object::PathFollowing;
 use crate::scene::{Field, Handle, InertValues, Scene, SceneResult};
 
 /// Type of the link between two dummies (`sim.dummytype_*`).
@@ -20,6 +21,8 @@ pub struct Dummy {
     pub link_type: LinkType,
     /// Which dummies of other models this one takes when models are assembled; `*` for any.
     pub assembly_tag: String,
+    /// On a path of V-REP.
+    pub path_following: PathFollowing,
     /// Parameters of physics engines, as they were set.
     pub engine_values: InertValues,
 }
@@ -27,7 +30,9 @@ pub struct Dummy {
 impl Dummy {
     pub fn new(size: f64) -> Self {
         let assembly_tag = "*".to_owned();
-        Self { size, link: None, link_type: LinkType::Default, assembly_tag, engine_values: InertValues::default() }
+        let path_following = PathFollowing::default();
+        let engine_values = InertValues::default();
+        Self { size, link: None, link_type: LinkType::Default, assembly_tag, path_following, engine_values }
     }
 }
 

@@ -110,6 +110,7 @@ bitflags! {
         const SENSORS = 0x8;
         const CAMERAS_AND_LIGHTS = 0x10;
         const GRAPHS = 0x20;
+        const PATHS = 0x20;
         const VOXELS = 0x40;
         const SCRIPTS = 0x400;
         /// Those shown by default.

@@ -19,6 +19,7 @@ use viewers::Viewers;
 use crate::scene::appearance::colour::Colour;
 use crate::scene::graph::Graph;
 use crate::scene::joint::Joint;
+use crate::scene::path_object::PathObject;
 use crate::scene::pose::world::PlaceInWorld;
 use crate::scene::sensor::force_sensor::ForceSensor;
 use crate::scene::sensor::{Camera, Light, ProximitySensor, VisionSensor};
@@ -118,6 +119,8 @@ pub enum Kind {
     Camera(Box<Camera>),
     Dummy(Dummy),
     ProximitySensor(Box<ProximitySensor>),
+    /// A path of V-REP.
+    Path(Box<PathObject>),
     VisionSensor(Box<VisionSensor>),
     ForceSensor(Box<ForceSensor>),
     Light(Box<Light>),
@@ -136,6 +139,7 @@ impl Kind {
             Self::Camera(_) => 3,
             Self::Dummy(_) => 4,
             Self::ProximitySensor(_) => 5,
+            Self::Path(_) => 8,
             Self::VisionSensor(_) => 9,
             Self::ForceSensor(_) => 12,
             Self::Light(_) => 13,
@@ -154,6 +158,7 @@ impl Kind {
             Self::Camera(_) | Self::Light(_) => Layers::CAMERAS_AND_LIGHTS,
             Self::Graph(_) => Layers::GRAPHS,
             Self::OcTree(_) | Self::PointCloud(_) => Layers::VOXELS,
+            Self::Path(_) => Layers::PATHS,
             Self::Script(_) => Layers::SCRIPTS,
         }
     }
@@ -293,6 +298,7 @@ kind_access! {
     camera, camera_mut, Camera, Camera, "camera";
     dummy, dummy_mut, Dummy, Dummy, "dummy";
     proximity_sensor, proximity_sensor_mut, ProximitySensor, ProximitySensor, "proximity sensor";
+    path, path_mut, Path, PathObject, "path";
     vision_sensor, vision_sensor_mut, VisionSensor, VisionSensor, "vision sensor";
     force_sensor, force_sensor_mut, ForceSensor, ForceSensor, "force sensor";
     light, light_mut, Light, Light, "light";

@@ -17,6 +17,7 @@ pub(in crate::scene) struct Objects {
     next_handle: u32,
     by_uid: BTreeMap<Uid, Handle>,
     joints: BTreeMap<Uid, Handle>,
+    paths: BTreeMap<Uid, Handle>,
     moves: Moves,
     /// Proximity and vision sensors.
     sensors: usize,
@@ -54,6 +55,9 @@ impl Objects {
         if object.joint().is_ok() {
             self.joints.insert(object.uid, handle);
         }
+        if object.path().is_ok() {
+            self.paths.insert(object.uid, handle);
+        }
         self.slots[index] = Some(Box::new(object));
     }
 
@@ -63,6 +67,7 @@ impl Objects {
         self.sensors -= usize::from(is_sensor(&object.kind));
         self.by_uid.remove(&object.uid);
         self.joints.remove(&object.uid);
+        self.paths.remove(&object.uid);
         Some(object)
     }
 
@@ -90,6 +95,11 @@ impl Objects {
     /// All joints in the order of their creation.
     pub(in crate::scene) fn joints(&self) -> impl Iterator<Item = (Handle, &Joint)> {
         self.joints.values().filter_map(|&handle| Some((handle, self.get(handle).ok()?.joint().ok()?)))
+    }
+
+    /// All paths in the order of their creation.
+    pub(in crate::scene) fn paths(&self) -> impl Iterator<Item = Handle> {
+        self.paths.values().copied()
     }
 
     pub(in crate::scene) fn by_uid(&self, uid: Uid) -> Option<Handle> {

@@ -136,7 +136,7 @@ impl Object {
             Kind::Light(light) => [light.size; 3],
             Kind::Script(script) => [script.size; 3],
             // They are empty so far.
-            Kind::OcTree(_) | Kind::PointCloud(_) => [0.0; 3],
+            Kind::Path(_) | Kind::OcTree(_) | Kind::PointCloud(_) => [0.0; 3],
         };
         BoundingBox { size, pose: Pose::identity() }
     }

@@ -24,6 +24,8 @@ pub struct InitialState {
 enum InitialKind {
     Joint(Box<Joint>),
     Shape(Velocity),
+    /// Position, nominal and target velocity.
+    Path([f64; 3]),
     Other,
 }
 
@@ -44,6 +46,9 @@ impl Scene {
                 end_suspension(object);
                 let stored = !unrestored.contains(&handle);
                 object.initial = stored.then(|| Box::new(InitialState::of(object, parent, world)));
+                if let Kind::Path(path) = &mut object.kind {
+                    path.nominal_velocity = 0.0;
+                }
             }
             self.hide_for_simulation(handle);
         }
@@ -157,16 +162,26 @@ impl InitialState {
         let kind = match &object.kind {
             Kind::Joint(joint) => InitialKind::Joint(joint.clone()),
             Kind::Shape(shape) => InitialKind::Shape(shape.dynamics.initial_velocity),
+            Kind::Path(path) => InitialKind::Path(path.motion()),
             _ => InitialKind::Other,
         };
         let (model_property, layer) = (object.model_property, object.layer);
         Self { parent, local: object.pose(), world, model_property, layer, kind }
     }
 
+    /// Position, nominal and target velocity of a path.
+    pub(in crate::scene) fn path_motion(&self) -> Option<[f64; 3]> {
+        match self.kind {
+            InitialKind::Path(motion) => Some(motion),
+            _ => None,
+        }
+    }
+
     fn restore_kind(&self, kind: &mut Kind) {
         match (&mut *kind, &self.kind) {
             (Kind::Joint(joint), InitialKind::Joint(initial)) => restore_joint(joint, initial),
             (Kind::Shape(shape), InitialKind::Shape(initial)) => shape.dynamics.initial_velocity = *initial,
+            (Kind::Path(path), InitialKind::Path(motion)) => path.restore_motion(*motion),
             _ => {}
         }
         forget_run(kind);

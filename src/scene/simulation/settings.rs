@@ -34,11 +34,13 @@ pub struct Calculations {
     pub collision: bool,
     pub distance: bool,
     pub proximity_sensors: bool,
+    /// Motion along paths of V-REP.
+    pub paths: bool,
 }
 
 impl Default for Calculations {
     fn default() -> Self {
-        Self { collision: true, distance: true, proximity_sensors: true }
+        Self { collision: true, distance: true, proximity_sensors: true, paths: true }
     }
 }
 

@@ -105,6 +105,7 @@ impl Object {
                 camera.view.scale(factor);
             }
             Kind::Light(light) => light.size *= factor,
+            Kind::Path(path) => path.scale(factor),
             Kind::Graph(graph) => graph.size *= factor,
             Kind::OcTree(octree) => octree.scale(factor),
             Kind::PointCloud(cloud) => cloud.scale(factor),

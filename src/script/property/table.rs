@@ -129,6 +129,7 @@ enum ClassId {
     Camera,
     Dummy,
     ProximitySensor,
+    Path,
     VisionSensor,
     ForceSensor,
     Light,
@@ -143,7 +144,7 @@ const OBJECT_PATH: &str = "app.scene.object";
 const OBJECT: &[&str] = &["scene", "object"];
 
 #[rustfmt::skip]
-const CLASSES: [ClassSpec; 16] = [
+const CLASSES: [ClassSpec; 17] = [
     ("app", "app", &[], &["app"], &[]),
     ("scene", "app.scene", &["app"], &["dynamics", "simulation", "environment", "container"], &[]),
     ("script", "app.script", &["scene"], &["script"], &[]),
@@ -153,6 +154,7 @@ const CLASSES: [ClassSpec; 16] = [
     ("camera", "app.scene.object.camera", OBJECT, &["object"], &["colour", "viewable", "camera"]),
     ("dummy", "app.scene.object.dummy", OBJECT, &["object"], &["colour", "dummy"]),
     ("proximitySensor", "app.scene.object.proximitySensor", OBJECT, &["object"], &["colour", "rayColour", "volume", "proximitySensor"]),
+    ("path", "app.scene.object.path", OBJECT, &["object"], &["colour"]),
     ("visionSensor", "app.scene.object.visionSensor", OBJECT, &["object"], &["colour", "viewable", "visionSensor"]),
     ("forceSensor", "app.scene.object.forceSensor", OBJECT, &["object"], &["colour", "forceSensor"]),
     ("light", "app.scene.object.light", OBJECT, &["object"], &["colour", "lightColour", "light"]),
@@ -189,6 +191,7 @@ pub(crate) fn object_class(kind: &Kind) -> &'static Class {
         Kind::Camera(_) => ClassId::Camera,
         Kind::Dummy(_) => ClassId::Dummy,
         Kind::ProximitySensor(_) => ClassId::ProximitySensor,
+        Kind::Path(_) => ClassId::Path,
         Kind::VisionSensor(_) => ClassId::VisionSensor,
         Kind::ForceSensor(_) => ClassId::ForceSensor,
         Kind::Light(_) => ClassId::Light,

@@ -55,6 +55,7 @@ pub(super) fn of_kind(
             let points: Vec<_> = cloud.points.iter().map(|point| (point.position, point.colour)).collect();
             of_points(Blob::points(&points), cloud.point_size as f64, &object.colour, true, blobs)
         }
+        Kind::Path(_) => json!({ "color": color }),
         Kind::Graph(graph) => json!({ "size": graph.size, "color": color }),
         Kind::Script(script) => of_script(script, error),
     }

@@ -1,6 +1,6 @@
 //! The common part of objects (spec: scene-files 6).
 
-use super::{Context, custom_data, path};
+use super::{Context, custom_data};
 use crate::format::ttt::chunks::{Common, UserParams};
 use crate::format::ttt::tree::{Class, Object as FileObject};
 use crate::format::ttt::{Counted, Text};
@@ -60,9 +60,6 @@ pub(super) fn fill(scene: &mut Scene, context: &Context<'_>, handle: Handle, obj
             "_oldObjectCustomData_",
         );
         colour(new, context, &object.class);
-        if let Class::Path(path) = &object.class {
-            path::fill(&mut new.custom_data, path);
-        }
     })
 }
 
@@ -169,6 +166,7 @@ fn colour(new: &mut Object, context: &Context<'_>, class: &Class) {
         Class::Graph(graph) => &graph.colour,
         Class::OcTree(tree) => &tree.colour,
         Class::PointCloud(cloud) => &cloud.colour,
+        Class::Path(path) => path.path.as_ref().map_or(&None, |line| &line.colour),
         Class::ScriptObject(script) => &script.colour,
         _ => &None,
     };

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::{Context, material};
 use crate::format::ttt::chunks::{Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk};
 use crate::format::ttt::{Text, unit_quaternion};
+use crate::scene::path_object::PathFollowing;
 use crate::scene::joint::{Control, Joint, JointMode, JointType};
 use crate::scene::object::dummy::{Dummy, LinkType};
 use crate::scene::parameters::engine::Engine;
@@ -157,6 +158,10 @@ pub(super) fn dummy(chunk: &DummyChunk) -> Dummy {
     if let Some(tag) = chunk.assembly_tag.as_ref().map(Text::decode) {
         dummy.assembly_tag = tag;
     }
+    dummy.path_following = PathFollowing {
+        bits: chunk.switches.unwrap_or(0),
+        offsets: chunk.path_offsets.or(chunk.path_off.map(|offset| [offset.into(); 2])).unwrap_or_default(),
+    };
     if let Some(mujoco) = &chunk.mujoco {
         dummy.load_engine(Engine::Mujoco, &mujoco.reals, &mujoco.ints);
     }

@@ -169,8 +169,8 @@ fn kind_of(context: &mut Context<'_>, object: &FileObject) -> FileResult<Kind> {
             Kind::PointCloud(Box::new(cells::point_cloud(cloud).map_err(|what| damaged(object, what))?))
         }
         Class::ScriptObject(script) => Kind::Script(Box::new(script::object(script, context))),
-        Class::Path(_)
-        | Class::Mirror(_)
+        Class::Path(path) => Kind::Path(Box::new(path::path(path))),
+        Class::Mirror(_)
         | Class::Mill(_)
         | Class::Marker(_)
         | Class::CustomSceneObject(_)

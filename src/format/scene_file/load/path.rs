@@ -1,108 +1,67 @@
-//! Paths from before 4.2: converted to the modern form, a dummy with the points as custom data.
+//! Paths of V-REP.
 
-use crate::format::ttt::chunks::{Path, PathPoint};
-use crate::scene::{CustomData, Data, Edit, Pose};
+use super::sensors::colour;
+use crate::format::ttt::chunks::{Path, PathControl, PathPoint};
+use crate::scene::Pose;
+use crate::scene::appearance::colour::Colour;
+use crate::scene::path_object::{
+    ControlPoint, LengthMethod, Measures, PathAttributes, PathObject, Shaping, VelocityProfile,
+};
 
-/// The path leads back to its beginning.
-const CLOSED: i32 = 0x2;
-/// More points than that for one corner are a mistake of the file.
-const MOST_PER_CORNER: i32 = 1000;
+/// The bit of [`Path::flags`]; the others concern the shape along the path.
+const EXPLICIT: u8 = 0x20;
 
-/// A control point: where it is, and how its corner is rounded.
-struct Corner {
-    pose: Pose,
-    /// Which parts of the ways to its neighbours are rounded.
-    before: f64,
-    after: f64,
-    /// Of how many points the rounding consists.
-    count: usize,
-}
-
-/// Adds control points and path: seven numbers per point, as `sim.createPath` makes them.
-pub(super) fn fill(data: &mut CustomData, path: &Path) {
-    let Some(control) = &path.path else { return };
-    let corners: Vec<Corner> = control.points.iter().filter_map(corner).collect();
-    let mut points: Vec<Pose> = corners.iter().map(|corner| corner.pose).collect();
-    let mut line = rounded(&corners, control.attributes.unwrap_or(0) & CLOSED != 0);
-    if control.attributes.unwrap_or(0) & CLOSED != 0 {
-        points.extend(points.first().copied());
-        line.extend(line.first().copied());
+pub(super) fn path(chunk: &Path) -> PathObject {
+    let usual = PathControl::default();
+    let line = chunk.path.as_ref().unwrap_or(&usual);
+    let attributes = line.attributes.map_or(PathAttributes::USUAL, PathAttributes::from_bits_retain);
+    let mut path = PathObject::new(attributes, measures(line));
+    let points = line.points.iter().filter_map(control_point).collect();
+    // A path with too many points stays empty.
+    let _ = path.insert(0, points, attributes.contains(PathAttributes::CLOSED));
+    if let Some([position, max_acceleration, nominal, target]) = line.motion.filter(|m| m.iter().all(|n| n.is_finite())) {
+        path.set_motion(position, max_acceleration, nominal, target);
     }
-    for (tag, poses) in [("PATHCTRLPTS", points), ("PATH", line)] {
-        data.edit(Edit::Tag(tag, Some(Data::Buffer(poses.iter().flat_map(bytes).collect()))));
+    (path.line_size, path.point_size) = line.line.unwrap_or((path.line_size, path.point_size));
+    let flags = chunk.flags.unwrap_or(0);
+    path.explicit = flags & EXPLICIT != 0;
+    path.shaping = Some(shaping(chunk, flags & !EXPLICIT));
+    path
+}
+
+fn measures(line: &PathControl) -> Measures {
+    let usual = Measures::default();
+    let finite = |value: f64, other: f64| if value.is_finite() { value } else { other };
+    let (angle, method) = line.length.unwrap_or((usual.angle_coefficient, usual.length_method as i32));
+    let profile = line.averages.filter(|numbers| numbers.iter().all(|n| n.is_finite())).map_or(
+        usual.profile,
+        |[radius, axis_change, acceleration]| VelocityProfile { radius, axis_change, acceleration },
+    );
+    Measures {
+        length_method: LengthMethod::from_number(method.into()).unwrap_or(usual.length_method),
+        angle_coefficient: finite(angle, usual.angle_coefficient),
+        on_spot_coefficient: finite(line.on_spot_coeff.unwrap_or(usual.on_spot_coefficient), usual.on_spot_coefficient),
+        profile,
     }
 }
 
-fn corner(point: &PathPoint) -> Option<Corner> {
-    let (pose, [before, after], count, _) = point.point.as_ref()?;
-    let part = |factor: &f64| if factor.is_finite() { factor.clamp(0.0, 1.0) } else { 0.0 };
-    let count = usize::try_from((*count).clamp(1, MOST_PER_CORNER)).ok()?;
-    Some(Corner { pose: pose.pose()?, before: part(before), after: part(after), count })
+fn control_point(point: &PathPoint) -> Option<ControlPoint> {
+    let (place, [before, after], count, velocity) = point.point.as_ref()?;
+    let (flags, channels) = point.auxiliary.unwrap_or((0, [0.0; 4]));
+    let pose: Pose = place.pose()?;
+    let on_spot = point.on_spot.unwrap_or(0.0);
+    let count = usize::try_from((*count).max(1)).ok()?;
+    let (before, after, velocity) = (*before, *after, *velocity);
+    Some(ControlPoint { pose, before, after, count, velocity, on_spot, flags, channels }.limited())
 }
 
-/// The points of the path: those of each corner, on a quadratic Bezier curve from the way to it to the way from it.
-fn rounded(corners: &[Corner], closed: bool) -> Vec<Pose> {
-    let mut line = Vec::new();
-    for (at, corner) in corners.iter().enumerate() {
-        let neighbours = match (at.checked_sub(1), corners.get(at + 1)) {
-            (Some(before), Some(after)) => Some((&corners[before], after)),
-            (None, Some(after)) if closed => corners.last().map(|before| (before, after)),
-            (Some(before), None) if closed => corners.first().map(|after| (&corners[before], after)),
-            _ => None,
-        };
-        match neighbours.filter(|_| corner.count > 1) {
-            Some((before, after)) => line.extend(curve(corner, &before.pose, &after.pose)),
-            None => line.push(corner.pose),
-        }
-    }
-    line
-}
-
-fn curve(corner: &Corner, before: &Pose, after: &Pose) -> impl Iterator<Item = Pose> {
-    let start = between(&corner.pose, before, corner.before);
-    let end = between(&corner.pose, after, corner.after);
-    let (middle, last) = (corner.pose, (corner.count - 1) as f64);
-    (0..corner.count).map(move |i| {
-        let t = i as f64 / last;
-        between(&between(&start, &middle, t), &between(&middle, &end, t), t)
-    })
-}
-
-fn between(from: &Pose, to: &Pose, t: f64) -> Pose {
-    let translation = from.translation.vector.lerp(&to.translation.vector, t);
-    // Quaternions that are opposite have no way between them.
-    let rotation = from.rotation.try_slerp(&to.rotation, t, 1e-9).unwrap_or(to.rotation);
-    Pose::from_parts(translation.into(), rotation)
-}
-
-fn bytes(pose: &Pose) -> impl Iterator<Item = u8> {
-    let (p, q) = (pose.translation, pose.rotation);
-    [p.x, p.y, p.z, q.i, q.j, q.k, q.w].into_iter().flat_map(f64::to_le_bytes)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Corner, rounded};
-    use crate::scene::Pose;
-
-    fn at(x: f64, y: f64, count: usize) -> Corner {
-        Corner { pose: Pose::translation(x, y, 0.0), before: 0.5, after: 0.5, count }
-    }
-
-    fn places(corners: &[Corner], closed: bool) -> Vec<(f64, f64)> {
-        rounded(corners, closed).iter().map(|pose| (pose.translation.x, pose.translation.y)).collect()
-    }
-
-    #[test]
-    fn corners_of_one_point_stay() {
-        assert_eq!(places(&[at(0.0, 0.0, 1), at(1.0, 0.0, 1)], false), [(0.0, 0.0), (1.0, 0.0)]);
-        assert!(places(&[], true).is_empty());
-    }
-
-    #[test]
-    fn corners_are_rounded_between_their_neighbours() {
-        let corners = [at(0.0, 0.0, 3), at(2.0, 0.0, 3), at(2.0, 2.0, 3)];
-        assert_eq!(places(&corners, false), [(0.0, 0.0), (1.0, 0.0), (1.75, 0.25), (2.0, 1.0), (2.0, 2.0)]);
-        assert_eq!(places(&corners, true).len(), 9);
+fn shaping(chunk: &Path, flags: u8) -> Shaping {
+    let white = Colour::new([1.0; 3]);
+    Shaping {
+        flags,
+        scale: chunk.shaping_scale.unwrap_or(1.0),
+        element: chunk.element.unwrap_or((0.05, 0)),
+        section: chunk.section.as_ref().map(|section| section.0.clone()).unwrap_or_default(),
+        colour: chunk.colour.as_ref().map_or(white, |chunk| colour(chunk, white, false)),
     }
 }

@@ -51,6 +51,8 @@ fn calculations(chunk: &ModuleSettings) -> Calculations {
         collision: is_on(chunk.va3, 0x2),
         distance: is_on(chunk.va3, 0x4),
         proximity_sensors: is_on(chunk.va5, 0x1),
+        // The bit switches off.
+        paths: chunk.va3.is_none_or(|switches| switches & 0x10 == 0),
     }
 }
 

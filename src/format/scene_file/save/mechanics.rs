@@ -87,8 +87,8 @@ pub(super) fn dummy(context: &Context<'_>, dummy: &Dummy, colour: Option<Colour>
         assembly_tag: Some(dummy.assembly_tag.as_str().into()),
         colour,
         linked_dummy: Some(context.file_handle(dummy.link)),
-        switches: Some(0),
-        path_offsets: Some([0.0; 2]),
+        switches: Some(dummy.path_following.bits),
+        path_offsets: Some(dummy.path_following.offsets),
         link_type: Some(dummy.link_type as i32),
         mujoco: Some(EngineBlock { reals, ints }),
         ..DummyChunk::default()

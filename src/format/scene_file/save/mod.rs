@@ -13,6 +13,7 @@ mod edges;
 mod graph;
 mod mechanics;
 mod mesh;
+mod path;
 mod script;
 mod sensors;
 mod settings;
@@ -138,6 +139,7 @@ fn class(context: &mut Context<'_>, object: &Object) -> Class {
         Kind::ProximitySensor(sensor) => {
             Class::ProximitySensor(Box::new(sensors::proximity_sensor(context, sensor, colour)))
         }
+        Kind::Path(path) => Class::Path(Box::new(path::path(path, colour))),
         Kind::VisionSensor(sensor) => Class::VisionSensor(Box::new(sensors::vision_sensor(context, sensor, colour))),
         Kind::Camera(camera) => Class::Camera(Box::new(sensors::camera(context, camera, colour))),
         Kind::Light(light) => Class::Light(Box::new(sensors::light(light, colour))),

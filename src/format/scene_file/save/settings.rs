@@ -34,7 +34,7 @@ fn module_settings(on: &Calculations) -> Option<ModuleSettings> {
         va5: Some(bit(on.proximity_sensors, 0x1)),
         // Inverse kinematics, and what has no meaning here, as new scenes of the original have it.
         va2: Some(0x8),
-        va3: Some(0x1 | bit(on.collision, 0x2) | bit(on.distance, 0x4)),
+        va3: Some(0x1 | bit(on.collision, 0x2) | bit(on.distance, 0x4) | bit(!on.paths, 0x10)),
         ..ModuleSettings::default()
     };
     (*on != Calculations::default()).then_some(switches)
