@@ -26,6 +26,7 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Older script functions", old::script::FUNCTIONS),
     ("Globals of V-REP", old::globals::FUNCTIONS),
     ("Paths of V-REP", old::paths::FUNCTIONS),
+    ("Path planning of V-REP", old::path_planning::FUNCTIONS),
     ("Custom user interfaces of V-REP", old::button_interfaces::FUNCTIONS),
     ("Time and chance", scripts::time::FUNCTIONS),
     ("Simulation", scripts::simulation::FUNCTIONS),
@@ -52,6 +53,7 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Proximity sensors", sensors::proximity_sensor::FUNCTIONS),
     ("Collisions and distances", sensors::queries::FUNCTIONS),
     ("Collision and distance objects of old scenes", old::calculation_objects::FUNCTIONS),
+    ("Groups of inverse kinematics of old scenes", old::ik_groups::FUNCTIONS),
     ("Vision sensors", sensors::vision::FUNCTIONS),
     ("Old functions of vision sensors", old::vision_sensor::FUNCTIONS),
     ("Sensor objects", sensors::create::FUNCTIONS),
@@ -78,6 +80,7 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Graphs", display::graph::FUNCTIONS),
     ("Drawing objects", display::drawing::FUNCTIONS),
     ("Display", display::views::FUNCTIONS),
+    ("Banners and views of cameras", display::banners::FUNCTIONS),
 ];
 
 /// The module `sim`, with the global functions that come along with it.

@@ -24,6 +24,9 @@ pub(super) struct Args {
     /// Check Lua files as converted by --compat
     #[arg(long)]
     compat: bool,
+    /// List deprecated functions too, which work, and what to call instead
+    #[arg(long)]
+    deprecated: bool,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
@@ -31,19 +34,22 @@ pub(super) struct Args {
 
 /// Checks everything; the exit code reports whether all of it is supported.
 pub(super) fn doctor(args: &Args) -> ExitCode {
-    let mut report = Report::default();
+    let mut report = Report { deprecated: args.deprecated, ..Report::default() };
+    let mut unreadable = Vec::new();
     for path in &args.paths {
-        let files = match files(path) {
-            Ok(files) => files,
-            Err(reason) => return refuse(&reason),
-        };
-        for file in files {
+        let found = files(path).map_err(|reason| unreadable.push(reason)).unwrap_or_default();
+        for file in found {
             if let Err(reason) = report.add_file(&file, args.compat) {
-                return refuse(&reason);
+                unreadable.push(reason);
             }
         }
     }
-    say(if args.json { report.json() } else { report.text() }.as_bytes());
+    if !report.scripts.is_empty() || unreadable.is_empty() {
+        say(if args.json { report.json() } else { report.text() }.as_bytes());
+    }
+    if !unreadable.is_empty() {
+        return refuse(&unreadable.join("\nswanilda: "));
+    }
     if report.all_works() { ExitCode::SUCCESS } else { ExitCode::from(NOT_ALL_WORKS) }
 }
 
@@ -78,6 +84,8 @@ struct Patient {
 #[derive(Default)]
 struct Report {
     scripts: Vec<Patient>,
+    /// What is deprecated is listed too.
+    deprecated: bool,
 }
 
 impl Report {
@@ -120,7 +128,7 @@ impl Report {
 
     /// Functions that do not work in full, script by script, then a summary.
     fn text(&self) -> String {
-        let mut out: String = self.scripts.iter().map(Patient::text).collect();
+        let mut out: String = self.scripts.iter().map(|script| script.text(self.deprecated)).collect();
         let [works, approximated, missing] = self.counts();
         out.push_str(&format!(
             "{} scripts call {} functions: {works} work, {approximated} are approximated, {missing} are missing.\n",
@@ -142,9 +150,10 @@ impl Report {
 }
 
 impl Patient {
-    fn text(&self) -> String {
+    fn text(&self, with_deprecated: bool) -> String {
         let mut lines: BTreeMap<(Support, &str), Vec<String>> = BTreeMap::new();
-        for found in self.uses.iter().filter(|found| found.support != Support::Works) {
+        let is_listed = |found: &&Use| found.support != Support::Works || with_deprecated && found.instead().is_some();
+        for found in self.uses.iter().filter(is_listed) {
             lines.entry((found.support, found.name.as_str())).or_default().push(found.line.to_string());
         }
         if lines.is_empty() {
@@ -153,10 +162,12 @@ impl Patient {
         let rows = lines.iter().map(|((support, name), lines)| {
             let how = match support {
                 Support::Approximated(how) => format!(" ({how})"),
-                Support::Missing => docs::remedy(name).map(|remedy| format!(" (use {remedy})")).unwrap_or_default(),
-                Support::Works => String::new(),
+                Support::Missing | Support::Works => {
+                    docs::remedy(name).map(|remedy| format!(" (use {remedy})")).unwrap_or_default()
+                }
             };
-            format!("  {:<12} {name}: line {}{how}\n", word(*support), lines.join(", "))
+            let kind = if *support == Support::Works { "deprecated" } else { word(*support) };
+            format!("  {kind:<12} {name}: line {}{how}\n", lines.join(", "))
         });
         format!("{}\n{}", self.name, rows.collect::<String>())
     }
@@ -171,6 +182,9 @@ fn json_of(found: &Use) -> serde_json::Value {
     let mut object = serde_json::json!({"name": found.name, "line": found.line, "support": word(found.support)});
     if let Some(written) = &found.written {
         object["written"] = written.as_str().into();
+    }
+    if let Some(instead) = found.instead() {
+        object["instead"] = instead.into();
     }
     if let Support::Approximated(how) = found.support {
         object["difference"] = how.into();

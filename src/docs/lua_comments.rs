@@ -9,6 +9,7 @@ const CATEGORIES: &[(&str, &str)] = &[
     ("sim/data", "Custom data"),
     ("sim/deprecated", "Old names"),
     ("sim/motion", "Motion"),
+    ("sim/oldfunctions", "Old names"),
     ("sim/path", "Paths"),
     ("sim/pathobject", "Paths"),
     ("sim/pose", "Motion"),

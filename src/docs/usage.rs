@@ -12,6 +12,11 @@ use super::{module_stubs, modules};
 use crate::format::scene_file::old_names;
 use crate::script::{Member, ReferenceModule, member_by_rule};
 
+/// Scripts in strings of scripts in strings are read up to here.
+const DEEPEST_SCRIPT: usize = 4;
+/// So many tokens after the name of a function its arguments end.
+const FURTHEST_ARGUMENT: usize = 100;
+
 /// Support for a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Support {
@@ -33,16 +38,86 @@ pub struct Use {
     pub support: Support,
 }
 
-/// Everything of the simulator that `code` uses, in its order.
+impl Use {
+    /// What to call instead, where the name is deprecated or missing and the other one is here.
+    pub fn instead(&self) -> Option<&'static str> {
+        super::remedy(&self.name)
+    }
+}
+
+/// Everything of the simulator that `code` uses, in its order, scripts in its strings included (`sim.createScript`).
 pub fn uses(code: &[u8]) -> Vec<Use> {
+    uses_within(code, 0)
+}
+
+fn uses_within(code: &[u8], depth: usize) -> Vec<Use> {
     let tokens = tokens(code);
     let scope = Scope::of(&tokens);
-    let named = tokens.iter().enumerate().filter_map(|(at, token)| match &token.kind {
-        Kind::Name(name) if !is_definition(&tokens, at) => scope.member(name, is_call(&tokens, at), token.line),
-        Kind::Text(text) if required_at(&tokens, at) => required(&String::from_utf8_lossy(text), token.line),
-        _ => None,
-    });
-    named.collect()
+    let mut found = Vec::new();
+    for (at, token) in tokens.iter().enumerate() {
+        match &token.kind {
+            Kind::Name(name) if !is_definition(&tokens, at) => {
+                found.extend(scope.member(name, is_call(&tokens, at), token.line));
+            }
+            Kind::Text(text) if required_at(&tokens, at) => {
+                found.extend(required(&String::from_utf8_lossy(text), token.line));
+            }
+            Kind::Text(text) if depth < DEEPEST_SCRIPT && is_code(&tokens, at) => {
+                found.extend(uses_of_text(text, token.line, depth));
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// Uses of a script in a string that begins in a line.
+fn uses_of_text(text: &[u8], line: usize, depth: usize) -> Vec<Use> {
+    let is_quoted = !text.contains(&b'\n');
+    let code = if is_quoted { unescaped(text) } else { text.to_vec() };
+    let mut found = uses_within(&code, depth + 1);
+    for one in &mut found {
+        one.line = if is_quoted { line } else { line + one.line - 1 };
+    }
+    found
+}
+
+/// The content of a string between quotes, as far as code needs it.
+fn unescaped(text: &[u8]) -> Vec<u8> {
+    let mut out = Vec::with_capacity(text.len());
+    let mut rest = text.iter();
+    while let Some(&byte) = rest.next() {
+        match byte {
+            b'\\' => out.extend(rest.next().map(|&escaped| if escaped == b'n' { b'\n' } else { escaped })),
+            _ => out.push(byte),
+        }
+    }
+    out
+}
+
+/// Whether a string is an argument of a function that runs code.
+fn is_code(tokens: &[Token<'_>], at: usize) -> bool {
+    let mut open = 0_usize;
+    for place in (at.saturating_sub(FURTHEST_ARGUMENT)..at).rev() {
+        match tokens[place].kind {
+            Kind::Sign(b')' | b'}' | b']') => open += 1,
+            Kind::Sign(b'(' | b'{' | b'[') if open > 0 => open -= 1,
+            Kind::Sign(b'(') => {
+                return place > 0 && matches!(&tokens[place - 1].kind, Kind::Name(name) if runs_code(name));
+            }
+            Kind::Sign(b'{' | b'[') => return false,
+            _ => {}
+        }
+    }
+    false
+}
+
+fn runs_code(function: &str) -> bool {
+    let last = function.rsplit('.').next().unwrap_or(function);
+    let last = last.strip_prefix("sim").unwrap_or(last);
+    ["createScript", "CreateScript", "setScriptText", "SetScriptText", "executeScriptString", "ExecuteScriptString"]
+        .contains(&last)
+        || ["load", "loadstring"].contains(&function)
 }
 
 /// Uses of a script in another language: that language, which is missing.
@@ -67,7 +142,9 @@ impl Scope {
         let mut scope = Self { modules: HashMap::new(), own: HashSet::new() };
         for (at, token) in tokens.iter().enumerate() {
             match &token.kind {
-                Kind::Name(name) if is_definition(tokens, at) => drop(scope.own.insert(name.clone())),
+                Kind::Name(name) if is_definition(tokens, at) || is_declared(tokens, at) => {
+                    scope.own.insert(name.clone());
+                }
                 Kind::Text(text) if required_at(tokens, at) => {
                     if let Some(variable) = variable_of_require(tokens, at) {
                         scope.modules.insert(variable.to_owned(), String::from_utf8_lossy(text).into_owned());
@@ -87,8 +164,12 @@ impl Scope {
             Some(name) => (name, true),
             None => (written.to_owned(), false),
         };
-        let mut parts = name.split('.');
-        let (owner, member) = (parts.next()?, parts.next()?);
+        let Some((owner, rest)) = name.split_once('.') else { return global(written, is_call, line) };
+        let member = rest.split('.').next()?;
+        // A variable of the script that has the name of a module.
+        if !owner.starts_with("sim") && self.own.contains(owner) && !self.modules.contains_key(owner) {
+            return None;
+        }
         let module = self.modules.get(owner).map_or(owner, String::as_str);
         let support = if module == "sim" { of_sim(member)? } else { of_module(module, member, is_call)? };
         let written = is_old.then(|| written.to_owned());
@@ -122,8 +203,29 @@ fn required_at(tokens: &[Token<'_>], at: usize) -> bool {
     require_of(tokens, at).is_some()
 }
 
-/// The variable of `name = require 'module'`.
+/// Whether the name is declared here: in a list behind `local`, as a parameter, or by a `for`.
+fn is_declared(tokens: &[Token<'_>], at: usize) -> bool {
+    let is_plain = |token: &Token<'_>| matches!(&token.kind, Kind::Name(name) if !name.contains('.'));
+    if !is_plain(&tokens[at]) {
+        return false;
+    }
+    let mut place = at;
+    while place >= 2 && tokens[place - 1].kind == Kind::Sign(b',') && is_plain(&tokens[place - 2]) {
+        place -= 2;
+    }
+    let Some(before) = place.checked_sub(1) else { return false };
+    let is_parameter = tokens[before].kind == Kind::Sign(b'(')
+        && (1..=2).any(|back| before.checked_sub(back).is_some_and(|at| is_word(&tokens[at], "function")));
+    is_parameter || is_word(&tokens[before], "local") || is_word(&tokens[before], "for")
+}
+
+/// The variable of `name = require 'module'`; not of what a function or member of the module yields.
 fn variable_of_require<'a>(tokens: &'a [Token<'_>], at: usize) -> Option<&'a str> {
+    let is_closed = tokens.get(at + 1).is_some_and(|token| token.kind == Kind::Sign(b')'));
+    let after = tokens.get(if is_closed { at + 2 } else { at + 1 });
+    if after.is_some_and(|token| matches!(token.kind, Kind::Sign(b'.' | b':' | b'[' | b'('))) {
+        return None;
+    }
     let equals = require_of(tokens, at)?.checked_sub(1)?;
     match &tokens[equals.checked_sub(1)?].kind {
         Kind::Name(name) if tokens[equals].kind == Kind::Sign(b'=') => Some(name),
@@ -152,6 +254,19 @@ fn current_name(written: &str) -> Option<String> {
     let current = members.of_old_name(written).filter(|member| members.contains(member) && !member.starts_with('_'));
     let current = current.map(|member| format!("sim.{member}"));
     current.or_else(by_rule).or_else(|| old_names::current(written).map(str::to_owned))
+}
+
+/// A function of V-REP that is no member of `sim`; what is called like one of them and unknown is missing.
+fn global(written: &str, is_call: bool, line: usize) -> Option<Use> {
+    let rest = written.strip_prefix("sim")?;
+    let support = match crate::modules::registry().members_of_sim().of_global(written) {
+        Some(Member::Constant(_)) => return None,
+        Some(Member::Native(_) | Member::Lua { .. }) => Support::Works,
+        Some(Member::Missing(_)) => Support::Missing,
+        None if is_call && rest.starts_with(|c: char| c.is_ascii_uppercase()) => Support::Missing,
+        None => return None,
+    };
+    Some(Use { name: written.to_owned(), written: None, line, support })
 }
 
 /// None for constants, which are no functions.
@@ -224,6 +339,37 @@ mod tests {
         assert_eq!(names("local s = require('sim')\ns.getObject('/a')"), ["sim.getObject"]);
         assert_eq!(names("local cmd=require'mine'\ncmd.f()"), [""; 0]);
         assert_eq!(supports("z = require 'simZMQ' z.ctx_new() z.PUB() z.PUB"), [Support::Works, Support::Missing]);
+    }
+
+    #[test]
+    fn scripts_in_strings() {
+        let found = uses(b"sim.createScript(sim.scripttype_customization, [[\nlocal sim = require 'sim'\nsim.frobnicate()\n]], 0, 'lua')");
+        let named: Vec<_> = found.iter().map(|one| (one.name.as_str(), one.line)).collect();
+        assert_eq!(named, [("sim.createScript", 1), ("sim.frobnicate", 3)]);
+        assert_eq!(names(r#"load("x = 1 sim.frobnicate(\"a\")")"#), ["sim.frobnicate"]);
+        assert_eq!(names("print('sim.frobnicate()')"), [""; 0]);
+    }
+
+    #[test]
+    fn variables_with_the_names_of_modules() {
+        assert_eq!(
+            names("local zmq = require 'simZMQ' local socket = zmq.socket(c, 1) socket.frobnicate(1)"),
+            ["simZMQ.socket"]
+        );
+        assert_eq!(names("local a, socket = f() socket.frobnicate()"), [""; 0]);
+        assert_eq!(names("function f(socket) socket.frobnicate() end"), [""; 0]);
+        assert_eq!(names("local socket = require('socket').tcp() socket.frobnicate()"), [""; 0]);
+        assert_eq!(
+            supports("socket = require 'socket' socket.connect('a', 1) socket.frobnicate()"),
+            [Support::Works, Support::Missing]
+        );
+    }
+
+    #[test]
+    fn globals_of_v_rep() {
+        assert_eq!(supports("simAddObjectCustomData(1, 2, 'x') simHandlePath(1, 2)"), [Support::Works; 2]);
+        assert_eq!(supports("simFrobnicate(1)"), [Support::Missing]);
+        assert_eq!(names("simTime = 1 simTime() print(simulate, sim_handle_all, simple())"), [""; 0]);
     }
 
     #[test]

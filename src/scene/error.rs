@@ -44,6 +44,10 @@ pub enum SceneError {
     NoSuchCollisionObject,
     #[error("distance object does not exist.")]
     NoSuchDistanceObject,
+    #[error("IK group does not exist.")]
+    NoSuchIkGroup,
+    #[error("illegal collection name.")]
+    IllegalCollectionName,
     /// No custom user interface of V-REP.
     #[error("UI does not exist.")]
     NoSuchInterface,

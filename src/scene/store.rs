@@ -14,6 +14,7 @@ use super::shape::{Part, Shape};
 use super::tree::button_interfaces::ButtonInterfaces;
 use super::tree::calculation_objects::{CollisionObjects, DistanceObjects};
 use super::tree::collection::Collections;
+use super::tree::ik_groups::IkGroups;
 use super::tree::old_names::OldNames;
 use super::tree::references::Referrers;
 use super::tree::selection::Selection;
@@ -35,6 +36,7 @@ pub struct Scene {
     pub(super) drawings: Drawings,
     pub(super) collision_objects: CollisionObjects,
     pub(super) distance_objects: DistanceObjects,
+    pub(super) ik_groups: IkGroups,
     pub(super) button_interfaces: ButtonInterfaces,
     pub(super) referrers: Referrers,
     pub(super) dependent_joints: DependentJoints,

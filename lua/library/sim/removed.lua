@@ -11,50 +11,41 @@ local M = {}
 --- Does nothing: mechanisms are gone.
 -- @api int result = sim.handleMechanism(int mechanismHandle)
 -- @param mechanismHandle any
--- @return result 0
-function M.handleMechanism(mechanismHandle) return 0 end
-
---- Does nothing: IK groups of the scene are gone, simIK is for that.
--- @api int result = sim.handleIkGroup(int ikGroupHandle)
--- @param ikGroupHandle any
--- @return result 0
-function M.handleIkGroup(ikGroupHandle) return 0 end
-
---- Handle of an IK group of the scene; there are none.
--- @api int handle = sim.getIkGroupHandle(string ikGroupName)
--- @param ikGroupName its name
--- @return handle -1
-function M.getIkGroupHandle(ikGroupName) return -1 end
+-- @return result -1
+function M.handleMechanism(mechanismHandle) return -1 end
 
 --- Does nothing: mills are gone.
--- @api int result = sim.handleMill(int millHandle)
+-- @api sim.handleMill(int millHandle)
 -- @param millHandle any
--- @return result 0
-function M.handleMill(millHandle) return 0 end
+function M.handleMill(millHandle) end
 
 --- Does nothing: mills are gone.
--- @api int result = sim.resetMill(int millHandle)
+-- @api sim.resetMill(int millHandle)
 -- @param millHandle any
--- @return result 0
-function M.resetMill(millHandle) return 0 end
+function M.resetMill(millHandle) end
 
 --- Does nothing: mills are gone.
--- @api int result = sim.resetMilling(int objectHandle)
+-- @api sim.resetMilling(int objectHandle)
 -- @param objectHandle any
--- @return result 0
-function M.resetMilling(objectHandle) return 0 end
+function M.resetMilling(objectHandle) end
 
 --- Does nothing: kinematic joints move by sim.handleJointMotion.
 -- @api int result = sim.handleJoint(int jointHandle, float deltaTime)
 -- @param jointHandle any
 -- @param deltaTime seconds
--- @return result 0
-function M.handleJoint(jointHandle, deltaTime) return 0 end
+-- @return result 1
+function M.handleJoint(jointHandle, deltaTime) return 1 end
+
+--- Does nothing: kinematic joints move by sim.handleJointMotion.
+-- @api int result = sim.resetJoint(int jointHandle)
+-- @param jointHandle any
+-- @return result 1
+function M.resetJoint(jointHandle) return 1 end
 
 --- Does nothing.
 -- @api int result = sim.handleVarious()
--- @return result 0
-function M.handleVarious() return 0 end
+-- @return result 1
+function M.handleVarious() return 1 end
 
 --- Does nothing: what there is to calculate is calculated.
 -- @api int result = sim.enableWorkThreads(int count)
@@ -115,6 +106,11 @@ function M.getPluginName(index) return nil end
 -- @return moduleName nil
 function M.getModuleName(index) return nil end
 
+--- Tests of the original's developers: there are none here.
+-- @api sim.test(string cmd, ...)
+-- @param cmd any
+function M.test(cmd, ...) end
+
 --- The inverse of a matrix.
 -- @api float[12] inverse = sim.getInvertedMatrix(float[12] matrix)
 -- @param matrix 3 rows of 4
@@ -129,28 +125,7 @@ function M.getSystemTimeInMilliseconds(before) return math.floor(sim.getSystemTi
 
 ---------------------------------------------------------------- dialogs
 
---- A message in a window. There are no windows.
--- @api int handle = sim.displayDialog(string title, string text, int style, bool modal, ...)
--- @param title of the window
--- @param text in it
--- @param style sim.dlgstyle_*
--- @param modal whether to wait
--- @return handle -1
-function M.displayDialog(title, text, style, modal, ...) return -1 end
-
---- Closes a window of sim.displayDialog.
--- @api int result = sim.endDialog(int handle)
--- @param handle from sim.displayDialog
--- @return result 0
-function M.endDialog(handle) return 0 end
-
---- The user's choice; there is none.
--- @api int result = sim.getDialogResult(int handle)
--- @param handle from sim.displayDialog
--- @return result sim.dlgret_still_open
-function M.getDialogResult(handle) return sim.dlgret_still_open end
-
---- A message with buttons, as simUI.msgBox.
+--- A message with buttons, as simUI.msgBox; without a person the answer is ok.
 -- @api int returnValue = sim.msgBox(int dlgType, int buttons, string title, string message)
 -- @param dlgType sim.msgbox_type_*
 -- @param buttons sim.msgbox_buttons_*
@@ -158,7 +133,7 @@ function M.getDialogResult(handle) return sim.dlgret_still_open end
 -- @param message in it
 -- @return returnValue sim.msgbox_return_*
 function M.msgBox(dlgType, buttons, title, message)
-    return require('simUI').msgBox(dlgType, buttons, title, message)
+    return require('simUI')._simMsgBox(dlgType, buttons, title, message)
 end
 
 --- Asks for a file, as simUI.fileDialog.
@@ -171,7 +146,7 @@ end
 -- @param ext extensions without dots, with semicolons between them
 -- @return pathAndName nil if cancelled; several with semicolons between them
 function M.fileDialog(mode, title, startPath, initName, extName, ext)
-    local files = require('simUI').fileDialog(mode, title, startPath, initName, extName, ext)
+    local files = require('simUI')._simFileDialog(title)
     if #files > 0 then return table.concat(files, ';') end
 end
 

@@ -72,21 +72,27 @@ fn auxiliary_console_print(cx: &mut Cx, console_handle: i64, #[default(None)] te
 ///
 /// @param consoleHandle from sim.auxiliaryConsoleOpen
 /// @param showState true to show it
-/// @return result 1, or 0 if there is no such console
+/// @return result 0, as in the original without a display
 #[api("sim.auxiliaryConsoleShow")]
 fn auxiliary_console_show(cx: &mut Cx, console_handle: Number, show_state: bool) -> Result<i64> {
     let window = cx.app().consoles.get(console_handle.0).map(|console| console.window.clone());
-    Ok(i64::from(window.is_some_and(|window| cx.change_ui(|ui| ui.set_visible(&window, show_state)).is_ok())))
+    if let Some(window) = window {
+        cx.change_ui(|ui| ui.set_visible(&window, show_state))?;
+    }
+    Ok(0)
 }
 
 /// Closes a console.
 ///
 /// @param consoleHandle from sim.auxiliaryConsoleOpen
-/// @return result 1, or 0 if there is no such console
+/// @return result 0, as in the original without a display
 #[api("sim.auxiliaryConsoleClose")]
 fn auxiliary_console_close(cx: &mut Cx, console_handle: Number) -> Result<i64> {
     let closed = cx.app_mut().consoles.close(console_handle.0);
-    Ok(i64::from(closed.is_some_and(|console| cx.change_ui(|ui| ui.destroy(&console.window)).is_ok())))
+    if let Some(console) = closed {
+        cx.change_ui(|ui| ui.destroy(&console.window))?;
+    }
+    Ok(0)
 }
 
 /// The next message of the user interface. There is none without a window.

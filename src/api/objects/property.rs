@@ -136,24 +136,28 @@ fn handled(scene: &Scene, raw: i64) -> Result<&Object> {
     if raw < 0 { Err(SceneError::InvalidArgument.into()) } else { object(scene, raw) }
 }
 
-/// The tag of a collision or distance object of an old scene.
+/// The tag of a collision or distance object or IK group of an old scene.
 fn explicit_calculation(scene: &mut Scene, handle: i64) -> Option<&mut bool> {
     if scene.collision_objects().get(handle).is_some() {
         return scene.collision_objects_mut().get_mut(handle).map(|object| &mut object.explicit);
     }
-    scene.distance_objects_mut().get_mut(handle).map(|object| &mut object.explicit)
+    if scene.distance_objects().get(handle).is_some() {
+        return scene.distance_objects_mut().get_mut(handle).map(|object| &mut object.explicit);
+    }
+    scene.ik_groups_mut().get_mut(handle).map(|group| &mut group.explicit)
 }
 
-/// Whether a sensor or graph is handled explicitly, so that handling all leaves it out.
+/// Whether an object is handled explicitly, so that handling all leaves it out.
 ///
-/// @param objectHandle proximity sensor, vision sensor or graph; collision or distance object of an old scene
+/// @param objectHandle proximity sensor, vision sensor, graph, joint or path of V-REP; collision or distance object or IK group of an old scene
 /// @return explicitHandlingFlags 1 if so
 #[api("sim.getExplicitHandling")]
 fn get_explicit_handling(cx: &Cx, object_handle: Number) -> Result<i64> {
     let scene = cx.scene();
     let of_collision = scene.collision_objects().get(object_handle.0).map(|object| object.explicit);
     let of_distance = scene.distance_objects().get(object_handle.0).map(|object| object.explicit);
-    if let Some(explicit) = of_collision.or(of_distance) {
+    let of_group = scene.ik_groups().get(object_handle.0).map(|group| group.explicit);
+    if let Some(explicit) = of_collision.or(of_distance).or(of_group) {
         return Ok(i64::from(explicit));
     }
     let explicit = match &handled(&scene, object_handle.0)?.kind {
@@ -167,9 +171,9 @@ fn get_explicit_handling(cx: &Cx, object_handle: Number) -> Result<i64> {
     Ok(i64::from(explicit))
 }
 
-/// Sets whether a sensor or graph is left out when all are handled.
+/// Sets whether an object is left out when all are handled. The tag of a joint changes nothing else.
 ///
-/// @param objectHandle proximity sensor, vision sensor or graph; collision or distance object of an old scene
+/// @param objectHandle proximity sensor, vision sensor, graph, joint or path of V-REP; collision or distance object or IK group of an old scene
 /// @param explicitHandlingFlags 1 if so
 /// @return result 1
 #[api("sim.setExplicitHandling")]

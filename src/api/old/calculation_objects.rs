@@ -19,7 +19,12 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 ];
 
 /// Looks up an old name.
-fn handle_of(cx: &Cx, name: &str, find: impl Fn(&Scene, &str) -> Option<i64>, missing: SceneError) -> Result<i64> {
+pub(in crate::api) fn handle_of(
+    cx: &Cx,
+    name: &str,
+    find: impl Fn(&Scene, &str) -> Option<i64>,
+    missing: SceneError,
+) -> Result<i64> {
     let name = OldName::read(name, suffix_of_script(cx));
     match find(&cx.scene(), &name.name) {
         None if name.no_error => Ok(-1),
@@ -28,7 +33,7 @@ fn handle_of(cx: &Cx, name: &str, find: impl Fn(&Scene, &str) -> Option<i64>, mi
 }
 
 /// Whether a number means all objects, or all but those that are handled explicitly; None where it means one.
-fn with_explicit(number: i64) -> Option<bool> {
+pub(super) fn with_explicit(number: i64) -> Option<bool> {
     match number {
         special::ALL => Some(true),
         special::ALL_EXCEPT_EXPLICIT => Some(false),

@@ -27,6 +27,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     sim_reset_path,
     path_pose,
     travel_on_path,
+    path_distance,
 ];
 
 /// Numbers of a control point, without and with auxiliary data.
@@ -332,4 +333,18 @@ fn travel_on_path(
     let limits = TravelLimits { acceleration, inverts_at_ends: false };
     let end = of_path(cx, path_handle, |path| path.travel(start, limits, delta_time))?;
     Ok((end.position, end.nominal_velocity))
+}
+
+/// Length of the way between two poses, as paths of V-REP measure it.
+///
+/// @param from position and quaternion
+/// @param to position and quaternion
+/// @param method sim.distcalcmethod_*
+/// @param angleCoefficient metres per radian
+/// @return length metres
+#[api("sim._getPathDistance")]
+fn path_distance(_cx: &Cx, from: [f64; 7], to: [f64; 7], method: Number, angle_coefficient: f64) -> Result<f64> {
+    let method = LengthMethod::from_number(method.0).ok_or(SceneError::InvalidArgument)?;
+    let [from, to] = [from, to].map(|pose| geometry::pose::pose_from_array(&pose));
+    Ok(method.length(&from, &to, angle_coefficient))
 }

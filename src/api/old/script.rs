@@ -15,6 +15,8 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     get_script_associated_with_object,
     get_customization_script_associated_with_object,
     get_script_handle,
+    add_script,
+    associate_script_with_object,
     get_last_error,
     get_script_name,
     get_script_attribute,
@@ -183,6 +185,39 @@ fn get_script_handle(
     }
     let object = object(cx, object_handle.0)?;
     Ok(cx.script_attached_to(object, script_type).unwrap_or(special::WORLD))
+}
+
+/// A new script without an object; sim.associateScriptWithObject attaches it to one.
+///
+/// @param scriptType sim.scripttype_simulation or sim.scripttype_customization
+/// @return scriptHandle
+#[api("sim.addScript")]
+fn add_script(cx: &mut Cx, script_type: Number) -> Result<i64> {
+    let script_type = ScriptType::from_number(script_type.0);
+    let script_type = script_type.filter(|t| matches!(t, ScriptType::Simulation | ScriptType::Customization));
+    Ok(cx.add_script_without_object(script_type.ok_or(SceneError::InvalidArgument)?))
+}
+
+/// Attaches a script that is no object to an object.
+///
+/// @param scriptHandle from sim.addScript, or of an old scene
+/// @param objectHandle the object; -1 detaches it
+/// @return result 1
+#[api("sim.associateScriptWithObject")]
+fn associate_script_with_object(cx: &mut Cx, script_handle: Number, object_handle: Number) -> Result<i64> {
+    let script = script_of(cx, script_handle.0)?;
+    let is_embedded = matches!(script.script_type, ScriptType::Simulation | ScriptType::Customization);
+    if script.object.is_some() || !is_embedded {
+        return Err(ApiError::NoSuchScript);
+    }
+    let owner = if object_handle.0 == special::WORLD { None } else { Some(object(cx, object_handle.0)?) };
+    if let Some(owner) = owner.filter(|owner| script.owner() != Some(*owner))
+        && cx.script_attached_to(owner, script.script_type).is_some()
+    {
+        return Err(ApiError::Other("object is already associated with such a script type.".into()));
+    }
+    cx.reattach_script(&script, owner);
+    Ok(1)
 }
 
 /// Name of a script.

@@ -43,13 +43,26 @@ fn create_script(
     Ok(handle)
 }
 
-/// Removes a script object.
+/// Removes a script that is attached to an object, as in old scenes; script objects are removed as objects. A customization script ends
+/// after the present callbacks; a simulation script is removed only while the simulation is stopped.
 ///
-/// @param scriptHandle the script
+/// @param scriptHandle the script, or sim.handle_self
+/// @return result 1; -1 for sim.handle_all
 #[api("sim.removeScript")]
-fn remove_script(cx: &mut Cx, script_handle: Number) -> Result<()> {
-    let handle = script_of(cx, script_handle.0)?.object.ok_or(ApiError::NoSuchScript)?;
-    cx.remove_objects(&[handle])
+fn remove_script(cx: &mut Cx, script_handle: Number) -> Result<i64> {
+    if script_handle.0 == special::ALL {
+        return Ok(-1);
+    }
+    let script = script_of(cx, script_handle.0)?;
+    let is_embedded = matches!(
+        script.script_type,
+        ScriptType::Simulation | ScriptType::Customization | ScriptType::Main | ScriptType::Passive
+    );
+    if script.object.is_some() || !is_embedded {
+        return Err(ApiError::NoSuchScript);
+    }
+    cx.remove_attached_script(&script);
+    Ok(1)
 }
 
 /// The script a number means: a handle, or the caller itself.

@@ -231,3 +231,69 @@ fn groups_in_groups_come_apart_level_by_level_after_loading() {
     let (_, parts, places) = taken(pair);
     assert_eq!((parts, places), (vec![1, 1], vec![0.0, 1.0]));
 }
+
+#[test]
+fn what_v_rep_had_is_kept() {
+    use crate::scene::object::dummy::Dummy;
+    use crate::scene::path_object::{ControlPoint, Measures, PathAttributes, PathFollowing, PathObject, Shaping};
+    use crate::scene::tree::ik_groups::{IkElement, IkGroup};
+
+    let mut scene = Scene::new();
+    let mut path = PathObject::new(PathAttributes::USUAL, Measures::default());
+    let at = |x: f64, y: f64| ControlPoint {
+        pose: Pose::translation(x, y, 0.5),
+        before: 0.3,
+        after: 0.7,
+        count: 9,
+        velocity: 0.5,
+        on_spot: 0.25,
+        flags: 6,
+        channels: [1.0, 2.0, 3.0, 4.0],
+    };
+    path.insert(0, vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)], true).unwrap();
+    path.set_motion(0.5, 0.02, 0.1, 0.2);
+    path.explicit = true;
+    path.shaping = Some(Shaping {
+        flags: 1,
+        scale: 2.0,
+        element: (0.25, 3),
+        section: vec![0.5, -0.5],
+        colour: crate::scene::appearance::colour::Colour::new([0.5, 0.25, 0.125]),
+    });
+    let path = scene.add("path", Kind::Path(Box::new(path))).unwrap();
+    let following = PathFollowing { bits: 2, offsets: [0.25, 0.5] };
+    let dummy = Dummy { path_following: following, ..Dummy::new(0.01) };
+    let pad = scene.add("pad", Kind::Dummy(dummy)).unwrap();
+    scene.set_parent(pad, Some(path), true).unwrap();
+    scene.ik_groups_mut().add(IkGroup {
+        name: "reach".into(),
+        persistent_uid: "1".into(),
+        explicit: false,
+        method: 1,
+        flags: 1,
+        performed_after: -1,
+        max_iterations: 5,
+        damping: 0.25,
+        elements: vec![IkElement {
+            tip: pad,
+            base: Some(path),
+            constraint_base: None,
+            precisions: [0.5, 0.25],
+            weights: [1.0, 0.5],
+            constraints: 7,
+            flags: 1,
+        }],
+    });
+    let collection = scene.collections_mut().add(false, None);
+    scene.collections_mut().set_name(collection, "goods".into()).unwrap();
+
+    let loaded = Loaded { objects: vec![path, pad], root: None, scripts: Vec::new() };
+    let (again, loaded) = load(&saved(&scene, &loaded));
+    let [path_again, pad_again] = loaded.objects[..] else { panic!("there are two") };
+    assert_eq!(again.object(path_again).unwrap().path(), scene.object(path).unwrap().path());
+    assert_eq!(again.object(pad_again).unwrap().dummy().unwrap().path_following, following);
+    assert!(again.collections().named("goods").is_some());
+    let group = again.ik_groups().get(again.ik_groups().named("reach").unwrap()).unwrap();
+    assert_eq!((group.elements[0].tip, group.elements[0].base), (pad_again, Some(path_again)));
+    assert_eq!((group.damping, group.max_iterations, group.elements[0].constraints), (0.25, 5, 7));
+}

@@ -11,6 +11,8 @@ use crate::ui::{Banner, DialogKind};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     msg_box,
+    sim_msg_box,
+    sim_file_dialog,
     file_dialog,
     color_dialog,
     input_dialog,
@@ -23,6 +25,7 @@ pub(super) const FUNCTIONS: &[ApiFn] = functions![
 
 /// simUI.msgbox_result, in the order of their numbers.
 const RESULTS: [&str; 4] = ["cancel", "no", "yes", "ok"];
+const OK: i64 = 3;
 /// By simUI.msgbox_buttons: the usual answer, and those there are.
 const BUTTONS: [(i64, &[i64]); 4] = [(3, &[3]), (1, &[2, 1]), (0, &[2, 1, 0]), (0, &[3, 0])];
 
@@ -31,12 +34,17 @@ fn left_answer(cx: &mut Cx, kind: DialogKind) -> Option<Data> {
     cx.change_ui(|ui| ui.dialogs.take_answer(kind))
 }
 
-/// Notes a dialog for pages and tests, and logs it.
-fn note(cx: &mut Cx, kind: DialogKind, title: &str, text: &str, answer: &str) {
+/// Notes a dialog for pages and tests.
+fn note_silently(cx: &mut Cx, kind: DialogKind, title: &str, text: &str, answer: &str) {
     cx.change_ui(|ui| {
         ui.dialogs.note(kind, title, text, answer.to_owned());
         ui.touch();
     });
+}
+
+/// Notes a dialog for pages and tests, and logs it.
+fn note(cx: &mut Cx, kind: DialogKind, title: &str, text: &str, answer: &str) {
+    note_silently(cx, kind, title, text, answer);
     cx.env().log(verbosity::SCRIPT_INFOS, &format!("{} '{title}': {text} (answer: {answer})", kind.name()));
 }
 
@@ -60,6 +68,23 @@ fn msg_box(cx: &mut Cx, r#type: i64, buttons: i64, title: String, message: Strin
     Ok(result)
 }
 
+/// The message of `sim.msgBox`: without a person the answer is ok, and nothing is logged.
+///
+/// @param type sim.msgbox_type_*
+/// @param buttons sim.msgbox_buttons_*
+/// @param title
+/// @param message
+/// @return result sim.msgbox_return_*
+#[api("simUI._simMsgBox")]
+fn sim_msg_box(cx: &mut Cx, r#type: i64, buttons: i64, title: String, message: String) -> Result<i64> {
+    let _ = r#type;
+    let (_, possible) = usize::try_from(buttons).ok().and_then(|at| BUTTONS.get(at)).copied().unwrap_or(BUTTONS[0]);
+    let answer = left_answer(cx, DialogKind::Message);
+    let result = answer.map_or(Ok(OK), |answer| button_of(&answer, possible))?;
+    note_silently(cx, DialogKind::Message, &title, &message, RESULTS[result as usize]);
+    Ok(result)
+}
+
 /// The button an answer means.
 fn button_of(answer: &Data, possible: &[i64]) -> Result<i64> {
     let result = match answer {
@@ -71,6 +96,30 @@ fn button_of(answer: &Data, possible: &[i64]) -> Result<i64> {
         let names: Vec<&str> = possible.iter().map(|number| RESULTS[*number as usize]).collect();
         ApiError::Other(format!("the answer left for msgBox is none of its buttons: {}", names.join(", ")))
     })
+}
+
+/// The files that were left as the answer to a dialog.
+fn left_files(cx: &mut Cx) -> Vec<String> {
+    let text = |data: &Data| match data {
+        Data::Text(bytes) => Some(String::from_utf8_lossy(bytes).into_owned()),
+        _ => None,
+    };
+    match left_answer(cx, DialogKind::File) {
+        Some(Data::Array(paths)) => paths.iter().filter_map(text).collect(),
+        Some(path) => text(&path).into_iter().collect(),
+        None => Vec::new(),
+    }
+}
+
+/// The files of `sim.fileDialog`; nothing is logged.
+///
+/// @param title
+/// @return result paths; empty if cancelled
+#[api("simUI._simFileDialog")]
+fn sim_file_dialog(cx: &mut Cx, title: String) -> Result<Vec<String>> {
+    let files = left_files(cx);
+    note_silently(cx, DialogKind::File, &title, "", &files.join(", "));
+    Ok(files)
 }
 
 /// Asks for files. Without a person: none.
@@ -96,15 +145,7 @@ fn file_dialog(
     #[default(false)] native: bool,
 ) -> Result<Vec<String>> {
     let _ = (r#type, ext_name, native);
-    let text = |data: &Data| match data {
-        Data::Text(bytes) => Some(String::from_utf8_lossy(bytes).into_owned()),
-        _ => None,
-    };
-    let files: Vec<String> = match left_answer(cx, DialogKind::File) {
-        Some(Data::Array(paths)) => paths.iter().filter_map(text).collect(),
-        Some(path) => text(&path).into_iter().collect(),
-        None => Vec::new(),
-    };
+    let files = left_files(cx);
     let asked = [start_path, init_name, ext].join(" ");
     note(cx, DialogKind::File, &title, asked.trim(), &files.join(", "));
     Ok(files)

@@ -1,5 +1,8 @@
-use super::*;
 use std::f64::consts::FRAC_PI_2;
+
+use super::*;
+use crate::scene::object::dummy::Dummy;
+use crate::scene::{Kind, Scene};
 
 fn at(x: f64, y: f64, count: usize) -> ControlPoint {
     let pose = Pose::translation(x, y, 0.0);
@@ -51,8 +54,7 @@ fn too_few_points_cannot_be_closed() {
 #[test]
 fn corners_are_rounded_between_the_middles_of_their_ways() {
     let path = path(0, vec![at(0.0, 0.0, 1), at(2.0, 0.0, 3), at(2.0, 2.0, 1)]);
-    let places: Vec<[f64; 2]> =
-        path.line.iter().map(|p| [p.pose.translation.x, p.pose.translation.y]).collect();
+    let places: Vec<[f64; 2]> = path.line.iter().map(|p| [p.pose.translation.x, p.pose.translation.y]).collect();
     assert_eq!(places, [[0.0, 0.0], [1.5, 0.0], [1.875, 0.125], [2.0, 0.5], [2.0, 2.0]]);
 }
 
@@ -143,11 +145,17 @@ fn an_acceleration_is_limited() {
 
 #[test]
 fn bends_limit_the_velocity() {
-    let path = square(0x120);
-    let bend = 1.0 / FRAC_PI_2 / 0.4;
-    assert!(path.velocities.iter().all(|v| (*v - bend.min(1.0)).abs() < 1e-9));
-    let small = path.profile.radius;
-    assert_eq!(small, 0.2);
+    let corners = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.1], [0.0, 0.1]];
+    let path = path(0x124, corners.map(|[x, y]| at(x, y, 1)).to_vec());
+    let in_bend = 0.1 / FRAC_PI_2 / (2.0 * path.profile.radius);
+    assert!(path.velocities.iter().all(|velocity| (velocity - in_bend).abs() < 1e-9));
+}
+
+#[test]
+fn a_profile_keeps_to_its_acceleration() {
+    let path = path(0x500, vec![at(0.0, 0.0, 1), at(1.0, 0.0, 1), at(9.0, 0.0, 1)]);
+    let reached = (2.0 * path.profile.acceleration).sqrt();
+    assert_eq!(path.velocities, [0.0, reached, 0.0]);
 }
 
 #[test]
@@ -156,4 +164,42 @@ fn scaling_keeps_the_place_on_the_path() {
     path.set_position(1.5);
     path.scale(2.0);
     assert_eq!((path.length(), path.position(), place(&path, 3.0)), (8.0, 3.0, [2.0, 1.0]));
+}
+
+#[test]
+fn dummies_move_along_their_path() {
+    let mut scene = Scene::new();
+    let path = path(0, vec![at(0.0, 0.0, 1), at(2.0, 0.0, 1)]);
+    let path = scene.add("path", Kind::Path(Box::new(path))).expect("there is room");
+    let starts = [(2, [0.0; 3]), (6, [0.75, 1.0, 0.0]), (0, [0.0, 9.0, 0.0])];
+    let dummies = starts.map(|(bits, [x, y, z])| {
+        let path_following = PathFollowing { bits, offsets: [0.25; 2] };
+        let dummy = Kind::Dummy(Dummy { path_following, ..Dummy::new(0.01) });
+        let handle = scene.add("pad", dummy).expect("there is room");
+        scene.set_parent(handle, Some(path), true).expect("both exist");
+        scene.set_local_pose(handle, Pose::translation(x, y, z)).expect("it exists");
+        handle
+    });
+    scene.set_path_position(path, 1.0).expect("it is a path");
+    let places =
+        dummies.map(|dummy| -> [f64; 3] { scene.object(dummy).expect("it exists").pose().translation.vector.into() });
+    assert_eq!(places, [[1.25, 0.0, 0.0], [0.75, 0.0, 0.0], [0.0, 9.0, 0.0]]);
+}
+
+#[test]
+fn a_run_restores_the_motion() {
+    let mut scene = Scene::new();
+    let mut line = path(0x20, vec![at(0.0, 0.0, 1), at(2.0, 0.0, 1)]);
+    line.set_motion(0.5, 0.1, 0.3, 1.0);
+    let handle = scene.add("path", Kind::Path(Box::new(line))).expect("there is room");
+    let motion = |scene: &Scene| scene.object(handle).and_then(|object| object.path()).expect("it is a path").motion();
+    scene.store_initial_state();
+    assert_eq!(motion(&scene), [0.5, 0.0, 1.0]);
+    scene.handle_path(handle, 0.5).expect("it is a path");
+    assert_eq!(motion(&scene), [1.0, 1.0, 1.0]);
+    scene.reset_path(handle).expect("it is a path");
+    assert_eq!(motion(&scene), [0.5, 0.3, 1.0]);
+    scene.handle_path(handle, 0.5).expect("it is a path");
+    scene.restore_initial_state();
+    assert_eq!(motion(&scene), [0.5, 0.3, 1.0]);
 }

@@ -36,6 +36,8 @@ pub struct Collection {
     pub overrides: bool,
     /// The script whose end removes it.
     owner: Option<i64>,
+    /// The name it had in scenes from before 4.2; empty without one.
+    pub name: String,
     pub items: Vec<CollectionItem>,
 }
 
@@ -88,8 +90,35 @@ impl Collections {
     pub fn add(&mut self, overrides: bool, owner: Option<i64>) -> i64 {
         let handle = FIRST_HANDLE + self.made;
         self.made += 1;
-        self.by_handle.insert(handle, Collection { overrides, owner, items: Vec::new() });
+        self.by_handle.insert(handle, Collection { overrides, owner, ..Collection::default() });
         handle
+    }
+
+    /// The handle of the one with that name.
+    pub fn named(&self, name: &str) -> Option<i64> {
+        let is_it = |collection: &Collection| !name.is_empty() && collection.name == name;
+        self.by_handle.iter().find(|(_, collection)| is_it(collection)).map(|(handle, _)| *handle)
+    }
+
+    /// Names a collection; where the name is taken it gets a number.
+    ///
+    /// # Errors
+    /// When there is none with that handle.
+    pub fn set_name(&mut self, handle: i64, name: String) -> SceneResult<()> {
+        self.get(handle)?;
+        let name = super::old_names::free_name(name, |name| self.named(name).is_some_and(|other| other != handle));
+        self.get_mut(handle)?.name = name;
+        Ok(())
+    }
+
+    /// Removes all collections.
+    pub fn clear(&mut self) {
+        self.by_handle.clear();
+    }
+
+    /// All, in the order in which they were made.
+    pub fn iter(&self) -> impl Iterator<Item = (i64, &Collection)> {
+        self.by_handle.iter().map(|(handle, collection)| (*handle, collection))
     }
 
     /// Removes a collection; its objects stay.

@@ -6,6 +6,7 @@ pub(in crate::scene) mod collection;
 pub(in crate::scene) mod copy;
 pub(in crate::scene) mod default_scene;
 pub(in crate::scene) mod hierarchy;
+pub mod ik_groups;
 pub(in crate::scene) mod old_names;
 pub(in crate::scene) mod path;
 pub(in crate::scene) mod references;

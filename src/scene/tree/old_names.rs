@@ -82,7 +82,7 @@ fn with_suffix(name: &str, number: i64) -> String {
 }
 
 /// Whether a script may choose this name.
-fn is_legal(name: &str) -> bool {
+pub fn is_legal(name: &str) -> bool {
     let (stem, number) = name.split_once('#').map_or((name, None), |(stem, number)| (stem, Some(number)));
     let is_word = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '(' | ')');
     let is_number = |text: &str| {

@@ -107,6 +107,7 @@ impl Scene {
         self.collections.forget(doomed);
         self.drawings.forget(doomed);
         self.forget_calculations(doomed);
+        self.ik_groups.forget(doomed);
         self.button_interfaces.forget(doomed);
         let objects = &mut self.objects;
         self.referrers.0.retain(|&handle| {

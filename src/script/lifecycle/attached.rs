@@ -24,6 +24,18 @@ impl Sim {
         )
     }
 
+    /// A new script without an object; returns its handle.
+    pub(crate) fn add_script_without_object(&self, script_type: ScriptType) -> i64 {
+        let detached = Detached { priority: ExecutionPriority::Normal, ..Detached::default() };
+        self.scripts.add_detached(script_type, detached).id
+    }
+
+    /// Attaches a script that is no object to an object, or to none.
+    pub(crate) fn reattach_script(&self, script: &Script, owner: Option<Handle>) {
+        script.detached.borrow_mut().owner = owner;
+        self.scripts.note_attached();
+    }
+
     /// The scripts of an object: those attached to it, simulation scripts first, then those among its children by priority.
     pub(crate) fn scripts_of_object(&self, object: Handle) -> Vec<Rc<Script>> {
         let children = script_children(&self.scene.borrow(), object);

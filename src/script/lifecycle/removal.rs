@@ -4,8 +4,10 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
 
-use super::instance::state;
+use super::instance::{Script, state};
+use crate::scene::object::script_object::ScriptType;
 use crate::scene::{CopyOptions, Data, Handle, Holder, Key, Kind, Object, Scene, SceneError, Uid};
+use crate::script::SimulationState;
 use crate::script::calls::callback::SysCall;
 use crate::script::error::ApiResult;
 use crate::script::log::verbosity;
@@ -16,6 +18,8 @@ use crate::script::sim::Sim;
 pub(crate) struct Removals {
     /// At the end of the loop iteration.
     delayed: RefCell<Vec<Handle>>,
+    /// Scripts that are no objects, at the end of the loop iteration.
+    delayed_scripts: RefCell<Vec<Rc<Script>>>,
     /// The objects there were at the start of the simulation; the others may go at its end.
     at_start: RefCell<Option<HashSet<Uid>>>,
 }
@@ -148,8 +152,35 @@ impl Sim {
         Data::map([("objects", raw(handles).into()), ("allObjects", all.into()), ("objectHandles", marked(handles))])
     }
 
-    /// Removes the objects whose removal was deferred.
+    /// Removes a script that is attached to an object or to none: a customization script at the end of the loop iteration, a simulation
+    /// script at once, but not while a simulation runs.
+    pub(crate) fn remove_attached_script(self: &Rc<Self>, script: &Rc<Script>) {
+        match script.script_type {
+            ScriptType::Customization => self.removals.delayed_scripts.borrow_mut().push(Rc::clone(script)),
+            ScriptType::Simulation if self.clock.state() == SimulationState::Stopped => {
+                if script.depth() > 0 {
+                    self.removals.delayed_scripts.borrow_mut().push(Rc::clone(script));
+                } else {
+                    self.end_attached_script(script);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn end_attached_script(self: &Rc<Self>, script: &Rc<Script>) {
+        if !script.removed.get() {
+            self.end(script);
+            script.removed.set(true);
+            self.scripts.remove_detached(script.id);
+        }
+    }
+
+    /// Removes the objects and scripts whose removal was deferred.
     pub(in crate::script) fn remove_delayed(self: &Rc<Self>) {
+        for script in self.removals.delayed_scripts.take() {
+            self.end_attached_script(&script);
+        }
         let mut handles = self.removals.take_delayed();
         if handles.is_empty() {
             return;

@@ -117,6 +117,18 @@ impl ScriptSet {
         self.by_id.borrow_mut().retain(|id, script| *id != object.raw() && script.owner() != Some(object));
     }
 
+    /// Removes a script that is no object.
+    pub(super) fn remove_detached(&self, id: i64) {
+        self.by_id.borrow_mut().retain(|other, _| *other != id);
+        self.forget_order();
+    }
+
+    /// Notes that a script without an object got one.
+    pub(super) fn note_attached(&self) {
+        self.has_attached.set(true);
+        self.forget_order();
+    }
+
     /// A priority has changed, or a script without an object came.
     pub(in crate::script) fn forget_order(&self) {
         self.order.borrow_mut().forget();

@@ -23,8 +23,8 @@ pub(crate) struct AuxiliaryConsoles {
 
 impl AuxiliaryConsoles {
     pub(crate) fn open(&mut self, console: AuxiliaryConsole) -> i64 {
-        let handle = self.opened;
         self.opened += 1;
+        let handle = self.opened;
         self.open.insert(handle, console);
         handle
     }

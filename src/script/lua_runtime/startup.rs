@@ -339,7 +339,7 @@ fn push_member(stack: Stack<'_>, name: &str) -> Result<(), String> {
             let sim = stack.owner().sim.upgrade().ok_or("the simulator is gone.")?;
             push_lua_member(stack, &sim, file, function)?;
             if let Some(replacement) = replacement {
-                wrap_deprecated(stack, &sim, &deprecation_notice(&format!("sim.{name}"), replacement))?;
+                wrap_deprecated(stack, &sim, file, &deprecation_notice(&format!("sim.{name}"), replacement))?;
             }
         }
     }
@@ -373,9 +373,12 @@ fn push_lua_member(stack: Stack<'_>, sim: &Sim, file: &'static str, function: &s
 }
 
 /// Replaces the function on top by one that logs its deprecation at the first call. In Lua, so that it can yield.
-fn wrap_deprecated(stack: Stack<'_>, sim: &Sim, notice: &str) -> Result<(), String> {
+fn wrap_deprecated(stack: Stack<'_>, sim: &Sim, file: &str, notice: &str) -> Result<(), String> {
     load_module(stack, sim, "deprecate").map_err(|error| error.text)?;
     stack.insert(-2);
     stack.push_bytes(notice.as_bytes());
-    stack.protected_call(2, 1).map_err(|error| error.text)
+    stack.push_registry(LUA_MODULES);
+    stack.raw_get_field(-1, file);
+    stack.remove(-2);
+    stack.protected_call(3, 1).map_err(|error| error.text)
 }

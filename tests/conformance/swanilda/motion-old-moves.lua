@@ -64,7 +64,7 @@ function sysCall_thread()
     show('moveToPosition', rounded(sim.getObjectPosition(object)), rounded(sim.getObjectOrientation(object)))
     sim.moveToPosition(object, frame, nil, {0, 0, 0}, 1)
     show('only turned', rounded(sim.getObjectPosition(object)), rounded(sim.getObjectOrientation(object)))
-    sim.moveToObject(object, frame, 3, 0, 1, 2)
+    sim.moveToObject(object, frame, 3, nil, 1, 2)
     show('moveToObject', rounded(sim.getObjectPosition(object)), rounded(sim.getObjectOrientation(object)))
     print('end')
 end

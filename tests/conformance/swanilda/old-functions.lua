@@ -13,7 +13,7 @@ function sysCall_init()
     print(pcall(simGetUIHandle, 'dialog'))
     print(pcall(simGet2DElementButtonProperty, -1, 1))
     print(simBoolOr16(1, sim_ui_property_moveable))
-    print(sim.handleModule(sim.handle_all, false), sim.getModuleName(0), sim.getIkGroupHandle('ik'))
+    print(sim.handleModule(sim.handle_all, false), sim.getModuleName(0), sim.getIkGroupHandle('ik@silentError'))
 
     sim.sendData(sim.handle_chain, 0, 'ground sensors', 'abc')
     print(sim.receiveData(0, 'ground sensors'))

@@ -5,11 +5,11 @@ use std::f64::consts::{PI, TAU};
 use super::{Context, material};
 use crate::format::ttt::chunks::{Dummy as DummyChunk, ForceSensor as ForceSensorChunk, Joint as Chunk};
 use crate::format::ttt::{Text, unit_quaternion};
-use crate::scene::path_object::PathFollowing;
 use crate::scene::joint::{Control, Joint, JointMode, JointType};
 use crate::scene::object::dummy::{Dummy, LinkType};
 use crate::scene::parameters::engine::Engine;
 use crate::scene::parameters::engine_blocks::EngineValues;
+use crate::scene::path_object::PathFollowing;
 use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
 
 /// The step of the physics that gains were multiplied by before 3.1.1.

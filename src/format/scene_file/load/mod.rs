@@ -6,6 +6,7 @@ mod common;
 mod custom_data;
 mod filters;
 mod graph;
+mod ik_groups;
 mod joint;
 mod material;
 mod mesh;
@@ -18,6 +19,8 @@ mod shape;
 mod texture;
 
 use std::collections::BTreeMap;
+
+pub(super) use references::UNNAMED_COLLECTION;
 
 use super::{Loaded, LoadedScript, ScriptCode, ScriptSources, read_file};
 use crate::format::ttt::tree::{Class, Object as FileObject};
@@ -126,6 +129,7 @@ impl SceneFile {
             scene.number_names(&common::names(&file.contents.objects, &objects))?;
         }
         references::calculation_objects(scene, &file, &objects, &map, &collections);
+        ik_groups::add(scene, &file, &objects, &map);
         button_interfaces::add(scene, &file, &objects, &map);
         let filters = file.contents.objects.iter().zip(&objects).filter_map(|(o, handle)| filters::script(o, *handle));
         let scripts: Vec<LoadedScript> = scripts.into_iter().chain(filters).collect();
@@ -170,11 +174,7 @@ fn kind_of(context: &mut Context<'_>, object: &FileObject) -> FileResult<Kind> {
         }
         Class::ScriptObject(script) => Kind::Script(Box::new(script::object(script, context))),
         Class::Path(path) => Kind::Path(Box::new(path::path(path))),
-        Class::Mirror(_)
-        | Class::Mill(_)
-        | Class::Marker(_)
-        | Class::CustomSceneObject(_)
-        | Class::Unknown(_) => {
+        Class::Mirror(_) | Class::Mill(_) | Class::Marker(_) | Class::CustomSceneObject(_) | Class::Unknown(_) => {
             let mut dummy = Dummy::new(0.01);
             dummy.link_type = LinkType::Default;
             Kind::Dummy(dummy)

@@ -19,7 +19,8 @@ pub(super) fn path(chunk: &Path) -> PathObject {
     let points = line.points.iter().filter_map(control_point).collect();
     // A path with too many points stays empty.
     let _ = path.insert(0, points, attributes.contains(PathAttributes::CLOSED));
-    if let Some([position, max_acceleration, nominal, target]) = line.motion.filter(|m| m.iter().all(|n| n.is_finite())) {
+    if let Some([position, max_acceleration, nominal, target]) = line.motion.filter(|m| m.iter().all(|n| n.is_finite()))
+    {
         path.set_motion(position, max_acceleration, nominal, target);
     }
     (path.line_size, path.point_size) = line.line.unwrap_or((path.line_size, path.point_size));

@@ -16,6 +16,8 @@ use crate::scene::{
 
 /// Larger numbers are handles of collections.
 const LAST_OBJECT: i32 = 999_999;
+/// Before the handle of a collection without a name.
+pub(in crate::format::scene_file) const UNNAMED_COLLECTION: &str = "collection";
 /// Instead of the handle of who sees an object.
 const NOBODY: i32 = -2;
 
@@ -28,7 +30,7 @@ pub(super) fn connect(
     objects: &[Handle],
     map: &HandleMap,
 ) -> SceneResult<CollectionMap> {
-    let collections = collections(scene, &file.contents.collections, map)?;
+    let collections = collections(scene, file, objects, map)?;
     let entity = |handle: i32| match handle {
         0..=LAST_OBJECT => map.get(&handle).map_or(Entity::ALL, |object| (*object).into()),
         _ => collections.get(&handle).map_or(Entity::ALL, |collection| Entity::from_raw(*collection)),
@@ -219,17 +221,28 @@ fn original_lists(common: &Common, file: &File, objects: &[Handle]) -> Reference
 }
 
 /// Collections that were kept with the scene, before 4.2; from their handles in the file to those of the scene.
-fn collections(scene: &mut Scene, chunks: &[CollectionChunk], map: &HandleMap) -> SceneResult<CollectionMap> {
+fn collections(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) -> SceneResult<CollectionMap> {
     let mut made = BTreeMap::new();
-    for chunk in chunks {
+    for chunk in &file.contents.collections {
         let handle = scene.collections_mut().add(chunk.flags.unwrap_or(0) & 1 != 0, None);
         let items = chunk.elements.iter().filter_map(|element| item(element, map));
         scene.collections_mut().get_mut(handle)?.items = items.collect();
+        if let Some(name) = collection_name(chunk) {
+            let name = numbered(scene, file, objects, name);
+            scene.collections_mut().set_name(handle, name)?;
+        }
         if let Some(old) = chunk.handle {
             made.insert(old, handle);
         }
     }
     Ok(made)
+}
+
+/// The name in the file; those that were made up for files without names mean none.
+fn collection_name(chunk: &CollectionChunk) -> Option<String> {
+    let name = chunk.name.as_ref()?.decode();
+    let made_up = format!("{UNNAMED_COLLECTION}{}", chunk.handle.unwrap_or(-1));
+    (!name.is_empty() && name != made_up).then_some(name)
 }
 
 /// Objects one by one, from a base down, from a tip up, or everything; a base that is gone takes its element with it.

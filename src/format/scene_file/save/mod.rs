@@ -11,6 +11,7 @@ mod common;
 mod custom_data;
 mod edges;
 mod graph;
+mod ik_groups;
 mod mechanics;
 mod mesh;
 mod path;
@@ -105,6 +106,7 @@ fn contents(scene: &Scene, order: &[Handle], base: Option<Handle>, scripts: &[Lo
         collections: settings::collections(&context),
         collisions: calculation_objects::collisions(&context),
         distances: calculation_objects::distances(&context),
+        ik_groups: ik_groups::groups(&context),
         button_blocks: button_interfaces::blocks(&context, base.is_some()),
         objects,
         mesh_pool: Some(context.pool.arrays.pool),

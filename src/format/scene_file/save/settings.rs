@@ -3,13 +3,14 @@
 use std::collections::BTreeSet;
 
 use super::{Context, custom_data, shape};
+use crate::format::scene_file::load::UNNAMED_COLLECTION;
 use crate::format::ttt::Counted;
 use crate::format::ttt::chunks::{
     Collection, CollectionElement, Dynamics, Environment, ModuleSettings, Page, Simulation, View, Views,
 };
 use crate::format::ttt::tree::Contents;
 use crate::scene::object::viewers::Viewers;
-use crate::scene::{Calculations, CollectionItem, Kind, Members, Object, Scene, Settings};
+use crate::scene::{Calculations, Collection as Collected, CollectionItem, Kind, Members, Object, Scene, Settings};
 
 /// The preset of the physics, and of the step, that means settings of one's own.
 const CUSTOM: i32 = 5;
@@ -133,6 +134,11 @@ pub(super) fn collections(context: &Context<'_>) -> Vec<Collection> {
         }
         used.extend(object.references.iter().flat_map(|(_, list)| list.iter().copied()));
     }
+    let is_whole = |collection: &&(i64, &Collected)| {
+        let mut bases = collection.1.items.iter().map(|item| item.members.base());
+        !collection.1.name.is_empty() && bases.all(|base| base.is_some_and(|base| context.saved.contains(&base)))
+    };
+    used.extend(context.scene.collections().iter().filter(|entry| is_whole(&entry)).map(|(handle, _)| handle));
     used.extend(context.scene.collision_objects().iter().flat_map(|(_, object)| object.entities));
     used.extend(context.scene.distance_objects().iter().flat_map(|(_, object)| object.entities));
     used.into_iter().filter_map(|handle| collection(context, handle)).collect()
@@ -148,8 +154,12 @@ fn entity(object: &Object) -> Option<i64> {
 
 fn collection(context: &Context<'_>, handle: i64) -> Option<Collection> {
     let collection = context.scene.collections().get(handle).ok()?;
+    let name = match collection.name.as_str() {
+        "" => format!("{UNNAMED_COLLECTION}{handle}"),
+        name => name.to_owned(),
+    };
     Some(Collection {
-        name: Some(format!("collection{handle}").as_str().into()),
+        name: Some(name.as_str().into()),
         handle: Some(handle as i32),
         flags: Some(collection.overrides.into()),
         elements: collection.items.iter().enumerate().map(|(at, item)| element(context, item, at)).collect(),

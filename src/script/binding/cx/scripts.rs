@@ -66,6 +66,21 @@ impl Cx<'_> {
         self.sim.init_script(script);
     }
 
+    /// Removes a script that is no object, now or later.
+    pub(crate) fn remove_attached_script(&mut self, script: &Rc<Script>) {
+        self.sim.remove_attached_script(script);
+    }
+
+    /// A new script without an object; returns its handle.
+    pub(crate) fn add_script_without_object(&mut self, script_type: ScriptType) -> i64 {
+        self.sim.add_script_without_object(script_type)
+    }
+
+    /// Attaches a script that is no object to an object, or to none.
+    pub(crate) fn reattach_script(&mut self, script: &Script, owner: Option<Handle>) {
+        self.sim.reattach_script(script, owner);
+    }
+
     /// The calls in progress of a script, as its language shows them.
     ///
     /// # Errors

@@ -1,0 +1,142 @@
+//! The groups of inverse kinematics of scenes from before 4.2: kept for their names and for files. They are not computed: module simIK is
+//! for that.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::scene::{Handle, Scene};
+
+const FIRST_HANDLE: i64 = 2_030_003;
+
+/// A group of inverse kinematics with a name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IkGroup {
+    pub name: String,
+    pub persistent_uid: String,
+    /// Left out when all are handled.
+    pub explicit: bool,
+    /// Resolution method, bits, and what it is performed after, as in the file.
+    pub method: i32,
+    pub flags: u8,
+    pub performed_after: i32,
+    pub max_iterations: i32,
+    pub damping: f64,
+    pub elements: Vec<IkElement>,
+}
+
+/// A tip that follows its target.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IkElement {
+    pub tip: Handle,
+    pub base: Option<Handle>,
+    pub constraint_base: Option<Handle>,
+    /// Radians, metres.
+    pub precisions: [f64; 2],
+    /// Of position and orientation.
+    pub weights: [f64; 2],
+    pub constraints: i32,
+    pub flags: u8,
+}
+
+/// All groups, by handles that are not used again.
+#[derive(Debug, Clone, Default)]
+pub struct IkGroups {
+    by_handle: BTreeMap<i64, IkGroup>,
+    made: i64,
+}
+
+impl IkGroups {
+    /// Adds one; where its name is taken it gets a number.
+    pub fn add(&mut self, mut group: IkGroup) -> i64 {
+        group.name = super::old_names::free_name(group.name, |name| self.named(name).is_some());
+        let handle = FIRST_HANDLE + self.made;
+        self.made += 1;
+        self.by_handle.insert(handle, group);
+        handle
+    }
+
+    /// The handle of the one with that name.
+    pub fn named(&self, name: &str) -> Option<i64> {
+        self.by_handle.iter().find(|(_, group)| group.name == name).map(|(handle, _)| *handle)
+    }
+
+    pub fn get(&self, handle: i64) -> Option<&IkGroup> {
+        self.by_handle.get(&handle)
+    }
+
+    pub fn get_mut(&mut self, handle: i64) -> Option<&mut IkGroup> {
+        self.by_handle.get_mut(&handle)
+    }
+
+    pub fn remove(&mut self, handle: i64) -> Option<IkGroup> {
+        self.by_handle.remove(&handle)
+    }
+
+    pub fn clear(&mut self) {
+        self.by_handle.clear();
+    }
+
+    /// With their handles, in the order in which they were added.
+    pub fn iter(&self) -> impl Iterator<Item = (i64, &IkGroup)> {
+        self.by_handle.iter().map(|(handle, group)| (*handle, group))
+    }
+
+    /// Removes elements whose tip is removed, and groups that are left without one.
+    pub(super) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
+        self.by_handle.retain(|_, group| {
+            let before = group.elements.len();
+            group.elements.retain(|element| !doomed.contains(&element.tip));
+            for element in &mut group.elements {
+                element.base = element.base.filter(|base| !doomed.contains(base));
+                element.constraint_base = element.constraint_base.filter(|base| !doomed.contains(base));
+            }
+            before == 0 || !group.elements.is_empty()
+        });
+    }
+}
+
+impl Scene {
+    pub fn ik_groups(&self) -> &IkGroups {
+        &self.ik_groups
+    }
+
+    pub fn ik_groups_mut(&mut self) -> &mut IkGroups {
+        &mut self.ik_groups
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_group_ends_with_its_last_tip() {
+        let element = |tip| IkElement {
+            tip: Handle(tip),
+            base: Some(Handle(9)),
+            constraint_base: None,
+            precisions: [0.0; 2],
+            weights: [1.0; 2],
+            constraints: 7,
+            flags: 0,
+        };
+        let group = |elements| IkGroup {
+            name: "ik".into(),
+            persistent_uid: String::new(),
+            explicit: false,
+            method: 0,
+            flags: 0,
+            performed_after: -1,
+            max_iterations: 3,
+            damping: 0.1,
+            elements,
+        };
+        let mut groups = IkGroups::default();
+        let handles = [group(vec![element(1)]), group(vec![element(1), element(2)])].map(|group| groups.add(group));
+        assert_eq!(handles, [2_030_003, 2_030_004]);
+        assert_eq!((groups.named("ik"), groups.named("ik0")), (Some(2_030_003), Some(2_030_004)));
+        groups.forget(&BTreeSet::from([Handle(1), Handle(9)]));
+        assert!(groups.get(2_030_003).is_none());
+        let left = groups.get(2_030_004).expect("it has another tip");
+        assert_eq!((left.elements.len(), left.elements[0].base), (1, None));
+    }
+}
