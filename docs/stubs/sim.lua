@@ -58,6 +58,15 @@ function setYieldAllowed(allow) end
 --- Forbids yielding and interruption until sim.releaseLock.
 function sim.acquireLock() end
 
+--- Adds a banner, which is not shown.
+---@deprecated
+---@param text string on it
+---@param size number of the letters
+---@param options integer bits
+---@param ... any
+---@return integer bannerID the smallest free number from 1
+function sim.addBanner(text, size, options, ...) end
+
 --- Something to draw points, lines, triangles or small bodies with, seen by cameras and vision sensors. Without
 --- sim.drawing_persistent it ends with the script.
 ---@param objectType integer sim.drawing_*
@@ -167,6 +176,12 @@ function sim.addParticleObjectItem(particleObjectHandle, itemData) end
 ---@param options? table wholeTree: refer to all objects below, too
 function sim.addReferencedHandle(objectHandle, referencedHandle, tag, options) end
 
+--- A new script without an object; sim.associateScriptWithObject attaches it to one.
+---@deprecated sim.createScript
+---@param scriptType integer sim.scripttype_simulation or sim.scripttype_customization
+---@return integer scriptHandle
+function sim.addScript(scriptType) end
+
 --- Writes a line to the log in the name of this script, as an information.
 ---@deprecated sim.addLog
 ---@param message? string the line; nil: none is written
@@ -196,6 +211,13 @@ function sim.alignShapeBB(shapeHandle, pose) end
 ---@return number roll about the new x
 function sim.alphaBetaGammaToYawPitchRoll(alpha, beta, gamma) end
 
+--- Attaches a script that is no object to an object.
+---@deprecated sim.createScript / sim.setObjectParent
+---@param scriptHandle integer from sim.addScript, or of an old scene
+---@param objectHandle integer the object; -1 detaches it
+---@return integer result 1
+function sim.associateScriptWithObject(scriptHandle, objectHandle) end
+
 --- Small services of the host: `headless`, `useBuffers`. Other commands return nothing.
 ---@param cmd string the service
 ---@param ... any
@@ -204,7 +226,7 @@ function sim.auxFunc(cmd, ...) end
 
 --- Closes a console.
 ---@param consoleHandle integer from sim.auxiliaryConsoleOpen
----@return integer result 1, or 0 if there is no such console
+---@return integer result 0, as in the original without a display
 function sim.auxiliaryConsoleClose(consoleHandle) end
 
 --- Opens a console. Pages show it; what is printed to it goes to the log too, under its title, at the level infos: `--verbosity infos` shows it.
@@ -227,10 +249,10 @@ function sim.auxiliaryConsolePrint(consoleHandle, text) end
 --- Shows or hides a console.
 ---@param consoleHandle integer from sim.auxiliaryConsoleOpen
 ---@param showState boolean true to show it
----@return integer result 1, or 0 if there is no such console
+---@return integer result 0, as in the original without a display
 function sim.auxiliaryConsoleShow(consoleHandle, showState) end
 
---- Bitwise and of the lower 16 bits.
+--- Bitwise and, as sim.boolAnd32.
 ---@param a integer number
 ---@param b integer number
 ---@return integer result the bits set in both
@@ -243,7 +265,7 @@ function sim.boolAnd16(a, b) end
 ---@return integer result the bits set in both
 function sim.boolAnd32(a, b) end
 
---- Bitwise or of the lower 16 bits.
+--- Bitwise or, as sim.boolOr32.
 ---@param a integer number
 ---@param b integer number
 ---@return integer result the bits set in one of them
@@ -256,7 +278,7 @@ function sim.boolOr16(a, b) end
 ---@return integer result the bits set in one of them
 function sim.boolOr32(a, b) end
 
---- Bitwise exclusive or of the lower 16 bits.
+--- Bitwise exclusive or, as sim.boolXor32.
 ---@param a integer number
 ---@param b integer number
 ---@return integer result the bits that differ
@@ -312,6 +334,14 @@ function sim.buildPose(position, eulerAnglesOrAxis, mode, axis2) end
 ---@param ... any
 ---@return any ... what the function returned
 function sim.callScriptFunction(functionName, scriptHandle, ...) end
+
+--- Moves a camera along its line of sight, and sideways, until it shows objects.
+---@param viewHandleOrIndex integer a camera with 0x00400000 added; the number of a view has no camera here
+---@param objectHandles? any what is shown; nil: all objects
+---@param options? integer ignored
+---@param scaling? number how much of the picture they fill
+---@return integer result 1; 0 for a view without a camera
+function sim.cameraFitToView(viewHandleOrIndex, objectHandles, options, scaling) end
 
 --- Cancels a scheduled function.
 ---@param id integer from sim.scheduleExecution
@@ -500,9 +530,12 @@ function sim.copyPasteObjects(objectHandles, options) end
 function sim.copyTable(original) end
 
 --- Creates an empty collection. It ends with the script that created it.
----@param options? integer 1: its members override their collidable, measurable and detectable flags
+---
+--- V-REP gave a name first: such a collection stays with the scene.
+---@param options? any 1: its members override their collidable, measurable and detectable flags
+---@param oldOptions? integer the options, after a name
 ---@return integer collectionHandle the collection
-function sim.createCollection(options) end
+function sim.createCollection(options, oldOptions) end
 
 --- A new dummy at the world's origin, the last root.
 ---@param size number diameter, metres
@@ -557,6 +590,8 @@ function sim.createMeshShape(options, shadingAngle, vertices, indices, normals, 
 function sim.createOctree(voxelSize, options, pointSize) end
 
 --- Creates a path object from control points.
+---
+--- With a number first it is a path object of V-REP: attributes, integer parameters, floating-point parameters, colours.
 ---@param ctrlPts number[] poses, seven numbers each, at least two
 ---@param options? integer 1 hidden while a simulation runs, 2 closed, 4 a shape along it, 16 orientation computed from the direction
 ---@param subdiv? integer number of points of the sampled path
@@ -642,6 +677,13 @@ function sim.createTexture(fileName, options, planeSizes, scalingUv, xyG, fixedR
 ---@return integer sensorHandle the sensor
 function sim.createVisionSensor(options, intParams, floatParams) end
 
+--- Removes control points of a path of V-REP.
+---@param pathHandle integer the path
+---@param startIndex integer the first one, from 0; negative: all
+---@param ptCnt integer how many; negative: all
+---@return integer result 1
+function sim.cutPathCtrlPoints(pathHandle, startIndex, ptCnt) end
+
 --- Removes a collection; its objects stay.
 ---@param collectionHandle integer the collection
 function sim.destroyCollection(collectionHandle) end
@@ -681,7 +723,6 @@ function sim.enableWorkThreads(count) end
 --- Closes a window of sim.displayDialog.
 ---@deprecated the simUI functionality
 ---@param handle integer from sim.displayDialog
----@return integer result 0
 function sim.endDialog(handle) end
 
 --- Runs Lua code in this script.
@@ -724,6 +765,16 @@ function sim.floatingViewAdd(posX, posY, sizeX, sizeY, options) end
 ---@param floatingViewHandle integer from sim.floatingViewAdd
 ---@return integer result 1, or 0 when there is no such view
 function sim.floatingViewRemove(floatingViewHandle) end
+
+--- Moves an object along a path of V-REP, blocking. The position of the path itself stays.
+---@param object integer handle
+---@param path integer handle
+---@param what integer 1 position, 2 orientation
+---@param start number place on the path, from 0 to 1
+---@param velocity number m/s; negative: towards the start of the path
+---@param acceleration? number nil or 0: none is needed
+---@return number timeLeft a whole step, seconds; 0 on a path without length
+function sim.followPath(object, path, what, start, velocity, acceleration) end
 
 --- A new shape: a section moved along a path. Its frame is the world's, its ends are open.
 ---@param path number[] poses of 7 numbers, two at least
@@ -813,6 +864,24 @@ function sim.getBufferSignal(name) end
 ---@return number t for sim.getPathInterpolatedConfig
 function sim.getClosestPosOnPath(path, lengths, position) end
 
+--- The place on a path of V-REP that is closest to a point.
+---@param pathHandle integer the path
+---@param position number[] of the point, in the frame of the path
+---@return number relativeDistance part of the length, from 0 to 1
+function sim.getClosestPositionOnPath(pathHandle, position) end
+
+--- A collection of an old scene.
+---@deprecated sim.createCollection
+---@param collectionName string its name; with `@silentError`: -1 if there is none
+---@return integer collectionHandle its handle
+function sim.getCollectionHandle(collectionName) end
+
+--- The name of a collection of an old scene.
+---@deprecated
+---@param collectionHandle integer the collection
+---@return string collectionName empty without one
+function sim.getCollectionName(collectionHandle) end
+
 --- The objects a collection holds now.
 ---@param collectionHandle integer the collection
 ---@return integer[] objectHandles in the order of their creation
@@ -852,10 +921,23 @@ function sim.getContactInfo(dynamicPass, objectHandle, index) end
 ---@return integer scriptHandle -1 if there is none
 function sim.getCustomizationScriptAssociatedWithObject(objectHandle) end
 
+--- Auxiliary data of a point of a path of V-REP.
+---@param pathHandle integer the path
+---@param relativeDistance number part of the length, from 0 to 1
+---@return integer auxFlags those of the nearer point of the line
+---@return number[] auxChannels four numbers, interpolated
+function sim.getDataOnPath(pathHandle, relativeDistance) end
+
+--- The user's input; there is none.
+---@deprecated the simUI functionality
+---@param handle integer from sim.displayDialog
+---@return string input empty
+function sim.getDialogInput(handle) end
+
 --- The user's choice; there is none.
 ---@deprecated the simUI functionality
 ---@param handle integer from sim.displayDialog
----@return integer result sim.dlgret_still_open
+---@return integer result -1
 function sim.getDialogResult(handle) end
 
 --- A distance object of an old scene.
@@ -914,8 +996,8 @@ function sim.getEngineInt32Parameter(paramId, objectHandle) end
 ---@return number[] eulerAngles alpha, beta, gamma, radians
 function sim.getEulerAnglesFromMatrix(matrix) end
 
---- Whether a sensor or graph is handled explicitly, so that handling all leaves it out.
----@param objectHandle integer proximity sensor, vision sensor or graph; collision or distance object of an old scene
+--- Whether an object is handled explicitly, so that handling all leaves it out.
+---@param objectHandle integer proximity sensor, vision sensor, graph, joint or path of V-REP; collision or distance object or IK group of an old scene
 ---@return integer explicitHandlingFlags 1 if so
 function sim.getExplicitHandling(objectHandle) end
 
@@ -977,10 +1059,10 @@ function sim.getGraphCurve(graphHandle, graphType, curveIndex) end
 ---@return number[] fgColor of lines and texts
 function sim.getGraphInfo(graphHandle) end
 
---- Handle of an IK group of the scene; there are none.
+--- A group of inverse kinematics of an old scene.
 ---@deprecated the simIK functionality
----@param ikGroupName string its name
----@return integer handle -1
+---@param ikGroupName string its name; with `@silentError`: -1 if there is none
+---@return integer ikGroupHandle its handle
 function sim.getIkGroupHandle(ikGroupName) end
 
 --- An integer parameter.
@@ -1409,6 +1491,12 @@ function sim.getObjectsWithTag(tag, justModels) end
 ---@return number[] voxels x, y, z of each
 function sim.getOctreeVoxels(octreeHandle) end
 
+--- Orientation of a point of a path of V-REP in the world.
+---@param pathHandle integer the path
+---@param relativeDistance number as in sim.getPositionOnPath
+---@return number[] eulerAngles alpha, beta, gamma, radians
+function sim.getOrientationOnPath(pathHandle, relativeDistance) end
+
 --- Configuration at a distance along a path.
 ---@param path number[] flat table of points
 ---@param lengths number[] from sim.getPathLengths, or times
@@ -1418,6 +1506,11 @@ function sim.getOctreeVoxels(octreeHandle) end
 ---@return number[] config interpolated
 function sim.getPathInterpolatedConfig(path, lengths, t, method, types) end
 
+--- Length of a path of V-REP.
+---@param pathHandle integer the path
+---@return number length metres
+function sim.getPathLength(pathHandle) end
+
 --- Distances along a path, from its start to each of its points.
 ---@param path number[] dof numbers per point
 ---@param dof integer numbers per point
@@ -1425,6 +1518,11 @@ function sim.getPathInterpolatedConfig(path, lengths, t, method, types) end
 ---@return number[] lengths as many as there are points
 ---@return number total the last of them
 function sim.getPathLengths(path, dof, distCallback) end
+
+--- The position that moves along a path of V-REP.
+---@param pathHandle integer the path
+---@return number position metres of length from the start
+function sim.getPathPosition(pathHandle) end
 
 --- Names of the data kept with the application.
 ---@deprecated properties
@@ -1460,6 +1558,12 @@ function sim.getPoseInverse(pose) end
 ---@param options? table noError: nothing instead of an error
 ---@return number[] propertyState
 function sim.getPoseProperty(target, propertyName, options) end
+
+--- A point of a path of V-REP in the world.
+---@param pathHandle integer the path
+---@param relativeDistance number part of the length, from 0 to 1; -1, -2, ... for control points
+---@return number[] position metres
+function sim.getPositionOnPath(pathHandle, relativeDistance) end
 
 --- All properties of a target.
 ---@param target integer object, sim.handle_scene, sim.handle_app, ...
@@ -2003,16 +2107,16 @@ function sim.handleExtCalls() end
 ---@param simulationTime number of the values
 function sim.handleGraph(objectHandle, simulationTime) end
 
---- Does nothing: IK groups of the scene are gone, simIK is for that.
+--- Handles groups of inverse kinematics of old scenes, which are not computed.
 ---@deprecated the simIK functionality
----@param ikGroupHandle integer any
----@return integer result 0
+---@param ikGroupHandle integer a group that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
+---@return integer result 0: none was computed
 function sim.handleIkGroup(ikGroupHandle) end
 
 --- Does nothing: kinematic joints move by sim.handleJointMotion.
 ---@param jointHandle integer any
 ---@param deltaTime number seconds
----@return integer result 0
+---@return integer result 1
 function sim.handleJoint(jointHandle, deltaTime) end
 
 --- Moves kinematic joints towards their targets by one step. For the main script.
@@ -2020,12 +2124,11 @@ function sim.handleJointMotion() end
 
 --- Does nothing: mechanisms are gone.
 ---@param mechanismHandle integer any
----@return integer result 0
+---@return integer result -1
 function sim.handleMechanism(mechanismHandle) end
 
 --- Does nothing: mills are gone.
 ---@param millHandle integer any
----@return integer result 0
 function sim.handleMill(millHandle) end
 
 --- Does nothing: there are no plugins to notify.
@@ -2034,12 +2137,6 @@ function sim.handleMill(millHandle) end
 ---@param calledInSensingPart boolean any
 ---@return integer count 0
 function sim.handleModule(module, calledInSensingPart) end
-
---- Does nothing: path objects are gone.
----@param pathHandle integer any
----@param deltaTime number seconds
----@return integer result 0
-function sim.handlePath(pathHandle, deltaTime) end
 
 --- Measures with a sensor that is tagged for explicit handling, or with all sensors. Scripts of a sensor that detects something are called
 --- (`sysCall_trigger`), and the result is stored.
@@ -2072,7 +2169,7 @@ function sim.handleSimulationScripts(callType, ...) end
 function sim.handleSimulationStart() end
 
 --- Does nothing.
----@return integer result 0
+---@return integer result 1
 function sim.handleVarious() end
 
 --- Takes pictures with vision sensors and lets their scripts look at them (`sysCall_vision`). A sensor alone must be handled explicitly.
@@ -2117,6 +2214,15 @@ function sim.insertObjectIntoOctree(octreeHandle, objectHandle, options, color, 
 ---@param duplicateTolerance? number points this near to another are left out, metres
 ---@return integer totalPointCnt how many points there are now
 function sim.insertObjectIntoPointCloud(pointCloudHandle, objectHandle, options, gridSize, color, duplicateTolerance) end
+
+--- Inserts control points into a path of V-REP, and opens or closes it.
+---@param pathHandle integer the path
+---@param options integer 1: closed; 2: with auxiliary data
+---@param startIndex integer the first new point will have this index, from 0
+---@param ptCnt integer number of points
+---@param ptData number[] 11 numbers each: x, y, z, alpha, beta, gamma, relative velocity, distance on the spot, number of Bezier points, Bezier factors before and after; with option 2 also flags and 4 channels
+---@return integer result 1
+function sim.insertPathCtrlPoints(pathHandle, options, startIndex, ptCnt, ptData) end
 
 --- Adds points.
 ---@param pointCloudHandle integer the point cloud
@@ -2266,21 +2372,24 @@ function sim.moveToConfig_init(params) end
 ---@return table motionObject with the new pos, vel and accel
 function sim.moveToConfig_step(motionObject) end
 
---- Moves joints to positions at one velocity, blocking.
----@param joints integer[] handles
+--- Moves joints to positions, blocking.
+---@param joints integer[] handles; spherical joints and what is no joint is left out
 ---@param targets number[] one per joint
----@param velocity number limit
----@param acceleration? number limit; nil: none
-function sim.moveToJointPositions(joints, targets, velocity, acceleration) end
+---@param velocity any a number: all arrive together; a table: each for itself
+---@param acceleration? any a number or a table; nil or 0: none is needed
+---@param angleCoefficient? number metres per radian
+---@return number timeLeft unused part of the last step, seconds
+function sim.moveToJointPositions(joints, targets, velocity, acceleration, angleCoefficient) end
 
---- Moves an object to the pose of another one at one velocity, blocking.
+--- Moves an object to another one, which may move, blocking.
 ---@param object integer handle
 ---@param target integer handle of the other
----@param options integer ignored: position and orientation are both followed
----@param distance number ignored: position on a path of V-REP
----@param velocity number limit
----@param acceleration? number limit; nil: none
-function sim.moveToObject(object, target, options, distance, velocity, acceleration) end
+---@param what integer 1 position, 2 orientation
+---@param relativePosition number place on a path of V-REP, from 0 to 1; nil: the target itself
+---@param velocity number 1/s: the way counts as 1
+---@param acceleration? number 1/s^2; nil or 0: none is needed
+---@return number timeLeft unused part of the last step, seconds
+function sim.moveToObject(object, target, what, relativePosition, velocity, acceleration) end
 
 --- Moves a pose, an object or the tip of a robot to a target pose, with limited velocity, acceleration and jerk.
 --- Blocks in a thread. The older form takes flags, pose or matrix, maxVel, maxAccel, maxJerk, target, callback, auxData,
@@ -2304,16 +2413,18 @@ function sim.moveToPose_init(params) end
 ---@return table motionObject with the new pose, vel and accel
 function sim.moveToPose_step(motionObject) end
 
---- Moves an object to a position and orientation at one velocity, blocking.
+--- Moves an object to a position and orientation, blocking.
 ---@param object integer handle
----@param relativeTo integer frame of the target, -1 for the world
+---@param relativeTo integer frame of the target, which may move: sim.handle_world, sim.handle_parent or a handle
 ---@param position number[] nil: unchanged
----@param angles number[] nil: unchanged
----@param velocity number limit
----@param acceleration? number limit; nil: none
-function sim.moveToPosition(object, relativeTo, position, angles, velocity, acceleration) end
+---@param angles number[] Euler angles; nil: unchanged
+---@param velocity number m/s
+---@param acceleration? number nil or 0: none is needed
+---@param distance? number[] sim.distcalcmethod_* and metres per radian
+---@return number timeLeft unused part of the last step, seconds
+function sim.moveToPosition(object, relativeTo, position, angles, velocity, acceleration, distance) end
 
---- A message with buttons, as simUI.msgBox.
+--- A message with buttons, as simUI.msgBox; without a person the answer is ok.
 ---@deprecated the simUI functionality
 ---@param dlgType integer sim.msgbox_type_*
 ---@param buttons integer sim.msgbox_buttons_*
@@ -2555,15 +2666,28 @@ function sim.releaseLock() end
 ---@return boolean result false for a single primitive, which keeps its frame
 function sim.relocateShapeFrame(shapeHandle, pose) end
 
---- Removes a collection; its objects stay.
+--- Removes a banner.
+---@deprecated
+---@param bannerId integer
+---@return integer result 1
+function sim.removeBanner(bannerId) end
+
+--- Removes a collection, or all; their objects stay.
 ---@deprecated sim.destroyCollection
----@param collectionHandle integer the collection
+---@param collectionHandle integer the collection, or sim.handle_all
+---@return integer result 1
 function sim.removeCollection(collectionHandle) end
 
 --- Removes a drawing object.
 ---@param drawingObjectHandle integer from sim.addDrawingObject, or sim.handle_all
 ---@return integer result 1
 function sim.removeDrawingObject(drawingObjectHandle) end
+
+--- Removes a group of inverse kinematics of an old scene.
+---@deprecated the simIK functionality
+---@param ikGroupHandle integer the group, or sim.handle_all
+---@return integer result 1
+function sim.removeIkGroup(ikGroupHandle) end
 
 --- Removes a model: its base and everything below.
 ---@param objectHandle integer base of the model
@@ -2613,9 +2737,11 @@ function sim.removeProperty(target, propertyName, options) end
 ---@param delayed? boolean as in sim.removeObjects
 function sim.removeReferencedObjects(objectHandle, tag, delayed) end
 
---- Removes a script object.
+--- Removes a script that is attached to an object, as in old scenes; script objects are removed as objects. A customization script ends
+--- after the present callbacks; a simulation script is removed only while the simulation is stopped.
 ---@deprecated sim.removeObject
----@param scriptHandle integer the script
+---@param scriptHandle integer the script, or sim.handle_self
+---@return integer result 1; -1 for sim.handle_all
 function sim.removeScript(scriptHandle) end
 
 --- Empties the cells that points are in.
@@ -2662,14 +2788,17 @@ function sim.resetDynamicObject(objectHandle) end
 ---@param objectHandle integer the graph, sim.handle_all or sim.handle_all_except_explicit
 function sim.resetGraph(objectHandle) end
 
+--- Does nothing: kinematic joints move by sim.handleJointMotion.
+---@param jointHandle integer any
+---@return integer result 1
+function sim.resetJoint(jointHandle) end
+
 --- Does nothing: mills are gone.
 ---@param millHandle integer any
----@return integer result 0
 function sim.resetMill(millHandle) end
 
 --- Does nothing: mills are gone.
 ---@param objectHandle integer any
----@return integer result 0
 function sim.resetMilling(objectHandle) end
 
 --- Forgets what a sensor that is tagged for explicit handling, or all sensors detected.
@@ -2699,32 +2828,33 @@ function sim.resumeThreads(location) end
 ---@param maxAccel number[] limits
 ---@param maxJerk number[] limits
 ---@param targetPos number[] one per joint
----@param targetVel number[] nil: at rest
----@return integer result 0: done
+---@param targetVel? number[] nil: at rest
+---@param direction? number[] of cyclic joints: 1 rising within a turn, -1 falling, 2 and -2 a turn more; 0: as targetPos is
+---@return integer result 1
 ---@return number[] newPos where the joints are now
 ---@return number[] newVel their velocities
 ---@return number[] newAccel their accelerations
 ---@return number timeLeft unused part of the last step
-function sim.rmlMoveToJointPositions(joints, flags, currentVel, currentAccel, maxVel, maxAccel, maxJerk, targetPos, targetVel) end
+function sim.rmlMoveToJointPositions(joints, flags, currentVel, currentAccel, maxVel, maxAccel, maxJerk, targetPos, targetVel, direction) end
 
 --- Moves an object to a pose, blocking.
 ---@deprecated sim.moveToPose
 ---@param object integer handle
----@param relativeTo integer frame of the target, -1 for the world
+---@param relativeTo integer frame of start and target: sim.handle_world, sim.handle_parent or a handle
 ---@param flags integer as in sim.ruckigPos
----@param currentVel number[] nil: at rest
----@param currentAccel number[] nil: zero
+---@param currentVel number[] ignored
+---@param currentAccel number[] ignored
 ---@param maxVel number[] x, y, z and angle
 ---@param maxAccel number[] x, y, z and angle
 ---@param maxJerk number[] x, y, z and angle
 ---@param targetPosition number[] nil: unchanged
 ---@param targetQuaternion number[] nil: unchanged
----@param targetVel number[] nil: at rest
----@return integer result 0: done
+---@param targetVel number[] ignored
+---@return integer result 1
 ---@return number[] newPos of the object
 ---@return number[] newQuaternion of the object
----@return number[] newVel x, y, z and angle
----@return number[] newAccel x, y, z and angle
+---@return number[] newVel zeros
+---@return number[] newAccel zeros
 ---@return number timeLeft unused part of the last step
 function sim.rmlMoveToPosition(object, relativeTo, flags, currentVel, currentAccel, maxVel, maxAccel, maxJerk, targetPosition, targetQuaternion, targetVel) end
 
@@ -2941,6 +3071,13 @@ function sim.setBufferProperty(target, propertyName, propertyState, options) end
 ---@return integer result 1
 function sim.setBufferSignal(name, value) end
 
+--- Names a collection, as in old scenes.
+---@deprecated
+---@param collectionHandle integer the collection
+---@param collectionName string a legal name that no other collection has
+---@return integer result 1
+function sim.setCollectionName(collectionHandle, collectionName) end
+
 --- Sets a property; names below `customData.` and `signal.` are created.
 ---@param target integer object or script, sim.handle_app, sim.handle_scene, sim.handle_self
 ---@param propertyName string its name
@@ -2997,8 +3134,8 @@ function sim.setEngineInt32Parameter(paramId, objectHandle, int32Param) end
 --- Selects the events delivered to `sysCall_event` of this script. The filter ends with the script's Lua state.
 function sim.setEventFilters(filters) end
 
---- Sets whether a sensor or graph is left out when all are handled.
----@param objectHandle integer proximity sensor, vision sensor or graph; collision or distance object of an old scene
+--- Sets whether an object is left out when all are handled. The tag of a joint changes nothing else.
+---@param objectHandle integer proximity sensor, vision sensor, graph, joint or path of V-REP; collision or distance object or IK group of an old scene
 ---@param explicitHandlingFlags integer 1 if so
 ---@return integer result 1
 function sim.setExplicitHandling(objectHandle, explicitHandlingFlags) end
@@ -3356,6 +3493,18 @@ function sim.setObjectStringParam(objectHandle, parameterId, parameter) end
 ---@param parameter string|table the text
 function sim.setObjectStringParameter(objectHandle, parameterId, parameter) end
 
+--- Moves the position on a path of V-REP, and the dummies that move with it.
+---@param pathHandle integer the path
+---@param position number metres of length; wrapped on closed paths, limited on others
+---@return integer result 1
+function sim.setPathPosition(pathHandle, position) end
+
+--- The velocity that the position on a path of V-REP shall have.
+---@param pathHandle integer the path
+---@param velocity number m/s, limited to 1000
+---@return integer result 1
+function sim.setPathTargetNominalVelocity(pathHandle, velocity) end
+
 --- Changes how a point cloud keeps and shows its points.
 ---@param pointCloudHandle integer the point cloud
 ---@param maxVoxelSize number largest cell, metres
@@ -3488,10 +3637,10 @@ function sim.setShapeMaterial(shapeHandle, materialIdOrShapeHandle) end
 ---@param orientation? number[] of the projection, Euler angles
 function sim.setShapeTexture(shapeHandle, textureId, mappingMode, options, uvScaling, position, orientation) end
 
---- Names an object after another one, with a suffix.
+--- Names an object after another one: the old name, with the suffix and the first free number.
 ---@param handle integer the object
----@param original string name of the other
----@param suffix string appended unless there already
+---@param original string name of the other; its `#` and number are kept
+---@param suffix string appended to the name
 function sim.setSimilarName(handle, original, suffix) end
 
 --- Turns a spherical joint.
@@ -3646,6 +3795,11 @@ function sim.switchThread() end
 ---@param key string|table its name
 ---@param acquire boolean true to acquire it, false to release it
 function sim.systemSemaphore(key, acquire) end
+
+--- Tests of the original's developers: there are none here.
+---@param cmd string any
+---@param ... any
+function sim.test(cmd, ...) end
 
 --- Closes a text editor.
 ---@param handle integer from sim.textEditorOpen
@@ -3890,6 +4044,11 @@ function simAddSceneCustomData(header, data) end
 ---@return any data empty if there is none
 function simGetObjectCustomData(objectHandle, header) end
 
+--- A path planning task of V-REP; none is kept.
+---@param pathPlanningObjectName string its name
+---@return integer pathPlanningObjectHandle
+function simGetPathPlanningHandle(pathPlanningObjectName) end
+
 --- Custom data of the scene under a number.
 ---@param header integer the number
 ---@return any data empty if there is none
@@ -3944,10 +4103,40 @@ function simGetUIProperty(elementHandle) end
 ---@return integer position 0 to 1000
 function simGetUISlider(elementHandle, buttonHandle) end
 
+--- Moves positions along their paths. The usual main script does it for those that are not tagged for explicit handling.
+---@param pathHandle integer a path of V-REP that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
+---@param deltaTime number seconds
+---@return integer result 1
+function simHandlePath(pathHandle, deltaTime) end
+
+--- Begins to plan a path; there are no tasks.
+---@param pathPlanningObjectHandle integer the task
+---@param maximumSearchTime number seconds
+---@param searchTimeStep number seconds
+---@return integer temporaryPathSearchObject
+function simInitializePathSearch(pathPlanningObjectHandle, maximumSearchTime, searchTimeStep) end
+
+--- Goes on planning a path; there are no tasks.
+---@param temporaryPathSearchObject integer from simInitializePathSearch
+---@param ... any
+---@return integer result
+function simPerformPathSearchStep(temporaryPathSearchObject, ...) end
+
 --- Removes user interfaces.
 ---@param elementHandle integer the user interface, or sim.handle_all
 ---@return integer result 1
 function simRemoveUI(elementHandle) end
+
+--- Puts paths back to their positions and velocities at the start of the simulation.
+---@param pathHandle integer as for simHandlePath
+---@return integer result 1
+function simResetPath(pathHandle) end
+
+--- Plans a path; there are no tasks.
+---@param pathPlanningObjectHandle integer the task
+---@param maximumSearchTime number seconds
+---@return integer result
+function simSearchPath(pathPlanningObjectHandle, maximumSearchTime) end
 
 --- Sets colours of a button, each red, green, blue from 0 to 1.
 ---@param elementHandle integer the user interface

@@ -33,7 +33,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 #[api("sim.createCollection")]
 fn create_collection(
     cx: &mut Cx,
-    #[default(Data::Int(0))] options: Data,
+    #[default(Data::Nil)] options: Data,
     #[default(0)] old_options: Number,
 ) -> Result<i64> {
     let overrides = |bits: i64| CollectionOptions::from_bits_retain(bits).contains(CollectionOptions::OVERRIDES);
@@ -44,7 +44,10 @@ fn create_collection(
         scene.collections_mut().set_name(handle, name)?;
         return Ok(handle);
     }
-    let bits = options.as_f64().ok_or(ApiError::NotA { position: 1, expected: "integer" })? as i64;
+    let bits = match options {
+        Data::Nil => 0,
+        number => number.as_f64().ok_or(ApiError::NotA { position: 1, expected: "integer" })? as i64,
+    };
     let owner = cx.script().id;
     Ok(cx.scene_mut().collections_mut().add(overrides(bits), Some(owner)))
 }

@@ -106,7 +106,7 @@ fn every_kind_of_the_simple_variant_is_understood() {
             && (eye.volume.angle - 60f64.to_radians()).abs() < 1e-9
     );
     assert_eq!(find("wrist").force_sensor().unwrap().force_threshold, 7.0);
-    assert!(find("path").custom_data.get("PATH").is_some());
+    assert_eq!(find("path").path().unwrap().control_points().len(), 2);
     for alias in ["camera", "light", "graph", "octree", "points", "script", "mirror", "follower"] {
         find(alias);
     }

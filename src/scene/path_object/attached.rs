@@ -26,6 +26,9 @@ pub struct PathFollowing {
 }
 
 impl PathFollowing {
+    /// The bits that have a meaning.
+    pub const BITS: u8 = 0xe;
+
     fn attachment(self, is_child_of_path: bool) -> Option<Attachment> {
         match self.bits {
             bits if bits & 0x2 != 0 && is_child_of_path && bits & 0x4 == 0 => Some(Attachment::Fixed),

@@ -166,7 +166,7 @@ fn colour(new: &mut Object, context: &Context<'_>, class: &Class) {
         Class::Graph(graph) => &graph.colour,
         Class::OcTree(tree) => &tree.colour,
         Class::PointCloud(cloud) => &cloud.colour,
-        Class::Path(path) => path.path.as_ref().map_or(&None, |line| &line.colour),
+        Class::Path(path) => path.path.as_ref().map_or(&path.colour, |line| &line.colour),
         Class::ScriptObject(script) => &script.colour,
         _ => &None,
     };

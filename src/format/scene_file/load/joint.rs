@@ -159,7 +159,7 @@ pub(super) fn dummy(chunk: &DummyChunk) -> Dummy {
         dummy.assembly_tag = tag;
     }
     dummy.path_following = PathFollowing {
-        bits: chunk.switches.unwrap_or(0),
+        bits: chunk.switches.unwrap_or(0) & PathFollowing::BITS,
         offsets: chunk.path_offsets.or(chunk.path_off.map(|offset| [offset.into(); 2])).unwrap_or_default(),
     };
     if let Some(mujoco) = &chunk.mujoco {

@@ -10,6 +10,7 @@ use crate::scene::path_object::{
 
 /// The bit of [`Path::flags`]; the others concern the shape along the path.
 const EXPLICIT: u8 = 0x20;
+const SHAPING: u8 = 0xf;
 
 pub(super) fn path(chunk: &Path) -> PathObject {
     let usual = PathControl::default();
@@ -26,7 +27,7 @@ pub(super) fn path(chunk: &Path) -> PathObject {
     (path.line_size, path.point_size) = line.line.unwrap_or((path.line_size, path.point_size));
     let flags = chunk.flags.unwrap_or(0);
     path.explicit = flags & EXPLICIT != 0;
-    path.shaping = Some(shaping(chunk, flags & !EXPLICIT));
+    path.shaping = Some(shaping(chunk, flags & SHAPING));
     path
 }
 
