@@ -149,6 +149,7 @@ fn word(kind: &Kind) -> &'static str {
         Kind::Graph(_) => "graph",
         Kind::Camera(_) => "camera",
         Kind::Dummy(_) => "dummy",
+        Kind::Path(_) => "path",
         Kind::ProximitySensor(_) => "proximitySensor",
         Kind::VisionSensor(_) => "visionSensor",
         Kind::ForceSensor(_) => "forceSensor",

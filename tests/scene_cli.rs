@@ -64,10 +64,10 @@ fn inspect_tells_what_is_in_a_scene() {
 #[test]
 fn inspect_tells_what_is_missing() {
     let folder = folder();
-    let scene = unpacked(folder.path(), |text| text.replace("sim.setJointTargetPosition", "sim.cameraFitToView"));
+    let scene = unpacked(folder.path(), |text| text.replace("sim.setJointTargetPosition", "sim.frobnicate"));
     let output = command("inspect", &[&scene]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stdout(&output).contains("missing      sim.cameraFitToView"), "{}", stdout(&output));
+    assert!(stdout(&output).contains("missing      sim.frobnicate"), "{}", stdout(&output));
 }
 
 #[test]
@@ -101,13 +101,22 @@ fn doctor_tells_what_works() {
     assert_eq!(works.status.code(), Some(0), "{}", stdout(&works));
     let folder = folder();
     let file = folder.path().join("robot.lua");
-    fs::write(&file, "sim = require 'sim'\nsim.getObject('/a')\nsim.cameraFitToView(1, 2, 0)\n").expect("writable");
+    fs::write(&file, "sim = require 'sim'\nsim.getObject('/a')\nsim.frobnicate(1, 2, 0)\n").expect("writable");
     let output = command("doctor", &[folder.path()]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stdout(&output).contains("sim.cameraFitToView: line 3"), "{}", stdout(&output));
+    assert!(stdout(&output).contains("sim.frobnicate: line 3"), "{}", stdout(&output));
     let json = command("doctor", &[&file, Path::new("--json")]);
     let report: Value = serde_json::from_slice(&json.stdout).expect("JSON");
     assert_eq!(report["summary"]["missing"], 1);
+    fs::write(folder.path().join("broken.ttt"), "VREP and no more").expect("writable");
+    fs::write(folder.path().join("old.lua"), "simRMLPos() sim.getObjectName(1)").expect("writable");
+    let output = command("doctor", &[folder.path(), Path::new("--deprecated")]);
+    assert_eq!(output.status.code(), Some(2));
+    let text = stdout(&output);
+    assert!(
+        text.contains("sim.frobnicate: line 3") && text.contains("deprecated   sim.getObjectName: line 1"),
+        "{text}"
+    );
 }
 
 #[test]

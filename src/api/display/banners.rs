@@ -78,7 +78,7 @@ fn camera_fit_to_view(
         let view = scene.object(camera)?.camera()?.view.clone();
         let (centre, radius) = ball_around(&scene, &shown(&scene, camera, &object_handles)?)?;
         let scaling = if scaling.is_finite() && scaling > 0.0 { scaling } else { 1.0 };
-        let distance = radius / scaling / libm::sin(0.5 * view.angle.clamp(0.01, 3.0));
+        let distance = radius / scaling / (0.5 * view.angle.clamp(0.01, 3.0)).sin();
         let rotation = scene.world_pose(camera)?.rotation;
         Pose::from_parts((centre.coords - rotation * Vector3::z() * distance).into(), rotation)
     };

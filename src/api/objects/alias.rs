@@ -31,7 +31,7 @@ fn get_object(cx: &Cx, path: Bytes, #[default(None)] options: Option<Table>) -> 
 /// @param nameSuffix the number that the script adds to old names without one; -1: none
 /// @return objectHandle the object
 #[api("sim._getObjectHandle")]
-fn get_object_handle(
+pub(in crate::api) fn get_object_handle(
     cx: &Cx,
     path: Data,
     #[default(None)] options: Option<Table>,

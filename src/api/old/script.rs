@@ -4,6 +4,8 @@ use std::rc::Rc;
 
 use api_macro::api;
 
+use crate::api::objects::alias::get_object_handle;
+use crate::api::objects::old_name::suffix_of_script;
 use crate::api::scripts::script::script_of;
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::object::script_object::ScriptType;
@@ -159,32 +161,61 @@ fn get_customization_script_associated_with_object(cx: &Cx, object_handle: Numbe
 
 /// Handle of a script.
 ///
-/// @param scriptType sim.scripttype_*; sim.handle_self or nil for the caller; V-REP gave the name of an object here, for its simulation script
-/// @param scriptName path of the object the script belongs to, or the display name of an add-on
+/// @param scriptType sim.scripttype_*; sim.handle_self or nil for the caller. V-REP gave the name of an object here, for its simulation script, with `customization@` before it for its customization script
+/// @param scriptName path, old-style name or handle of the object the script belongs to, or the display name of an add-on
 /// @param objectHandle the object the script belongs to
-/// @return scriptHandle
+/// @return scriptHandle -1 if the object has none of that type
 #[api("sim.getScriptHandle")]
 fn get_script_handle(
     cx: &Cx,
     #[default(Data::Nil)] script_type: Data,
-    #[default("")] script_name: String,
+    #[default(Data::Nil)] script_name: Data,
     #[default(special::WORLD)] object_handle: Number,
 ) -> Result<i64> {
     let script_type = match script_type {
         Data::Nil | Data::Int(special::SELF) => return Ok(cx.script().id),
-        Data::Int(number) => number,
-        Data::Text(name) => {
-            let name = String::from_utf8_lossy(&name).into_owned();
-            return cx.script_by_name(ScriptType::Simulation, &name);
-        }
+        Data::Int(number) => ScriptType::from_number(number).ok_or(ApiError::NoSuchScript)?,
+        Data::Text(name) => return script_of_name(cx, &String::from_utf8_lossy(&name)),
         _ => return Err(ApiError::NotA { position: 1, expected: "integer" }),
     };
-    let script_type = ScriptType::from_number(script_type).ok_or(ApiError::NoSuchScript)?;
-    if object_handle.0 == special::WORLD {
-        return cx.script_by_name(script_type, &script_name);
+    let name = match &script_name {
+        Data::Text(name) => String::from_utf8_lossy(name).into_owned(),
+        _ => String::new(),
+    };
+    if matches!(script_type, ScriptType::Main | ScriptType::Sandbox | ScriptType::AddOn) {
+        return cx.script_by_name(script_type, &name);
     }
-    let object = object(cx, object_handle.0)?;
-    Ok(cx.script_attached_to(object, script_type).unwrap_or(special::WORLD))
+    let handle = match script_name {
+        Data::Int(handle) => handle,
+        _ if object_handle.0 != special::WORLD => object_handle.0,
+        _ => named_object(cx, &name)?,
+    };
+    if handle == special::WORLD {
+        return Ok(handle);
+    }
+    Ok(cx.script_attached_to(object(cx, handle)?, script_type).unwrap_or(special::WORLD))
+}
+
+/// The object at a path or with an old-style name; -1 with `@silentError`.
+fn named_object(cx: &Cx, name: &str) -> Result<i64> {
+    get_object_handle(cx, Data::Text(name.into()), None, suffix_of_script(cx))
+}
+
+/// The script attached to a named object, as V-REP called it; the main script without a name.
+fn script_of_name(cx: &Cx, name: &str) -> Result<i64> {
+    let (script_type, name) = match name.split_once('@') {
+        Some(("customization", name)) => (ScriptType::Customization, name),
+        Some(("child", name)) => (ScriptType::Simulation, name),
+        _ if name.is_empty() => return cx.script_by_name(ScriptType::Main, ""),
+        _ => (ScriptType::Simulation, name),
+    };
+    let handle = named_object(cx, name)?;
+    if handle == special::WORLD {
+        return Ok(handle);
+    }
+    let script = cx.script_attached_to(object(cx, handle)?, script_type).and_then(|id| cx.script_by_handle(id));
+    let attached = script.filter(|script| script.object.is_none());
+    attached.map(|script| script.id).ok_or(ApiError::NoSuchScript)
 }
 
 /// A new script without an object; sim.associateScriptWithObject attaches it to one.

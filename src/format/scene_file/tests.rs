@@ -268,7 +268,7 @@ fn what_v_rep_had_is_kept() {
     scene.ik_groups_mut().add(IkGroup {
         name: "reach".into(),
         persistent_uid: "1".into(),
-        explicit: false,
+        explicit: true,
         method: 1,
         flags: 1,
         performed_after: -1,
@@ -295,5 +295,6 @@ fn what_v_rep_had_is_kept() {
     assert!(again.collections().named("goods").is_some());
     let group = again.ik_groups().get(again.ik_groups().named("reach").unwrap()).unwrap();
     assert_eq!((group.elements[0].tip, group.elements[0].base), (pad_again, Some(path_again)));
+    assert!(group.explicit);
     assert_eq!((group.damping, group.max_iterations, group.elements[0].constraints), (0.25, 5, 7));
 }

@@ -1,3 +1,5 @@
+//! Lengths, places, orientations and motion along paths.
+
 use std::f64::consts::FRAC_PI_2;
 
 use super::*;

@@ -7,6 +7,9 @@ use crate::format::ttt::{File, Text};
 use crate::scene::tree::ik_groups::{IkElement, IkGroup};
 use crate::scene::{Handle, Scene};
 
+/// Set where a group is handled explicitly.
+pub(in crate::format::scene_file) const EXPLICIT: u8 = 0x40;
+
 /// Adds the groups; elements whose tip is gone are left out. Their names are numbered as those of the objects of the file are.
 pub(super) fn add(scene: &mut Scene, file: &File, objects: &[Handle], map: &HandleMap) {
     for chunk in &file.contents.ik_groups {
@@ -20,9 +23,9 @@ fn group(scene: &Scene, file: &File, objects: &[Handle], map: &HandleMap, chunk:
     IkGroup {
         name: numbered(scene, file, objects, text(&chunk.name)),
         persistent_uid: text(&chunk.persistent_id),
-        explicit: false,
+        explicit: chunk.flags.unwrap_or(0) & EXPLICIT != 0,
         method: chunk.method.unwrap_or(0),
-        flags: chunk.flags.unwrap_or(0),
+        flags: chunk.flags.unwrap_or(0) & !EXPLICIT,
         performed_after: chunk.do_on.unwrap_or(-1),
         max_iterations: chunk.max_iter.unwrap_or(3),
         damping: chunk.damping.filter(|damping| damping.is_finite()).unwrap_or(0.1),

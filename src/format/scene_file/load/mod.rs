@@ -20,6 +20,7 @@ mod texture;
 
 use std::collections::BTreeMap;
 
+pub(super) use ik_groups::EXPLICIT as EXPLICIT_IK_GROUP;
 pub(super) use references::UNNAMED_COLLECTION;
 
 use super::{Loaded, LoadedScript, ScriptCode, ScriptSources, read_file};

@@ -1,6 +1,7 @@
 //! Groups of inverse kinematics of old scenes, whose tips are saved.
 
 use super::Context;
+use crate::format::scene_file::load::EXPLICIT_IK_GROUP;
 use crate::format::ttt::chunks::{IkElement as ElementChunk, IkGroup as GroupChunk};
 use crate::scene::tree::ik_groups::{IkElement, IkGroup};
 
@@ -18,7 +19,7 @@ fn group(context: &Context<'_>, handle: i64, group: &IkGroup) -> GroupChunk {
         damping: Some(group.damping),
         method: Some(group.method),
         do_on: Some(group.performed_after),
-        flags: Some(group.flags),
+        flags: Some(group.flags | if group.explicit { EXPLICIT_IK_GROUP } else { 0 }),
         persistent_id: Some(group.persistent_uid.as_str().into()),
         elements: (0..).zip(&group.elements).map(|(at, saved)| element(context, at, saved)).collect(),
         ..GroupChunk::default()
