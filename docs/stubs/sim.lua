@@ -1717,10 +1717,10 @@ function sim.getScriptFunctions(handle, scriptType) end
 
 --- Handle of a script.
 ---@deprecated sim.getObject
----@param scriptType? any sim.scripttype_*; sim.handle_self or nil for the caller; V-REP gave the name of an object here, for its simulation script
----@param scriptName? string path of the object the script belongs to, or the display name of an add-on
+---@param scriptType? any sim.scripttype_*; sim.handle_self or nil for the caller. V-REP gave the name of an object here, for its simulation script, with `customization@` before it for its customization script
+---@param scriptName? any path, old-style name or handle of the object the script belongs to, or the display name of an add-on
 ---@param objectHandle? integer the object the script belongs to
----@return integer scriptHandle
+---@return integer scriptHandle -1 if the object has none of that type
 function sim.getScriptHandle(scriptType, scriptName, objectHandle) end
 
 --- An integer parameter of a script.
