@@ -68,6 +68,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("libm", "src/modules/sim_eigen"),
     ("libm", "src/perception"),
     ("libm", "crates/kinematics"),
+    ("libm", "crates/planning"),
     ("libm", "crates/rendering"),
     ("memchr", "src/format/xml"),
     ("memchr", "src/io/socket"),

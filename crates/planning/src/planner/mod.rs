@@ -1,0 +1,157 @@
+//! Planners, by the names under which they are known.
+
+mod connect;
+mod expansive;
+mod fmt;
+mod grid;
+mod lazy_roadmap;
+mod roadmap;
+mod rrt;
+mod rrt_star;
+
+use crate::{Problem, Refusal, Solution, State};
+
+/// What a planner has found out so far.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PlannerData {
+    pub states: Vec<State>,
+    /// Pairs of places.
+    pub edges: Vec<(usize, usize)>,
+    pub starts: Vec<usize>,
+    pub goals: Vec<usize>,
+}
+
+/// A planner, which goes on where it has ended when it is asked again.
+pub trait Planner {
+    /// Plans for at most so many iterations, or until the world has enough. The best path so far; None where there is none.
+    ///
+    /// # Errors
+    /// When there is nothing to plan.
+    fn solve(&mut self, problem: &mut Problem<'_>, iterations: u64) -> Result<Option<Solution>, Refusal>;
+
+    /// What was found out.
+    fn data(&self) -> PlannerData;
+}
+
+/// The names of planners, with the numbers they have in simOMPL.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Algorithm {
+    BiTrrt = 30001,
+    BitStar = 30002,
+    Bkpiece1 = 30003,
+    CForest = 30004,
+    Est = 30005,
+    Fmt = 30006,
+    Kpiece1 = 30007,
+    LazyPrm = 30008,
+    LazyPrmStar = 30009,
+    LazyRrt = 30010,
+    Lbkpiece1 = 30011,
+    LbtRrt = 30012,
+    Pdst = 30013,
+    Prm = 30014,
+    PrmStar = 30015,
+    Rrt = 30016,
+    RrtConnect = 30017,
+    RrtStar = 30018,
+    Sbl = 30019,
+    Spars = 30020,
+    SparsTwo = 30021,
+    Stride = 30022,
+    Trrt = 30023,
+}
+
+impl Algorithm {
+    pub const ALL: [Self; 23] = [
+        Self::BiTrrt,
+        Self::BitStar,
+        Self::Bkpiece1,
+        Self::CForest,
+        Self::Est,
+        Self::Fmt,
+        Self::Kpiece1,
+        Self::LazyPrm,
+        Self::LazyPrmStar,
+        Self::LazyRrt,
+        Self::Lbkpiece1,
+        Self::LbtRrt,
+        Self::Pdst,
+        Self::Prm,
+        Self::PrmStar,
+        Self::Rrt,
+        Self::RrtConnect,
+        Self::RrtStar,
+        Self::Sbl,
+        Self::Spars,
+        Self::SparsTwo,
+        Self::Stride,
+        Self::Trrt,
+    ];
+
+    /// The algorithm with that number.
+    pub fn from_number(number: i64) -> Option<Self> {
+        Self::ALL.into_iter().find(|algorithm| *algorithm as i64 == number)
+    }
+
+    /// Whether it makes its path shorter until it is stopped.
+    pub fn is_optimising(self) -> bool {
+        use Algorithm as A;
+        matches!(
+            self,
+            A::BitStar | A::CForest | A::LazyPrmStar | A::LbtRrt | A::PrmStar | A::RrtStar | A::Spars | A::SparsTwo
+        )
+    }
+
+    /// Whether it needs a projection.
+    pub fn needs_projection(self) -> bool {
+        use Algorithm as A;
+        matches!(self, A::Kpiece1 | A::Bkpiece1 | A::Lbkpiece1 | A::Sbl | A::Pdst)
+    }
+
+    /// A planner. Names with the same guarantee share an implementation: CForest and LBTRRT are RRT*, SPARS and SPARStwo are PRM*, STRIDE is
+    /// EST, PDST is KPIECE1; BIT* and LazyPRM* differ in where they sample.
+    pub fn planner(self) -> Box<dyn Planner> {
+        use Algorithm as A;
+        match self {
+            A::Rrt => Box::new(rrt::Rrt::new(rrt::Kind::Plain)),
+            A::LazyRrt => Box::new(rrt::Rrt::new(rrt::Kind::Lazy)),
+            A::Trrt => Box::new(rrt::Rrt::new(rrt::Kind::Transition)),
+            A::RrtConnect => Box::new(connect::Connect::new(false)),
+            A::BiTrrt => Box::new(connect::Connect::new(true)),
+            A::RrtStar | A::CForest | A::LbtRrt => Box::new(rrt_star::RrtStar::new(self == A::CForest)),
+            A::Prm => Box::new(roadmap::Roadmap::new(false)),
+            A::PrmStar | A::Spars | A::SparsTwo => Box::new(roadmap::Roadmap::new(true)),
+            A::LazyPrm => Box::new(lazy_roadmap::LazyRoadmap::new(lazy_roadmap::Kind::First)),
+            A::LazyPrmStar => Box::new(lazy_roadmap::LazyRoadmap::new(lazy_roadmap::Kind::Optimal)),
+            A::BitStar => Box::new(lazy_roadmap::LazyRoadmap::new(lazy_roadmap::Kind::Informed)),
+            A::Kpiece1 | A::Pdst => Box::new(grid::Single::default()),
+            A::Bkpiece1 => Box::new(grid::Double::new(grid::Kind::Bkpiece)),
+            A::Lbkpiece1 => Box::new(grid::Double::new(grid::Kind::Lbkpiece)),
+            A::Sbl => Box::new(grid::Double::new(grid::Kind::Sbl)),
+            A::Est | A::Stride => Box::new(expansive::Expansive::default()),
+            A::Fmt => Box::new(fmt::FastMarching::default()),
+        }
+    }
+}
+
+/// Part of the samples that are states of the goal.
+const GOAL_BIAS: f64 = 0.05;
+
+/// The longest step of planners, as a part of the extent.
+const RANGE: f64 = 0.2;
+
+/// The longest step of planners that test transitions.
+const COST_RANGE: f64 = 0.175;
+
+/// A state that is at least this part of the extent away explores; nearer ones refine.
+const FRONTIER: f64 = 0.01;
+
+/// The ratio of states that refine to those that explore.
+const FRONTIER_RATIO: f64 = 0.1;
+
+/// Keeps the best of the paths found so far.
+fn keep_best(best: &mut Option<Solution>, found: Solution, problem: &Problem<'_>) {
+    if best.as_ref().is_none_or(|best| found.is_better(best, problem.space)) {
+        *best = Some(found);
+    }
+}
