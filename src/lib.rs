@@ -5,6 +5,7 @@ pub mod cli;
 pub mod docs;
 mod dynamics;
 mod format;
+mod ik;
 mod io;
 mod modules;
 mod perception;

@@ -9,6 +9,7 @@ pub(crate) mod remote;
 mod sim_convex;
 mod sim_eigen;
 mod sim_geom;
+mod sim_ik;
 mod sim_im;
 pub(crate) mod sim_remote_api;
 mod sim_subprocess;
@@ -41,6 +42,7 @@ pub(crate) static ALL: &[&Module] = &[
     &sim_convex::MODULE,
     &sim_eigen::MODULE,
     &sim_geom::MODULE,
+    &sim_ik::MODULE,
     &sim_im::MODULE,
     &sim_remote_api::MODULE,
     &sim_subprocess::MODULE,

@@ -51,9 +51,9 @@ pub(crate) use binding::module::pairs;
 pub(crate) use binding::registry::{Member, Registry, member_by_rule};
 pub(crate) use binding::states::States;
 pub(crate) use binding::{functions, needs_lua};
-pub(crate) use calls::handler::Handler;
 #[cfg(test)]
 pub(crate) use calls::handler::HeldFunction;
+pub(crate) use calls::handler::{Handler, ScriptCallback};
 pub(crate) use events::Filters;
 pub(crate) use files::app_storage::Section;
 pub(crate) use files::scene_save::readable_bytes;

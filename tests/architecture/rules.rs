@@ -4,7 +4,7 @@
 pub const LAYERS: &[&[&str]] = &[
     &["scene"],
     &["permissions", "ui", "wire"],
-    &["dynamics", "format", "io", "perception"],
+    &["dynamics", "format", "ik", "io", "perception"],
     &["script"],
     &["api"],
     &["modules"],
@@ -64,6 +64,8 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("image_webp", "src/format/video"),
     ("imaging", "src/modules"),
     ("indicatif", "src/cli"),
+    ("kinematics", "src/ik"),
+    ("kinematics", "src/modules"),
     ("libc", "src/io/signals.rs"),
     ("libm", "src/modules/sim_eigen"),
     ("libm", "src/perception"),

@@ -153,36 +153,6 @@ fn a_scene_has_its_own_files_where_the_library_has_some_for_itself() {
 }
 
 #[test]
-fn a_motion_by_inverse_kinematics_uses_the_module_that_is_there() {
-    let scene = Scene::new(
-        "sim = require 'sim'
-        function sysCall_thread()
-            local tip, target = sim.createDummy(0.01), sim.createDummy(0.01)
-            local params = {ik = {tip = tip, target = target, breakFlags = 16}, targetPose = {0.3, 0.4, 0, 0, 0, 0, 1},
-                metric = {1, 1, 1, 0.1}, maxVel = 0.5, maxAccel = 1, maxJerk = 10}
-            sim.moveToPose(params)
-            print(table.unpack(sim.getObjectPosition(target)))
-            require('simIK').flags = 16
-            print(pcall(sim.moveToPose, params))
-        end",
-    );
-    let simik = "local M = {flags = 0, method_damped_least_squares = 1, constraint_pose = 31}
-        function M.createEnvironment() return 5 end
-        function M.createGroup(env) return 6 end
-        function M.setGroupCalculation(...) print('calculation', ...) end
-        function M.addElementFromScene(env, group, base, tip, target, constraints) print('element', base, constraints) return 7, {} end
-        function M.setElementPrecision(env, group, element, precision) print('precision', element, precision[1]) end
-        function M.handleGroup(env, group, options) return 1, M.flags end
-        function M.eraseEnvironment(env) print('erased', env) end
-        return M";
-    fs::write(scene.folder.path().join("simIK.lua"), simik).expect("our own folder is writable");
-    let output = scene.run(&["--as", "simulation", "--time", "3", "--empty"]);
-    let begun = "calculation, 5, 6, 1, 0.02, 20\nelement, -1, 31\nprecision, 7, 0.001\n";
-    let first = format!("{begun}erased, 5\n0.3, 0.4, 0.\n");
-    assert_eq!(stdout(&output), format!("{first}{begun}erased, 5\nfalse, inverse kinematics failed, flags 16\n"));
-}
-
-#[test]
 fn add_ons_start_before_the_scene() {
     let scene = Scene::new("print('scene')");
     let add_on = scene.folder.path().join("extra.lua");

@@ -89,11 +89,10 @@ fn a_run_without_an_end_says_so_once() {
 
 #[test]
 fn a_missing_plugin_is_named_in_one_line() {
-    let said = "simIK is a plugin of CoppeliaSim that Swanilda does not have yet (docs/PLUGINS.md)";
-    for code in [
-        "print(select(2, pcall(require, 'simIK')))",
-        "print(select(2, pcall(function() simIK.createEnvironment() end)))",
-    ] {
+    let said = "simCHAI3D is a plugin of CoppeliaSim that Swanilda does not have yet (docs/PLUGINS.md)";
+    for code in
+        ["print(select(2, pcall(require, 'simCHAI3D')))", "print(select(2, pcall(function() simCHAI3D.start() end)))"]
+    {
         let output = Scene::new(code).run(&["--steps", "1", "--empty", "--quiet"]);
         assert_eq!(stdout(&output), format!("{said}\n"), "{code}: {}", stderr(&output));
     }
@@ -117,8 +116,8 @@ fn original_errors_list_the_places_where_a_plugin_was_searched() {
 
 #[test]
 fn a_scene_s_own_module_goes_before_a_missing_plugin() {
-    let scene = Scene::new("print(require('simIK').mine)");
-    fs::write(scene.folder.path().join("simIK.lua"), "return {mine = 7}").expect("our own folder is writable");
+    let scene = Scene::new("print(require('simCHAI3D').mine)");
+    fs::write(scene.folder.path().join("simCHAI3D.lua"), "return {mine = 7}").expect("our own folder is writable");
     assert_eq!(stdout(&scene.run(&["--steps", "1", "--empty", "--quiet"])), "7\n");
 }
 
@@ -144,8 +143,8 @@ fn errors_name_file_line_and_object() {
     assert!(log.contains(&format!("[/Script:error]   {path}:2: attempt to index a nil value")), "{log}");
     let (log, path) = log_of("x = 1\ny = = 2");
     assert!(log.contains(&format!("{path}:2: unexpected symbol")), "{log}");
-    let (log, path) = log_of("sim = require 'sim'\nrequire 'simIK'");
-    assert!(log.contains(&format!("{path}:2: simIK is a plugin")) && !log.contains("\"base\""), "{log}");
+    let (log, path) = log_of("sim = require 'sim'\nrequire 'simCHAI3D'");
+    assert!(log.contains(&format!("{path}:2: simCHAI3D is a plugin")) && !log.contains("\"base\""), "{log}");
 }
 
 #[test]

@@ -138,10 +138,7 @@ impl Environment {
     }
 
     /// The frame in which a chain begins: the moving side of its base.
-    pub(crate) fn start_of(&self, tip_base: Option<ObjectId>) -> Result<Rigid> {
-        let Some(base) = tip_base else { return Ok(Rigid::identity()) };
-        let pose = self.pose(base, Frame::World)?;
-        let moved = self.object(base)?.joint().map_or(pose, |joint| pose * joint.motion());
-        Ok(Rigid::from(&moved))
+    pub(crate) fn start_of(&self, base: Option<ObjectId>) -> Result<Rigid> {
+        base.map_or(Ok(Rigid::identity()), |base| self.moving_side(base).map(|pose| Rigid::from(&pose)))
     }
 }

@@ -15,7 +15,7 @@ pub enum Frame {
     World,
     /// The moving side of the parent.
     Parent,
-    /// An object; of a joint, its resting side.
+    /// An object; of a joint, its moving side.
     Object(ObjectId),
 }
 
@@ -128,10 +128,14 @@ impl Environment {
         Ok(match frame {
             Frame::Parent => object.pose,
             Frame::World => self.parent_side(object)? * object.pose,
-            Frame::Object(other) => {
-                self.pose(other, Frame::World)?.inverse() * (self.parent_side(object)? * object.pose)
-            }
+            Frame::Object(other) => self.moving_side(other)?.inverse() * (self.parent_side(object)? * object.pose),
         })
+    }
+
+    /// An object in the world; of a joint, its moving side.
+    pub(crate) fn moving_side(&self, id: ObjectId) -> Result<Pose> {
+        let pose = self.pose(id, Frame::World)?;
+        Ok(self.object(id)?.joint().map_or(pose, |joint| pose * joint.motion()))
     }
 
     /// The moving side of the parent, in the world.
@@ -156,7 +160,7 @@ impl Environment {
         let local = match frame {
             Frame::Parent => pose,
             Frame::World => self.parent_side(object)?.inverse() * pose,
-            Frame::Object(other) => self.parent_side(object)?.inverse() * (self.pose(other, Frame::World)? * pose),
+            Frame::Object(other) => self.parent_side(object)?.inverse() * (self.moving_side(other)? * pose),
         };
         geometry::pose::pose_to_array(&local).finite().ok_or(KinematicsError::NotFinite)?;
         let within_chains = object.children > 0 || object.joint().is_some() || self.is_tip(id);

@@ -16,7 +16,7 @@
 //! # Units and frames
 //!
 //! Metres and radians. A joint moves along or about the z axis of its own frame; its children are attached to its moving side. Poses relative
-//! to a joint refer to its resting side. Orientation errors are Euler angles (alpha, beta, gamma; R = Rx Ry Rz) of the target as the tip sees it. Rows of a full orientation
+//! to a joint refer to its moving side. Orientation errors are Euler angles (alpha, beta, gamma; R = Rx Ry Rz) of the target as the tip sees it. Rows of a full orientation
 //! are along the axes of the constraint base, as those of positions; rows of a part of it (`alpha_beta` alone, `gamma` alone) along the
 //! axes of the tip, whose z they are about.
 //!
@@ -78,6 +78,7 @@ pub use geometry::Pose;
 pub use group::{Constraints, Element, ElementId, Flags, Group, GroupFlags, GroupId, LimitHit, Method};
 pub use joint::{Dependency, Joint, JointMode, JointType, Law};
 pub use object::{Kind, Object, ObjectId};
+pub use queries::Posture;
 pub use random::Random;
 pub use search::Start;
 pub use solver::{Outcome, Revise, Revision};

@@ -4,7 +4,17 @@ use crate::environment::{Environment, Frame};
 use crate::equations::{Angles, Equations};
 use crate::error::Result;
 use crate::group::{Constraints, GroupId};
-use crate::object::ObjectId;
+use crate::joint::Joint;
+use crate::object::{Object, ObjectId};
+use nalgebra::UnitQuaternion;
+
+/// Where a joint was.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Posture {
+    joint: ObjectId,
+    position: f64,
+    rotation: UnitQuaternion<f64>,
+}
 
 impl Environment {
     /// Jacobian and errors of a group as it is; None where it has no valid element.
@@ -58,5 +68,26 @@ impl Environment {
         let element = copy.element_mut(group, element)?;
         (element.base, element.constraint_base, element.constraints) = (base, axes.map(|_| frame), constraints);
         copy.equations(group)
+    }
+
+    /// Where all joints are.
+    pub fn postures(&self) -> Vec<Posture> {
+        let joints = self.objects().filter_map(|(id, object)| object.joint().map(|joint| (id, joint)));
+        joints
+            .map(|(joint, Joint { position, rotation, .. })| Posture {
+                joint,
+                position: *position,
+                rotation: *rotation,
+            })
+            .collect()
+    }
+
+    /// Puts joints back to where they were.
+    pub fn set_postures(&mut self, before: &[Posture]) {
+        for posture in before {
+            if let Some(joint) = self.objects[posture.joint.0].as_mut().and_then(Object::joint_mut) {
+                (joint.position, joint.rotation) = (posture.position, posture.rotation);
+            }
+        }
     }
 }

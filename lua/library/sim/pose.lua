@@ -33,8 +33,7 @@ local function startIk(data, level)
     if not (math.tointeger(ik.tip) and math.tointeger(ik.target)) then
         error("missing or invalid 'tip' or 'target' field in 'ik'.", level)
     end
-    local found, simIK = pcall(require, 'simIK')
-    if not found then error("not implemented in Swanilda: simIK, which the field 'ik' needs.", level) end
+    local simIK = require 'simIK'
     sim.setObjectPose(ik.target, sim.getObjectPose(ik.tip))
     local env = simIK.createEnvironment()
     local group = simIK.createGroup(env)

@@ -64,6 +64,29 @@ impl Handler {
     }
 }
 
+/// A function of a script that native code may call for as long as the script runs.
+pub(crate) struct ScriptCallback {
+    sim: Weak<Sim>,
+    script: Weak<Script>,
+    handler: Handler,
+}
+
+impl ScriptCallback {
+    /// From a parameter of the calling script.
+    pub(crate) fn new(cx: &Cx, given: ScriptFunction) -> Self {
+        let handler = Handler::new(cx, given);
+        Self { sim: cx.env().sim.clone(), script: Rc::downgrade(cx.script()), handler }
+    }
+
+    /// # Errors
+    /// When the function fails, or its script has ended.
+    pub(crate) fn call(&self, args: &[Data]) -> ApiResult<Vec<Data>> {
+        let alive = self.sim.upgrade().zip(self.script.upgrade());
+        let (sim, script) = alive.ok_or(ApiError::ScriptNotInitialized)?;
+        sim.try_handler(&script, &self.handler, args)
+    }
+}
+
 impl Sim {
     /// Calls a handler; one by name is a function of `script`. A failure is logged and counted, and the script continues: it must not
     /// end because of what a peer has sent.
