@@ -53,11 +53,7 @@ return function(simEigen)
         if type(rows) == 'table' then return Matrix:fromtable(rows) end
         if type(data) == 'table' and rows == -1 and cols > 0 then rows = #data // cols end
         if type(data) == 'table' and cols == -1 and rows > 0 then cols = #data // rows end
-        if type(data) == 'number' then
-            local value = data
-            data = {}
-            for i = 1, rows * cols do data[i] = value end
-        end
+        if type(data) == 'number' then return wrap(made(simEigen.mtxNew, rows, cols)):iadd(data) end
         return wrap(made(simEigen.mtxNew, rows, cols, data or {}))
     end
 

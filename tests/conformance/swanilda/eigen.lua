@@ -68,7 +68,7 @@ for _, f in ipairs{
     function() return a | b end, function() return a:freeze() end, function() return a:data(1) end, function() return a:item(3, 1) end,
     function() return Matrix(-1, 2) end, function() return Matrix(100000, 100000) end, function() return Quaternion{1} end,
     function() return Quaternion{0, 0, 0, 0}:inv() end, function() return m:det() end, function() return Matrix(1, 1, {0 / 0}):svd() end,
-    function() return Matrix{{1, 2}, {3}} end, function() return Vector{1, 2}:cross(Vector{1, 2}) end, function() return -q end,
+    function() return Matrix(100000, 100000, 1) end, function() return Matrix{{1, 2}, {3}} end, function() return Vector{1, 2}:cross(Vector{1, 2}) end, function() return -q end,
     function() return simEigen.mtxGetData('1:Matrix') end, function() return simEigen.mtxOp(simEigen.mtxNew(1, 1), 12) end,
     function() a[5] = 1 end, function() return Quaternion:fromaxisangle({0, 0, 0}, 1) end,
 } do

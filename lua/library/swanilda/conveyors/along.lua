@@ -12,12 +12,8 @@ local M = {}
 local PAD_LAYER <const>, BASE_LAYER <const>, BORDER_LAYER <const> = 257, 256, 257
 local PAD_WIDTH <const> = 0.95 -- of the width of the conveyor
 local BASE_LENGTH <const>, BASE_HEIGHT <const>, BASE_STEP <const> = 0.05, 0.02, 0.025 -- m
-local MOST <const> = 10000 -- parts; more are a mistake in the settings
 
-local function checked(count)
-    if not (count <= MOST) then error(('the settings ask for more than %d parts'):format(MOST), 0) end
-    return math.max(1, math.floor(count))
-end
+local checked = parts.checkedCount
 
 --- How many pads there are, how far apart, and the length after which they are back at the start.
 function M.padLayout(length, pad, isClosed)

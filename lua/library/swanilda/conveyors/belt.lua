@@ -77,7 +77,7 @@ end
 function M.pads(model, config, poses, existing)
     local width, thickness = config.beltElementWidth, config.beltElementThickness
     local way = parts.way(poses, thickness / 2)
-    local count = math.max(1, way.length // (width + config.beltElementSpacing))
+    local count = parts.checkedCount(way.length // (width + config.beltElementSpacing))
     local pitch, pads = way.length / count, existing
     if #pads ~= count then
         parts.clear(model)
@@ -95,7 +95,7 @@ end
 
 --- Rollers between the ends. The result turns them.
 function M.rollers(model, config, depth, existing)
-    local count, joints = math.max(1, math.floor(config.rollerCnt)), existing
+    local count, joints = parts.checkedCount(config.rollerCnt), existing
     if #joints ~= count then
         parts.clear(model)
         joints = {}

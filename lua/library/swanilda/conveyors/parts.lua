@@ -7,6 +7,7 @@ local M = {}
 
 local PAD <const>, ROLLER <const> = 'PATHPAD', 'PATHROL'
 local MASS <const>, ROLLER_LAYER <const> = 0.01, 512
+local MOST <const> = 10000 -- parts; more are a mistake in the settings
 local TYPES <const> = {0, 0, 0, 2, 2, 2, 2}
 
 local function belongs(object, tag, value)
@@ -99,6 +100,12 @@ function M.addBoxes(model, boxes, alias, value, colour, layer)
     sim.setObjectInt32Param(shape, sim.objintparam_visibility_layer, layer)
     sim.setObjectParent(shape, model, true)
     sim.setBufferProperty(shape, 'customData.' .. PAD, value)
+end
+
+--- A number of parts, at least one.
+function M.checkedCount(count)
+    if not (count <= MOST) then error(('the settings ask for more than %d parts'):format(MOST), 0) end
+    return math.max(1, math.floor(count))
 end
 
 --- The colour of a setting; grey where it is none.
