@@ -6,10 +6,39 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// The text of `main` and all modules it imports; None where one is missing or not in the form.
-pub(super) fn join(main: &str, read: &dyn Fn(&str) -> Option<String>) -> Option<String> {
+pub fn join(main: &str, read: &dyn Fn(&str) -> Option<String>) -> Option<String> {
     let mut bundle = Bundle { read, numbers: BTreeMap::new(), text: String::new() };
     bundle.add(main, &mut Vec::new())?;
     Some(bundle.text)
+}
+
+/// A program without lines of comments, indentation and comments at the ends of lines, as far as they hold no quotes.
+pub fn stripped(program: &str) -> String {
+    let mut text = String::new();
+    let mut is_comment = false;
+    for line in program.lines().map(str::trim) {
+        is_comment |= line.starts_with("/**");
+        let ends = is_comment && line.contains("*/");
+        let rest = if ends { line.rsplit_once("*/").map_or("", |(_, rest)| rest.trim()) } else { line };
+        if (!is_comment || ends) && !rest.is_empty() && !rest.starts_with("//") {
+            text += without_remark(rest);
+            text.push('\n');
+        }
+        is_comment &= !ends;
+    }
+    text
+}
+
+/// A line without the comment at its end.
+fn without_remark(line: &str) -> &str {
+    match line.rsplit_once(" // ") {
+        Some((code, remark))
+            if code.ends_with([';', ',', '{', '}', ')', ']']) && !remark.contains(['\'', '"', '`']) =>
+        {
+            code
+        }
+        _ => line,
+    }
 }
 
 struct Bundle<'a> {
@@ -106,6 +135,13 @@ mod tests {
             // gl/one.js\nconst m1 = (() => {\nconst { two } = m0;\nconst a = two;\nasync function b() {}\nreturn { a, b };\n})();\n\
             // main.js\nconst m2 = (() => {\nconst { a, b: c } = m1;\nconst { two } = m0;\nstart(a, c);\nreturn {  };\n})();\n";
         assert_eq!(text.as_deref(), Some(expected));
+    }
+
+    #[test]
+    fn comments_and_indentation_go_and_texts_stay() {
+        let program =
+            "// a\n/** b\n * c */\nf( // d\n  'x // y', // e\n  2); // don't\n/** @type {A} */ g();\n\nh('/** i');\n";
+        assert_eq!(stripped(program), "f( // d\n'x // y',\n2); // don't\ng();\nh('/** i');\n");
     }
 
     #[test]

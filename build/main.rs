@@ -1,14 +1,12 @@
 //! Lists the files that are embedded: the Lua files of `lua/`, by module name, and those of the viewer's page, compressed.
 //! The folders right below `lua/` are rooms; they are not part of names.
 
+mod bundle;
+mod page;
+
 use std::fmt::Write as _;
-use std::hash::{DefaultHasher, Hasher};
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
-
-use flate2::Compression;
-use flate2::write::GzEncoder;
 
 #[allow(clippy::disallowed_methods, reason = "cargo tells a build script its folders through the environment")]
 fn main() {
@@ -18,7 +16,7 @@ fn main() {
     let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
     list_lua(&package.join("lua"), &out);
-    compress_page(&package.join("src/view/page"), &out);
+    page::compress(&package.join("src/view/page"), &out);
 }
 
 fn list_lua(root: &Path, out: &Path) {
@@ -34,27 +32,6 @@ fn list_lua(root: &Path, out: &Path) {
     }
     table.push(']');
     fs::write(out.join("lua_files.rs"), table).expect("the output folder is writable");
-}
-
-/// Every file of the page as gzip, and a table of them by name.
-fn compress_page(root: &Path, out: &Path) {
-    let mut files = collect(root, root, &["html", "js", "css", "svg", "png", "json"]);
-    files.sort();
-    let mut table = String::from("&[\n");
-    for (at, (name, path)) in files.iter().enumerate() {
-        let content = fs::read(path).expect("the page is part of the package");
-        let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
-        gzip.write_all(&content).expect("memory takes all");
-        let compressed = out.join(format!("page_file_{at}.gz"));
-        fs::write(&compressed, gzip.finish().expect("memory takes all")).expect("the output folder is writable");
-        let mut hasher = DefaultHasher::new();
-        hasher.write(&content);
-        let (path, tag) = (compressed.display().to_string(), format!("{:016x}", hasher.finish()));
-        writeln!(table, "Asset {{ name: {name:?}, gzip: include_bytes!({path:?}), tag: {tag:?} }},")
-            .expect("strings take all");
-    }
-    table.push(']');
-    fs::write(out.join("page_files.rs"), table).expect("the output folder is writable");
 }
 
 /// Lua modules in C find Lua's functions in the program that loads them: they must be in its table of symbols, used or not.

@@ -1,7 +1,5 @@
 //! A recording and the page that plays it as one HTML file, which needs no server (docs/VIEW_PROTOCOL.md, "One file").
 
-mod bundle;
-
 use std::io::{Read, Seek, Write};
 
 use base64::Engine as _;
@@ -29,7 +27,7 @@ pub(crate) fn html<R: Read + Seek>(
     let (head, rest) = page.split_once(STYLE).ok_or_else(wrong_page)?;
     let (body, end) = rest.split_once(SCRIPT).ok_or_else(wrong_page)?;
     let style = read("style.css").ok_or_else(wrong_page)?;
-    let program = bundle::join("main.js", read).ok_or_else(wrong_page)?;
+    let program = read("main.js").ok_or_else(wrong_page)?;
     write!(out, "{head}<style>\n{style}</style>{body}")?;
     let index = recording.index().json(|_, chunk| chunk.into()).to_string().replace('<', "\\u003c");
     writeln!(out, "<script type=\"application/json\" id=\"recording\">{index}</script>")?;

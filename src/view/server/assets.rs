@@ -1,4 +1,4 @@
-//! The files of the page, compressed with gzip when Swanilda is built.
+//! The files of the page, joined and compressed with gzip when Swanilda is built (`build/page.rs`).
 
 use std::io::Read;
 
@@ -6,7 +6,7 @@ use flate2::read::GzDecoder;
 
 /// A file of the page.
 pub(super) struct Asset {
-    /// Below the address of the page, such as `render/scene.js`.
+    /// Below the address of the page, such as `main.js`.
     pub name: &'static str,
     pub gzip: &'static [u8],
     /// Another one for another content.
@@ -40,6 +40,11 @@ pub(super) fn content_type(name: &str) -> &'static str {
         _ => "application/octet-stream",
     }
 }
+
+/// Used by the build script, tested here.
+#[cfg(test)]
+#[path = "../../../build/bundle.rs"]
+mod bundle;
 
 #[cfg(test)]
 mod tests {

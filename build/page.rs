@@ -1,0 +1,59 @@
+//! The page of the viewer as it is embedded: its modules as one, without comments and indentation, compressed. The sources stay as readers want them.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::hash::{DefaultHasher, Hasher};
+use std::io::Write as _;
+use std::path::Path;
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+
+use crate::bundle;
+
+/// The module that imports all others.
+const MAIN: &str = "main.js";
+
+/// Writes the files of the page as gzip, and a table of them by name.
+pub fn compress(root: &Path, out: &Path) {
+    let read = |name: &str| fs::read_to_string(root.join(name)).ok();
+    let text = |name: &str| read(name).unwrap_or_else(|| panic!("{name} is part of the page"));
+    let program =
+        bundle::join(MAIN, &read).expect("the modules of the page can be joined (docs/VIEW_PROTOCOL.md, One file)");
+    let files = [
+        ("index.html", text("index.html")),
+        (MAIN, bundle::stripped(&program)),
+        ("style.css", without_comments(&text("style.css"))),
+    ];
+    let mut table = String::from("&[\n");
+    for (name, content) in files {
+        let path = out.join(format!("{name}.gz"));
+        fs::write(&path, gzip(content.as_bytes())).expect("the output folder is writable");
+        let mut hasher = DefaultHasher::new();
+        hasher.write(content.as_bytes());
+        let (path, tag) = (path.display().to_string(), format!("{:016x}", hasher.finish()));
+        writeln!(table, "Asset {{ name: {name:?}, gzip: include_bytes!({path:?}), tag: {tag:?} }},")
+            .expect("strings take all");
+    }
+    table.push(']');
+    fs::write(out.join("page_files.rs"), table).expect("the output folder is writable");
+}
+
+fn gzip(content: &[u8]) -> Vec<u8> {
+    let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
+    gzip.write_all(content).expect("memory takes all");
+    gzip.finish().expect("memory takes all")
+}
+
+/// Style sheets without comments and indentation.
+fn without_comments(style: &str) -> String {
+    let mut rest = style;
+    let mut kept = String::new();
+    while let Some((before, comment)) = rest.split_once("/*") {
+        kept += before;
+        rest = comment.split_once("*/").map_or("", |(_, after)| after);
+    }
+    kept += rest;
+    let lines = kept.lines().map(str::trim).filter(|line| !line.is_empty());
+    lines.collect::<Vec<_>>().join("\n")
+}
