@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use swanilda::scene::object::dummy::Dummy;
-use swanilda::scene::tree::button_interfaces::{Button, ButtonInterface};
+use swanilda::scene::tree::button_interfaces::{Button, ButtonInput, ButtonInterface};
 use swanilda::scene::{Data, Handle, Kind};
 use swanilda::{Options, SceneFile, ScriptKind, Simulator};
 
@@ -152,4 +152,32 @@ fn what_is_not_there_is_refused() {
         refused('UI does not exist.', simGetUIHandle, 'panel')
         assert(simRemoveUI(sim.handle_all) == 1)",
     );
+}
+
+#[test]
+fn what_persons_do_reaches_scripts_in_the_next_step() {
+    let mut sim = simulator();
+    sim.scene_mut().button_interfaces_mut().add(panel("panel", None));
+    let code = "sim = require 'sim'
+        function sysCall_init() seen = {} end
+        function sysCall_actuation()
+            local button, values = simGetUIEventButton(simGetUIHandle('panel'))
+            if button >= 0 then seen[#seen + 1] = button .. ':' .. values[1] .. ':' .. values[2] end
+            sim.setStringSignal('seen', table.concat(seen, ' '))
+        end";
+    sim.add_script(swanilda::ScriptKind::Simulation, "", code.as_bytes()).expect("a script");
+    let ui = sim.scene().button_interfaces().named("panel").expect("it was added");
+    let press = |sim: &mut Simulator, button: i64, input: ButtonInput| {
+        sim.scene_mut().use_button(ui, button, input).expect("it takes that");
+    };
+    sim.start();
+    press(&mut sim, 1, ButtonInput::Click);
+    press(&mut sim, 3, ButtonInput::Slide(250));
+    for _ in 0..4 {
+        sim.iterate();
+    }
+    press(&mut sim, 1, ButtonInput::Click);
+    sim.iterate();
+    let seen = sim.call_api("sim.getStringSignal", &[Data::text("seen")]).expect("a signal");
+    assert_eq!(seen, [Data::text("1:280:0 3:18:250 1:24:0")]);
 }

@@ -160,13 +160,19 @@ fn sim_set_ui_slider(cx: &mut Cx, element_handle: Number, button_handle: Number,
     Ok(1)
 }
 
-/// The button that was pressed. Nobody presses them: the user interfaces are not shown.
+/// The button that a person used on a page of the viewer: one for each pass of the simulator.
 ///
 /// @param elementHandle the user interface
-/// @return buttonHandle -1
+/// @return buttonHandle its number; -1 for none, without further results
+/// @return auxiliaryValues its properties, and of a slider its position, 0 to 1000
 #[api("simGetUIEventButton")]
-fn sim_get_ui_event_button(cx: &Cx, element_handle: Number) -> Result<i64> {
-    interface(&cx.scene(), element_handle).map(|_| -1)
+fn sim_get_ui_event_button(cx: &Cx, element_handle: Number) -> Result<(i64, Option<Vec<i64>>)> {
+    let scene = cx.scene();
+    interface(&scene, element_handle)?;
+    Ok(match scene.button_interfaces().event(element_handle.0) {
+        Some(event) => (event.number.into(), Some(vec![event.attributes.into(), event.slider])),
+        None => (-1, None),
+    })
 }
 
 /// Position of a user interface.

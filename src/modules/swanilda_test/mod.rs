@@ -1,5 +1,6 @@
 //! The native part of `swanilda.test`: control of the simulator by a test.
 
+mod button_interfaces;
 mod run;
 mod windows;
 

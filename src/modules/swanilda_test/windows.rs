@@ -2,7 +2,7 @@
 
 use api_macro::api;
 
-use super::bench;
+use super::{bench, button_interfaces};
 use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::Data;
 use crate::ui::{DialogKind, Input, InputValue};
@@ -21,7 +21,8 @@ fn refused(reason: String) -> ApiError {
 #[api("swanilda.test.window")]
 fn window(cx: &Cx, title: String) -> Result<String> {
     bench(cx)?;
-    cx.read_ui(|ui| ui.find_window(&title)).map_err(refused)
+    let found = cx.read_ui(|ui| ui.find_window(&title));
+    found.or_else(|reason| button_interfaces::find(cx, &title).ok_or(refused(reason)))
 }
 
 /// The widget of that name, text, label or handler.
@@ -32,6 +33,9 @@ fn window(cx: &Cx, title: String) -> Result<String> {
 #[api("swanilda.test.widget")]
 fn widget(cx: &Cx, handle: String, name: String) -> Result<i64> {
     bench(cx)?;
+    if let Some(interface) = button_interfaces::handle(&handle) {
+        return button_interfaces::button(&cx.scene(), interface, &name).map_err(refused);
+    }
     cx.read_window(&handle, |window| Ok(window.find_widget(&name)))?.map_err(refused)
 }
 
@@ -43,6 +47,9 @@ fn widget(cx: &Cx, handle: String, name: String) -> Result<i64> {
 #[api("swanilda.test.widgetState")]
 fn widget_state(cx: &Cx, handle: String, id: i64) -> Result<Data> {
     bench(cx)?;
+    if let Some(interface) = button_interfaces::handle(&handle) {
+        return button_interfaces::state(&cx.scene(), interface, id).map_err(refused);
+    }
     cx.read_window(&handle, |window| {
         let widget = window.widget(id)?;
         Ok(Data::map([
@@ -73,6 +80,9 @@ fn window_input(
     #[default(Data::Nil)] third: Data,
 ) -> Result<()> {
     bench(cx)?;
+    if let Some(interface) = button_interfaces::handle(&handle) {
+        return button_interfaces::input(cx, interface, id, &action, &first).map_err(refused);
+    }
     let input = input_of(&action, first, second, third)
         .ok_or_else(|| refused(format!("'{action}' does not go with these arguments.")))?;
     cx.change_ui(|ui| ui.widget_input(&handle, id, input)).map_err(refused)?;

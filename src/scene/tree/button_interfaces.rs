@@ -1,14 +1,44 @@
 //! The custom user interfaces of V-REP: grids of buttons, labels, sliders and edit boxes. Files of old scenes contain them; no function makes
 //! new ones (spec: vrep-era 2.6).
 
+mod input;
+#[cfg(test)]
+mod tests;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::scene::{Handle, Scene, SceneError, SceneResult};
+use input::Events;
+pub use input::{ButtonEvent, ButtonInput};
 
 const FIRST_HANDLE: i64 = 2_060_006;
 /// Of the attributes of a button: its type.
 const TYPE_BITS: i32 = 3;
+const LABEL: i32 = 1;
 const SLIDER: i32 = 2;
+const EDIT_BOX: i32 = 3;
+
+/// Further bits of a button: `sim.buttonproperty_*`.
+pub mod button_property {
+    pub const STAY_DOWN: i32 = 0x8;
+    pub const ENABLED: i32 = 0x10;
+    pub const BORDERLESS: i32 = 0x20;
+    pub const IGNORE_MOUSE: i32 = 0x80;
+    pub const IS_DOWN: i32 = 0x100;
+    pub const TRANSPARENT: i32 = 0x200;
+    pub const NO_BACKGROUND_COLOR: i32 = 0x400;
+    pub const ROLL_UP_ACTION: i32 = 0x800;
+    pub const CLOSE_ACTION: i32 = 0x1000;
+    pub const DOWN_UP_EVENT: i32 = 0x4000;
+}
+
+/// Bits of a user interface: `sim.ui_property_*`.
+pub mod ui_property {
+    pub const VISIBLE: i32 = 0x1;
+    pub const ROLLED_UP: i32 = 0x80;
+    pub const SELECT_ASSOCIATED_OBJECT: i32 = 0x100;
+    pub const VISIBLE_WHEN_OBJECT_SELECTED: i32 = 0x200;
+}
 /// Half of the range that scripts see, 0 to 1000.
 const SLIDER_HALF: f64 = 500.0;
 
@@ -52,7 +82,30 @@ pub struct Button {
     pub colours: [f32; 9],
 }
 
+/// What a button is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ButtonKind {
+    Button,
+    Label,
+    Slider,
+    EditBox,
+}
+
 impl Button {
+    pub fn kind(&self) -> ButtonKind {
+        match self.attributes & TYPE_BITS {
+            LABEL => ButtonKind::Label,
+            SLIDER => ButtonKind::Slider,
+            EDIT_BOX => ButtonKind::EditBox,
+            _ => ButtonKind::Button,
+        }
+    }
+
+    /// Whether it has all bits of `property`, one of [`button_property`].
+    pub fn has(&self, property: i32) -> bool {
+        self.attributes & property == property
+    }
+
     pub fn is_slider(&self) -> bool {
         self.attributes & TYPE_BITS == SLIDER
     }
@@ -109,6 +162,10 @@ pub struct ButtonInterfaces {
     by_handle: BTreeMap<i64, ButtonInterface>,
     /// Ever made: no handle is used twice.
     made: i64,
+    /// Grows with every change.
+    revision: u64,
+    /// What persons did, by handle.
+    events: BTreeMap<i64, Events>,
 }
 
 impl ButtonInterfaces {
@@ -117,6 +174,7 @@ impl ButtonInterfaces {
         interface.name = super::old_names::free_name(interface.name, |name| self.named(name).is_some());
         let handle = FIRST_HANDLE + self.made;
         self.made += 1;
+        self.revision += 1;
         self.by_handle.insert(handle, interface);
         handle
     }
@@ -135,6 +193,7 @@ impl ButtonInterfaces {
     /// # Errors
     /// When there is no such user interface.
     pub fn get_mut(&mut self, handle: i64) -> SceneResult<&mut ButtonInterface> {
+        self.revision += 1;
         self.by_handle.get_mut(&handle).ok_or(SceneError::NoSuchInterface)
     }
 
@@ -143,19 +202,34 @@ impl ButtonInterfaces {
         self.by_handle.iter().map(|(handle, interface)| (*handle, interface))
     }
 
+    /// A number that grows with every change.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
     /// # Errors
     /// When there is no such user interface.
     pub fn remove(&mut self, handle: i64) -> SceneResult<()> {
+        self.revision += 1;
+        self.events.remove(&handle);
         self.by_handle.remove(&handle).map(|_| ()).ok_or(SceneError::NoSuchInterface)
     }
 
     pub fn remove_all(&mut self) {
+        self.revision += 1;
+        self.events.clear();
         self.by_handle.clear();
     }
 
     /// Removes those of objects that are removed.
     pub(in crate::scene) fn forget(&mut self, doomed: &BTreeSet<Handle>) {
+        let before = self.by_handle.len();
         self.by_handle.retain(|_, interface| !interface.object.is_some_and(|object| doomed.contains(&object)));
+        if self.by_handle.len() != before {
+            self.revision += 1;
+            let kept = &self.by_handle;
+            self.events.retain(|handle, _| kept.contains_key(handle));
+        }
     }
 }
 
@@ -166,36 +240,5 @@ impl Scene {
 
     pub fn button_interfaces_mut(&mut self) -> &mut ButtonInterfaces {
         &mut self.button_interfaces
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sliders_have_positions_and_other_buttons_have_none() {
-        let mut slider = Button { attributes: SLIDER | 0x10, ..Button::default() };
-        assert_eq!(slider.slider_position(), Ok(500));
-        for (position, expected) in [(0, 0), (250, 250), (1000, 1000), (i64::MAX, 1000), (-7, 0)] {
-            slider.set_slider_position(position).expect("a slider");
-            assert_eq!(slider.slider_position(), Ok(expected));
-        }
-        let mut label = Button { attributes: 1, ..Button::default() };
-        assert_eq!(label.slider_position(), Err(SceneError::NotASlider));
-        assert_eq!(label.set_slider_position(3), Err(SceneError::NotASlider));
-    }
-
-    #[test]
-    fn interfaces_are_removed_with_their_object() {
-        let mut interfaces = ButtonInterfaces::default();
-        let of = |object| ButtonInterface { name: "panel".into(), object, ..ButtonInterface::default() };
-        let handles = [of(None), of(Some(Handle(3))), of(Some(Handle(4)))].map(|interface| interfaces.add(interface));
-        assert_eq!(handles, [2_060_006, 2_060_007, 2_060_008]);
-        assert_eq!(interfaces.named("panel0"), Some(2_060_007));
-        interfaces.forget(&BTreeSet::from([Handle(3)]));
-        assert_eq!(interfaces.iter().map(|(handle, _)| handle).collect::<Vec<_>>(), [2_060_006, 2_060_008]);
-        assert_eq!(interfaces.remove(2_060_007), Err(SceneError::NoSuchInterface));
-        assert_eq!(interfaces.add(of(None)), 2_060_009);
     }
 }

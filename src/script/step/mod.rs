@@ -24,6 +24,7 @@ impl Sim {
     pub(crate) fn loop_iteration(self: &Rc<Self>) {
         self.run_hooks(|hooks| hooks.start_of_iteration);
         if !self.clock.state().is_advancing() {
+            self.scene.borrow_mut().button_interfaces_mut().next_pass();
             self.dispatch_events();
         }
         match self.clock.state() {
@@ -45,6 +46,7 @@ impl Sim {
         if !self.step_is_due() || self.step_is_held() {
             self.broadcast(SysCall::RealTimeIdle, &[]);
         } else if !self.main_script_is_vetoed() {
+            self.scene.borrow_mut().button_interfaces_mut().next_pass();
             self.simulation_step();
             self.advance();
             self.film();
