@@ -3,6 +3,8 @@
 mod ffmpeg;
 mod frames;
 mod gif;
+#[cfg(feature = "video")]
+mod mp4;
 mod series;
 #[cfg(test)]
 mod tests;
@@ -25,7 +27,7 @@ pub(crate) enum VideoError {
     Kind(String),
     #[error(
         "{0} files are made by ffmpeg, which is not there ({1}): install it (apt install ffmpeg, brew install ffmpeg, \
-         winget install ffmpeg), or write a .webp or .gif"
+         winget install ffmpeg), build with the feature `video` for .mp4, or write a .webp or .gif"
     )]
     NoFfmpeg(String, std::io::Error),
     #[error("ffmpeg failed: {0}")]
@@ -40,6 +42,12 @@ pub(crate) enum VideoError {
     Gif(#[from] ::gif::EncodingError),
     #[error("{0}")]
     WebP(#[from] image_webp::EncodingError),
+    #[cfg(feature = "video")]
+    #[error("{0}")]
+    H264(#[from] openh264::Error),
+    #[cfg(feature = "video")]
+    #[error("{0}")]
+    Mp4(#[from] ::mp4::Error),
 }
 
 /// Width and height in pixels, and pictures per second.
@@ -66,7 +74,8 @@ pub(crate) trait VideoFile {
 
 /// Whether a video with that name is made by another program.
 pub(crate) fn needs_program(path: &Path) -> bool {
-    ffmpeg::kind(&extension(path)).is_some()
+    let extension = extension(path);
+    ffmpeg::kind(&extension).is_some() && !(cfg!(feature = "video") && extension == "mp4")
 }
 
 /// A video of the kind that the name of the file says.
@@ -77,6 +86,8 @@ pub(crate) fn create(path: &Path, format: VideoFormat) -> Result<Box<dyn VideoFi
     match extension(path).as_str() {
         "gif" => Ok(Box::new(gif::Gif::create(path, format)?)),
         "webp" => Ok(Box::new(webp::WebP::create(path, format)?)),
+        #[cfg(feature = "video")]
+        "mp4" => Ok(Box::new(mp4::Mp4::create(path, format)?)),
         "png" => Ok(Box::new(series::Series::create(path, format)?)),
         other => match ffmpeg::kind(other) {
             Some(kind) => Ok(Box::new(ffmpeg::Ffmpeg::start(path, kind, format)?)),
