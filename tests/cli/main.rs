@@ -27,6 +27,17 @@ fn swanilda() -> Command {
     Command::new(env!("CARGO_BIN_EXE_swanilda"))
 }
 
+/// A ball that rises, and a vision sensor of 16 by 12 pixels that looks at it.
+const BALL: &str = "sim = require 'sim'
+function sysCall_init()
+    ball = sim.createPrimitiveShape(sim.primitiveshape_spheroid, {0.5, 0.5, 0.5})
+    sim.setObjectAlias(ball, 'Ball')
+    eye = sim.createVisionSensor(1 + 2 + 128, {16, 12, 0, 0}, {0.1, 10, 1, 0.01, 0, 0, 0, 1, 0, 0, 0})
+    sim.setObjectAlias(eye, 'Eye')
+    sim.setObjectPosition(ball, {0, 0, 2})
+end
+function sysCall_actuation() sim.setObjectPosition(ball, {0, 0, 2 + sim.getSimulationTime()}) end";
+
 /// A folder with one scene in it.
 struct Scene {
     folder: TempDir,

@@ -3,17 +3,7 @@
 use std::path::Path;
 use std::process::Output;
 
-use super::{Scene, stderr, stdout, swanilda};
-
-const BALL: &str = "sim = require 'sim'
-function sysCall_init()
-    ball = sim.createPrimitiveShape(sim.primitiveshape_spheroid, {0.5, 0.5, 0.5})
-    sim.setObjectAlias(ball, 'Ball')
-    eye = sim.createVisionSensor(1 + 2 + 128, {8, 6, 0, 0}, {0.1, 10, 1, 0.01, 0, 0, 0, 1, 0, 0, 0})
-    sim.setObjectAlias(eye, 'Eye')
-    sim.setObjectPosition(ball, {0, 0, 2})
-end
-function sysCall_actuation() sim.setObjectPosition(ball, {0, 0, 2 + sim.getSimulationTime()}) end";
+use super::{BALL, Scene, stderr, stdout, swanilda};
 
 fn render(scene: &Scene, args: &[&str]) -> Output {
     let mut command = swanilda();
@@ -36,7 +26,7 @@ fn a_picture_is_written() {
     assert_eq!(render(&scene, &["--quiet"]).status.code(), Some(0));
     assert_eq!(header(&file("picture.png")), (640, 480, 8, 2));
     assert_eq!(render(&scene, &["--camera", "/Eye", "-o", "eye.png"]).status.code(), Some(0));
-    assert_eq!(header(&file("eye.png")), (8, 6, 8, 2));
+    assert_eq!(header(&file("eye.png")), (16, 12, 8, 2));
     assert_eq!(render(&scene, &["--camera", "Eye", "--size", "30x20", "-o", "large.png"]).status.code(), Some(0));
     assert_eq!(header(&file("large.png")), (30, 20, 8, 2));
     assert_eq!(render(&scene, &["--empty", "--size", "30x20", "-o", "fitted.jpg"]).status.code(), Some(0));
@@ -49,12 +39,12 @@ fn depths_are_millimetres_and_objects_have_colours() {
     let depth = scene.folder.path().join("depth.png");
     let args = ["--camera", "Eye", "--depth", "--time", "1", "-o", "depth.png", "--quiet"];
     assert_eq!(render(&scene, &args).status.code(), Some(0));
-    assert_eq!(header(&depth), (8, 6, 16, 0));
+    assert_eq!(header(&depth), (16, 12, 16, 0));
     let output = render(&scene, &["--camera", "Eye", "--segmentation", "-o", "objects.png", "--quiet"]);
     assert_eq!(output.status.code(), Some(0));
     let text = stdout(&output);
     assert!(text.starts_with('#') && text.ends_with(" /Ball\n") && text.lines().count() == 1, "{text}");
-    assert_eq!(header(&scene.folder.path().join("objects.png")), (8, 6, 8, 2));
+    assert_eq!(header(&scene.folder.path().join("objects.png")), (16, 12, 8, 2));
 }
 
 #[test]

@@ -3,17 +3,7 @@
 use std::path::Path;
 use std::process::Output;
 
-use super::{Scene, stderr, swanilda};
-
-const BALL: &str = "sim = require 'sim'
-function sysCall_init()
-    ball = sim.createPrimitiveShape(sim.primitiveshape_spheroid, {0.5, 0.5, 0.5})
-    sim.setObjectAlias(ball, 'Ball')
-    eye = sim.createVisionSensor(1 + 2 + 128, {16, 12, 0, 0}, {0.1, 10, 1, 0.01, 0, 0, 0, 1, 0, 0, 0})
-    sim.setObjectAlias(eye, 'Eye')
-    sim.setObjectPosition(ball, {0, 0, 2})
-end
-function sysCall_actuation() sim.setObjectPosition(ball, {0, 0, 2 + sim.getSimulationTime()}) end";
+use super::{BALL, Scene, stderr, swanilda};
 
 fn run(scene: &Scene, args: &[&str]) -> Output {
     let mut command = swanilda();
