@@ -188,7 +188,7 @@ function sim.addScript(scriptType) end
 ---@return integer result 1
 function sim.addStatusbarMessage(message) end
 
---- Shows an object in a view.
+--- Shows an object in a view. Views of the page are not changed: in the viewer everybody chooses their own.
 ---@param viewHandleOrIndex integer from sim.floatingViewAdd, or the number of a view of the page
 ---@param objectHandle integer a camera, vision sensor or graph, or -1
 ---@param options integer bits
@@ -752,7 +752,7 @@ function sim.fastIdleLoop(enable) end
 ---@return string pathAndName nil if cancelled; several with semicolons between them
 function sim.fileDialog(mode, title, startPath, initName, extName, ext) end
 
---- Adds a view to the page.
+--- Adds a view above the scene. Pages of the viewer show it.
 ---@param posX number of its centre, 0 to 1
 ---@param posY number of its centre
 ---@param sizeX number part of the window
@@ -4077,9 +4077,10 @@ function simGetUIButtonProperty(elementHandle, buttonHandle) end
 ---@return integer[] size width and height, pixels
 function simGetUIButtonSize(elementHandle, buttonHandle) end
 
---- The button that was pressed. Nobody presses them: the user interfaces are not shown.
+--- The button that a person used on a page of the viewer: one for each pass of the simulator.
 ---@param elementHandle integer the user interface
----@return integer buttonHandle -1
+---@return integer buttonHandle its number; -1 for none, without further results
+---@return integer[] auxiliaryValues its properties, and of a slider its position, 0 to 1000
 function simGetUIEventButton(elementHandle) end
 
 --- A custom user interface of an old scene.

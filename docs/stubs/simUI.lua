@@ -108,7 +108,7 @@ function simUI.clearTree(handle, id, suppressEvents) end
 ---@param suppressEvents? boolean without effect
 function simUI.collapseAll(handle, id, suppressEvents) end
 
---- Asks for a colour. Without a person: none.
+--- Asks for a colour. Without a person at a page of the viewer: none.
 ---@param initColor? number[] the colour to begin with: red, green, blue, and maybe opacity, 0 to 1; white without it
 ---@param title? string
 ---@param showAlphaChannel? boolean whether opacity can be chosen
@@ -139,7 +139,7 @@ function simUI.expandAll(handle, id, suppressEvents) end
 ---@param suppressEvents? boolean without effect
 function simUI.expandToDepth(handle, id, depth, suppressEvents) end
 
---- Asks for files. Without a person: none.
+--- Asks for files. Without a person at a page of the viewer: none.
 ---@param type integer simUI.filedialog_type
 ---@param title string
 ---@param startPath string the folder to begin with
@@ -311,7 +311,7 @@ function simUI.growPlotYRange(handle, id, ymin, ymax) end
 ---@param handle string the window
 function simUI.hide(handle) end
 
---- Asks for a text. Without a person: none.
+--- Asks for a text. Without a person at a page of the viewer: none.
 ---@param initValue? string the text to begin with
 ---@param label? string what it is
 ---@param title? string
@@ -343,7 +343,7 @@ function simUI.insertTableRow(handle, id, index) end
 ---@return boolean visibility
 function simUI.isVisible(handle) end
 
---- Shows a message and waits for a button. Without a person, the answer is the usual one: ok; no; cancel; cancel. The message goes to the log.
+--- Shows a message and waits for a button. Without a person at a page of the viewer, the answer is the usual one: ok; no; cancel; cancel. The message goes to the log.
 ---@param type integer simUI.msgbox_type
 ---@param buttons integer simUI.msgbox_buttons
 ---@param title string

@@ -20,5 +20,5 @@ pub(crate) use process::{Process, ProcessError, Program};
 pub(crate) use serial::SerialPort;
 pub(crate) use simx_server::SimxServer;
 pub(crate) use ws::{HttpReply, Numbers, SendError, WsEndpoint, WsEvent, WsPages, WsRequest};
-pub(crate) use ws::{Site, SiteMessage, SiteReply, SiteServer, Visitor};
+pub(crate) use ws::{Site, SiteMessage, SiteReply, SiteServer, SiteWaker, Visitor};
 pub(crate) use zmq_server::{Incoming, ZmqServer};

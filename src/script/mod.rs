@@ -13,6 +13,7 @@ mod lifecycle;
 pub mod log;
 mod lua;
 mod lua_runtime;
+mod person;
 mod present;
 mod property;
 mod runtime;
@@ -70,7 +71,8 @@ pub(crate) use lua_runtime::LuaLanguage;
 pub(crate) use lua_runtime::embedded::FILES;
 pub(crate) use lua_runtime::reference_modules::ReferenceModule;
 pub(crate) use lua_runtime::user_modules::UserModule;
-pub(crate) use present::{Present, Watcher};
+pub(crate) use person::Ask;
+pub(crate) use present::{Present, Situation, Watcher};
 pub(crate) use property::{Target, table as property_table};
 pub(crate) use runtime::Languages;
 #[cfg(test)]

@@ -7,8 +7,9 @@ use super::sim::Sim;
 use super::step::clock::SimulationState;
 use crate::scene::{Data, Handle, Scene};
 
-/// A simulator after a step.
-pub(crate) struct Present<'a> {
+/// A simulator at a moment.
+#[derive(Clone, Copy)]
+pub(crate) struct Situation<'a> {
     pub scene: &'a Scene,
     /// Another one after another scene was loaded.
     pub scene_uid: i64,
@@ -18,6 +19,11 @@ pub(crate) struct Present<'a> {
     pub steps: u64,
     /// Uncaught errors of scripts.
     pub errors: u64,
+}
+
+/// A simulator after a step.
+pub(crate) struct Present<'a> {
+    pub now: Situation<'a>,
     /// Lines of the log since the last time.
     pub lines: Vec<RecentLine>,
     /// The names of all signals.
@@ -55,17 +61,24 @@ impl Sim {
         };
         let scene = self.scene.borrow();
         look(&Present {
-            scene: &scene,
-            scene_uid: self.scene_uid(),
-            state: self.clock.state(),
-            time: self.clock.time(),
-            steps: self.clock.steps(),
-            errors: self.log.errors(),
+            now: self.situation(&scene),
             lines,
             signals: scene.signals.names().chain(self.app.borrow().signals.names()).map(str::to_owned).collect(),
             broadcasts,
             contacts: self.touching(),
         })
+    }
+
+    /// The simulator with its scene as it is now.
+    pub(crate) fn situation<'a>(&self, scene: &'a Scene) -> Situation<'a> {
+        Situation {
+            scene,
+            scene_uid: self.scene_uid(),
+            state: self.clock.state(),
+            time: self.clock.time(),
+            steps: self.clock.steps(),
+            errors: self.log.errors(),
+        }
     }
 
     fn touching(&self) -> BTreeSet<[Handle; 2]> {

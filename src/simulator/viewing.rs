@@ -1,12 +1,14 @@
 //! What viewers and recorders see of a simulator, and do to it.
 
+use std::rc::Rc;
+
 use super::Simulator;
 use crate::dynamics::Contact;
 use crate::scene::object::script_object::ScriptType;
-use crate::scene::{Data, ValueType};
+use crate::scene::{Data, Scene, ValueType};
 use crate::script::log::RecentLine;
 use crate::script::property_table::flags;
-use crate::script::{ApiError, Present, Watcher};
+use crate::script::{ApiError, Ask, Present, Situation, Watcher};
 
 /// A property of an object, of the scene or of the application.
 pub(crate) struct PropertyRow {
@@ -46,6 +48,11 @@ impl Simulator {
         self.sim.log.take_recent()
     }
 
+    /// Dialogs of scripts are answered by it from now on.
+    pub(crate) fn set_person(&self, ask: Rc<Ask>) {
+        self.sim.set_person(ask);
+    }
+
     /// Shows the state after each step from now on; None ends that.
     pub(crate) fn watch(&self, watcher: Option<Watcher>) {
         self.sim.watch(watcher);
@@ -54,6 +61,11 @@ impl Simulator {
     /// Calls `look` with the present state, and the lines of the log since the last time.
     pub(crate) fn with_present<T>(&self, look: impl FnOnce(&Present<'_>) -> T) -> T {
         self.sim.with_present(look)
+    }
+
+    /// This simulator with its scene as it is now.
+    pub(crate) fn situation<'a>(&self, scene: &'a Scene) -> Situation<'a> {
+        self.sim.situation(scene)
     }
 
     /// Another one after another scene was loaded.

@@ -9,7 +9,7 @@ use tempfile::NamedTempFile;
 use super::case::{Outcome, TestCase};
 use crate::Simulator;
 use crate::format::scene_file::write_whole;
-use crate::view::recording::{self, Recording, RunRecorder};
+use crate::view::recording::{self, Recorded, Recording, RunRecorder};
 
 /// A test that is being recorded.
 pub(super) struct TestRecording {
@@ -22,7 +22,7 @@ impl TestRecording {
     /// When there is no place for it.
     pub(super) fn start(sim: &Simulator) -> std::io::Result<Self> {
         let file = NamedTempFile::new()?;
-        let recorder = RunRecorder::start(sim, file.reopen()?)?;
+        let recorder = RunRecorder::start(sim, file.reopen()?, Recorded::default())?;
         Ok(Self { recorder, file })
     }
 

@@ -12,6 +12,7 @@
 //! - `dialogs`: the last dialogs of scripts and what was answered, each with `number`, `kind` (`msgBox`, `fileDialog`, `colorDialog`,
 //!   `inputDialog`), `title`, `text`, `answer` (text for people)
 //! - `banners`: those that are shown, each with `id`, `text`, `buttons` (a list of `key` and `label`)
+//! - `views`: floating views, each with `id`, `position` (of its centre) and `size` as parts of the main view, `object` (-1: none), `label`
 //!
 //! [`Ui::changes_since`] is the same with the windows that have changed since a revision only, and `removed`, the ids of those that are gone.
 //! `complete` is true when all windows are in it, because too much was removed meanwhile: those that are not in it are gone.
@@ -76,10 +77,12 @@ mod editors;
 mod error;
 mod input;
 mod json;
+mod question;
 mod search;
 #[cfg(test)]
 mod tests;
 mod values;
+mod views;
 mod widgets;
 mod window;
 mod xml;
@@ -92,11 +95,13 @@ use crate::scene::Data;
 use build::Warning;
 use editors::Panes;
 use json::{Action, action};
+use views::FloatingViews;
 
 pub(crate) use dialogs::{Banner, DialogKind, Dialogs};
 pub(crate) use editors::EditorState;
 pub(crate) use error::{UiError, UiResult};
 pub(crate) use input::{Input, InputValue, Modifiers};
+pub(crate) use question::{Details, Question, answer_of_page};
 pub(crate) use widgets::{
     Button, Cell, Checkbox, Combobox, Curve, CurveOptions, CurveType, Edit, Image, Kind, Label, Plot, Properties,
     Property, Radiobutton, Scene3d, Slider, Spinbox, Svg, Table, Tabs, TextBrowser, Tree,
@@ -129,6 +134,7 @@ pub(crate) struct Ui {
     /// What a script has put there.
     pub clipboard: String,
     pub dialogs: Dialogs,
+    pub views: FloatingViews,
     /// Text editors and consoles.
     panes: Panes,
 }
@@ -277,6 +283,7 @@ impl Ui {
             "windows": self.windows.values().map(Window::json).collect::<Vec<_>>(),
             "dialogs": self.dialogs.json(),
             "banners": self.dialogs.banners_json(),
+            "views": self.views.json(),
         })
     }
 
@@ -296,6 +303,7 @@ impl Ui {
             "removed": removed.map(|(_, number)| format!("{number:x}:UI")).collect::<Vec<_>>(),
             "dialogs": self.dialogs.json(),
             "banners": self.dialogs.banners_json(),
+            "views": self.views.json(),
         }))
     }
 

@@ -9,10 +9,12 @@
 
 pub(crate) mod blobs;
 mod hash;
+mod images;
 pub(crate) mod mcap;
 pub(crate) mod mirror;
 pub(crate) mod observe;
 mod perform;
+mod question;
 pub(crate) mod recording;
 pub(crate) mod request;
 mod server;

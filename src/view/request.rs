@@ -38,6 +38,11 @@ pub(crate) enum Action {
         input: Value,
     },
     Run(String),
+    /// To the dialog with that number; null: cancelled.
+    Answer {
+        question: u64,
+        answer: Value,
+    },
 }
 
 /// A request with the number that its reply has.
@@ -107,6 +112,10 @@ fn action(members: &Members) -> Result<Action, String> {
             Action::Ui { window: member("window"), widget: member("widget"), input: member("input") }
         }
         "run" => Action::Run(text(members, "code")?),
+        "answer" => {
+            let question = members.get("question").and_then(Value::as_u64).ok_or("`question` is a number")?;
+            Action::Answer { question, answer: members.get("answer").cloned().unwrap_or(Value::Null) }
+        }
         other => return Err(format!("unknown request: {}", shortened(other))),
     })
 }

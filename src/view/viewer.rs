@@ -1,20 +1,22 @@
 //! The simulation's side of the viewer: between iterations it answers requests, and shows what changed.
 
-use std::collections::BTreeMap;
 use std::io;
 use std::net::{SocketAddr, TcpListener};
+use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use super::images::Images;
 use super::mirror::Demanded;
-use super::observe::{ObservedWindows, Observer, Source};
+use super::observe::{Observer, Source, WindowObserver};
 use super::perform::{perform, rows};
+use super::question::ask;
 use super::recording::Recording;
 use super::request::Action;
 use super::server::{RecordedSite, Shared, ViewSite};
 use crate::Simulator;
 use crate::io::SiteServer;
-use crate::scene::Handle;
+
 use crate::script::log::RecentLine;
 use crate::script::step::wall_clock;
 
@@ -34,13 +36,11 @@ pub(crate) struct Viewer {
     is_read_only: bool,
     /// Lines of the log that are not shown yet.
     lines: Vec<RecentLine>,
-    /// The state of the interfaces of scripts that was shown.
-    windows_seen: u64,
+    windows: WindowObserver,
     frame: Timer,
     images: Timer,
     values: Timer,
-    /// What of a sensor's image was shown last: time and length do not tell, so the bytes are compared.
-    shown: BTreeMap<i64, Vec<u8>>,
+    images_shown: Images,
 }
 
 /// Says when something is due again.
@@ -68,6 +68,8 @@ impl Viewer {
         let site = ViewSite::new(Arc::clone(&shared), token.clone());
         let server = SiteServer::start(listener, |_| site)?;
         sim.keep_recent_lines();
+        let (asks, waker) = (Arc::clone(&shared), server.waker());
+        sim.set_person(Rc::new(move |question, is_ending| ask(&asks, &waker, question, is_ending)));
         Ok(Self {
             observer: Observer::default(),
             shared,
@@ -75,11 +77,11 @@ impl Viewer {
             token,
             is_read_only,
             lines: Vec::new(),
-            windows_seen: 0,
+            windows: WindowObserver::default(),
             frame: Timer::default(),
             images: Timer::default(),
             values: Timer::default(),
-            shown: BTreeMap::new(),
+            images_shown: Images::default(),
         })
     }
 
@@ -125,7 +127,7 @@ impl Viewer {
             let source = Source { is_read_only: self.is_read_only, ..Source::of(sim, &scene) };
             self.observer.observe(&source, &lines)
         };
-        let windows = self.new_windows(sim);
+        let windows = self.windows.observe(sim);
         let found = self.find_demanded(sim);
         let changed = {
             let mut mirror = self.shared.mirror();
@@ -138,21 +140,16 @@ impl Viewer {
         }
     }
 
-    /// Interfaces of scripts that changed.
-    fn new_windows(&mut self, sim: &Simulator) -> Option<ObservedWindows> {
-        let changes = sim.ui_changes(self.windows_seen)?;
-        self.windows_seen = changes["revision"].as_u64().unwrap_or(0);
-        Some(ObservedWindows::of(&changes))
-    }
-
     /// What some pages ask for.
     fn find_demanded(&mut self, sim: &Simulator) -> Demanded {
         let (demand, inspected) = self.shared.demand();
         let now = wall_clock::now();
         let mut found = Demanded::default();
         if !demand.sensors.is_empty() && self.images.is_due(now, IMAGE) {
-            self.shown.retain(|sensor, _| demand.sensors.contains(sensor));
-            found.images = demand.sensors.iter().filter_map(|sensor| self.new_image(sim, *sensor)).collect();
+            self.images_shown.keep(&demand.sensors);
+            let scene = sim.scene();
+            let mut new_image = |sensor: i64| Some((sensor, self.images_shown.new_image(&scene, sensor, sim.time())?));
+            found.images = demand.sensors.iter().filter_map(|sensor| new_image(*sensor)).collect();
         }
         if demand.contacts {
             found.contacts = Some(contacts(sim));
@@ -162,26 +159,6 @@ impl Viewer {
             found.rows = inspected.iter().filter_map(|handle| Some((*handle, values(sim, *handle)?))).collect();
         }
         found
-    }
-
-    /// The image of a sensor as a message, if it is another one than was shown.
-    fn new_image(&mut self, sim: &Simulator, sensor: i64) -> Option<(i64, Vec<u8>)> {
-        let scene = sim.scene();
-        let object = scene.object(Handle::from_raw(sensor)?).ok()?.vision_sensor().ok()?;
-        let pixels = object.image();
-        if self.shown.get(&sensor).is_some_and(|shown| **shown == *pixels) {
-            return None;
-        }
-        self.shown.insert(sensor, pixels.to_vec());
-        let [width, height] = object.view.resolution;
-        let mut message = vec![2, 0, 0, 0];
-        message.extend_from_slice(&(sensor as i32).to_le_bytes());
-        message.extend_from_slice(&width.to_le_bytes());
-        message.extend_from_slice(&height.to_le_bytes());
-        message.extend_from_slice(&sim.time().to_le_bytes());
-        let row = 3 * width as usize;
-        pixels.chunks_exact(row).rev().for_each(|row| message.extend_from_slice(row));
-        Some((sensor, message))
     }
 }
 

@@ -5,6 +5,7 @@ import tempfile
 
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 from foxglove_schemas_protobuf.Log_pb2 import Log
+from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
@@ -65,10 +66,21 @@ def log(found):
     same("the prints", any(line.message.startswith("at") for line in lines), True)
 
 
+def images(found):
+    same("the schema", found[0][0], "foxglove.RawImage")
+    own = [RawImage.FromString(data) for _, _, data, _ in found]
+    same("the size", {(i.width, i.height, i.step, i.encoding, len(i.data)) for i in own}, {(6, 4, 18, "rgb8", 72)})
+    same("the frame", own[0].frame_id.startswith("/Eye"), True)
+    same("several pictures", len({bytes(i.data) for i in own}) > 3, True)
+    same("the times", [abs(i.timestamp.ToNanoseconds() / 1e9 - time) < 1e-6 for i, (_, time, _, _) in zip(own, found)], [True] * len(own))
+
+
 with tempfile.TemporaryDirectory() as folder:
     found = messages(recordings.exported(folder, "--mcap", "a.mcap"))
-    same("the topics", sorted(found), ["/joint_states", "/log", "/scene", "/tf"])
+    eye = next(topic for topic in found if "/Eye" in topic)
+    same("the topics", sorted(found), sorted(["/joint_states", "/log", "/scene", "/tf", eye]))
     transforms(found["/tf"])
     scene(found["/scene"])
     joints(found["/joint_states"])
     log(found["/log"])
+    images(found[eye])

@@ -1,8 +1,43 @@
 //! The viewer's page in a browser.
 
-use crate::web::check_in_browser;
+use std::path::{Path, PathBuf};
+
+use swanilda::scene::Data;
+use swanilda::scene::tree::button_interfaces::{Button, ButtonInterface};
+use swanilda::{Options, Simulator};
+
+use crate::web::{check_in_browser, check_in_browser_with};
 
 #[test]
 fn the_page_in_a_browser() {
     check_in_browser("view_browser.py");
+}
+
+#[test]
+fn windows_of_scripts_in_a_browser() {
+    check_in_browser_with("view_windows.py", &[&old_scene()]);
+}
+
+/// A scene with a user interface of V-REP, which no script can make.
+fn old_scene() -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("view_buttons.ttt");
+    let mut sim = Simulator::new(Options::default());
+    let button = |number: i32, attributes: i32, cell: [i32; 2], span: [i32; 2], label: &str| {
+        let colours = [0.2, 0.5, 0.3, 0.8, 0.4, 0.2, 1.0, 1.0, 1.0];
+        Button { number, attributes, cell, span, label: label.into(), colours, ..Button::default() }
+    };
+    let buttons = vec![
+        button(1, 0x10, [0, 0], [4, 1], "Start"),
+        button(2, 0x18, [4, 0], [4, 1], "Hold <b>"),
+        button(3, 0x12, [0, 1], [8, 1], "Speed"),
+        button(4, 0x13, [0, 2], [8, 1], "0.5"),
+        button(5, 0x11, [0, 3], [8, 1], "a label"),
+    ];
+    let (cells, cell_size) = ([8, 4], [20, 16]);
+    let interface =
+        ButtonInterface { name: "Controls".into(), attributes: 3, cells, cell_size, buttons, ..Default::default() };
+    sim.scene_mut().button_interfaces_mut().add(interface);
+    let name = Data::text(path.to_str().expect("a name in UTF-8"));
+    sim.call_api("sim.saveScene", &[name]).expect("the scene is saved");
+    path
 }

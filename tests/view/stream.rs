@@ -151,6 +151,41 @@ fn changes_continue_the_numbers_of_each_client() {
 }
 
 #[test]
+fn another_scene_replaces_the_one_before() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("other.ttt");
+    let (served, port) = served(&[]);
+    let mut client = Page::open_at(port, "");
+    let genesis = events(&client.binary());
+    let uid_of = |events: &[Value]| {
+        let scene = events.iter().rfind(|event| event["handle"] == -12 && !event["data"]["sceneUid"].is_null());
+        scene.map(|event| event["data"]["sceneUid"].clone())
+    };
+    let before = uid_of(&genesis).expect("a scene has a number");
+    let mut commander = Page::open(&served);
+    let mut run = |code: String| commander.ask(json!({"do": "run", "code": code})).expect("it runs");
+    run(format!("sim.saveScene([[{}]])", path.display()));
+    run(format!("sim.loadScene([[{}]])", path.display()));
+    let mut seen = Vec::new();
+    while uid_of(&seen).is_none_or(|uid| uid == before) {
+        let batch = events(&client.binary());
+        let first = seen.last().or(genesis.last()).map(seq).unwrap();
+        assert!(batch.iter().zip(first + 1..).all(|(event, number)| seq(event) == number), "no gap");
+        seen.extend(batch);
+    }
+    // Every object of the scene before is gone, or everything begins anew.
+    let begins_anew = seen.iter().any(|event| event["event"] == "genesisBegin");
+    let removed: Vec<&Value> = seen.iter().filter(|event| event["event"] == "objectRemoved").collect();
+    let added = |events: &[Value]| -> Vec<Value> {
+        let objects = events.iter().filter(|event| event["event"] == "objectAdded" && event["data"]["pose"].is_array());
+        objects.map(|event| event["uid"].clone()).collect()
+    };
+    let gone = |uid: &Value| removed.iter().any(|event| event["uid"] == *uid);
+    assert!(begins_anew || added(&genesis).iter().all(gone), "{seen:?}");
+    assert!(!added(&seen).is_empty(), "the other scene is shown");
+}
+
+#[test]
 fn files_of_the_front_end_are_served_from_a_folder() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("index.html"), "<script>const wsPort = 23020;</script>").unwrap();

@@ -1,6 +1,4 @@
-//! `sim.*`: floating views and particles: shown on a display only, or not simulated.
-//!
-//! There is no display. Handles are checked, so that scripts find their mistakes.
+//! `sim.*`: floating views, which pages of the viewer show, and particles, which are not simulated.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -20,7 +18,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     remove_particle_object,
 ];
 
-/// Adds a view to the page.
+/// Adds a view above the scene. Pages of the viewer show it.
 ///
 /// @param posX of its centre, 0 to 1
 /// @param posY of its centre
@@ -30,8 +28,13 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
 /// @return floatingViewHandle its handle
 #[api("sim.floatingViewAdd")]
 fn floating_view_add(cx: &mut Cx, pos_x: f64, pos_y: f64, size_x: f64, size_y: f64, options: Number) -> Result<i64> {
-    let _ = (pos_x, pos_y, size_x, size_y, options);
-    Ok(views(cx).borrow_mut().add(View))
+    let _ = options;
+    let view = cx.change_ui(|ui| {
+        ui.touch();
+        ui.views.add([pos_x, pos_y], [size_x, size_y])
+    });
+    cx.own_view(view);
+    Ok(view)
 }
 
 /// Removes a view.
@@ -40,10 +43,14 @@ fn floating_view_add(cx: &mut Cx, pos_x: f64, pos_y: f64, size_x: f64, size_y: f
 /// @return result 1, or 0 when there is no such view
 #[api("sim.floatingViewRemove")]
 fn floating_view_remove(cx: &mut Cx, floating_view_handle: Number) -> Result<i64> {
-    Ok(views(cx).borrow_mut().remove(floating_view_handle.0).is_some().into())
+    let removed = cx.change_ui(|ui| {
+        ui.touch();
+        ui.views.remove(floating_view_handle.0)
+    });
+    Ok(removed.into())
 }
 
-/// Shows an object in a view.
+/// Shows an object in a view. Views of the page are not changed: in the viewer everybody chooses their own.
 ///
 /// @param viewHandleOrIndex from sim.floatingViewAdd, or the number of a view of the page
 /// @param objectHandle a camera, vision sensor or graph, or -1
@@ -51,16 +58,25 @@ fn floating_view_remove(cx: &mut Cx, floating_view_handle: Number) -> Result<i64
 /// @return res 1
 #[api("sim.adjustView")]
 fn adjust_view(
-    cx: &Cx,
+    cx: &mut Cx,
     view_handle_or_index: Number,
     object_handle: Number,
     options: Number,
     label: Rest,
 ) -> Result<i64> {
-    let _ = (view_handle_or_index, options, label);
+    let _ = options;
     if object_handle.0 >= 0 {
         object(cx, object_handle)?;
     }
+    cx.change_ui(|ui| {
+        ui.touch();
+        if let Some(view) = ui.views.get_mut(view_handle_or_index.0) {
+            view.object = object_handle.0.max(-1);
+            if let Some(Data::Text(text)) = label.0.first() {
+                view.label = String::from_utf8_lossy(text).into_owned();
+            }
+        }
+    });
     Ok(1)
 }
 
@@ -115,8 +131,6 @@ fn remove_particle_object(cx: &mut Cx, particle_object_handle: Number) -> Result
 
 /// A source of particles.
 struct Particles;
-/// A floating view.
-struct View;
 
 /// Removes one of them, or all.
 fn remove<T>(all: &mut ByHandle<T>, handle: Number, missing: fn() -> ApiError) -> Result<()> {
@@ -128,10 +142,6 @@ fn remove<T>(all: &mut ByHandle<T>, handle: Number, missing: fn() -> ApiError) -
 }
 
 fn particles(cx: &Cx) -> Rc<RefCell<ByHandle<Particles>>> {
-    cx.script_state()
-}
-
-fn views(cx: &Cx) -> Rc<RefCell<ByHandle<View>>> {
     cx.script_state()
 }
 

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::PathBuf;
 
 use crate::Simulator;
-use crate::view::recording::RunRecorder;
+use crate::view::recording::{Recorded, RunRecorder};
 
 /// A recording of the run.
 #[derive(clap::Args)]
@@ -12,6 +12,9 @@ pub(in crate::cli) struct RecordArgs {
     /// Record the run, to look at it again with `swanilda view FILE` and `swanilda export FILE`
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
+    /// Record what vision sensors see as well
+    #[arg(long, requires = "record")]
+    record_images: bool,
 }
 
 impl RecordArgs {
@@ -20,8 +23,9 @@ impl RecordArgs {
     /// # Errors
     /// When it cannot be written.
     pub(in crate::cli) fn start(&self, sim: &Simulator) -> Result<Option<RunRecorder<File>>, String> {
-        let recorder =
-            self.record.as_ref().map(|path| File::create(path).and_then(|file| RunRecorder::start(sim, file)));
+        let recorded = if self.record_images { Recorded::SceneAndImages } else { Recorded::Scene };
+        let start = |path: &PathBuf| File::create(path).and_then(|file| RunRecorder::start(sim, file, recorded));
+        let recorder = self.record.as_ref().map(start);
         recorder.transpose().map_err(|error| self.failed(&error))
     }
 

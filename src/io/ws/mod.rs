@@ -28,7 +28,7 @@ pub(crate) use connection::{Outgoing, SendError};
 pub(crate) use http::Reply as HttpReply;
 use http::Requester;
 pub(crate) use pages::Pages as WsPages;
-pub(crate) use site::{Site, SiteMessage, SiteReply, SiteServer, Visitor};
+pub(crate) use site::{Site, SiteMessage, SiteReply, SiteServer, SiteWaker, Visitor};
 
 /// The largest message and the largest body of an HTTP request, bytes.
 const LARGEST_MESSAGE: usize = 32_000_000;

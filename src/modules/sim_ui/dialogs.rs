@@ -1,4 +1,5 @@
-//! `simUI.*`: dialogs, banners, keyboard and clipboard. A dialog is answered at once: as a test has left it, else by its usual button.
+//! `simUI.*`: dialogs, banners, keyboard and clipboard. A dialog is answered as a test has left it, else by a person at a page of the viewer,
+//! else at once by its usual button.
 
 use api_macro::api;
 
@@ -7,7 +8,7 @@ use crate::modules::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::Data;
 use crate::script::Table;
 use crate::script::log::verbosity;
-use crate::ui::{Banner, DialogKind};
+use crate::ui::{Banner, Details, DialogKind, Question};
 
 pub(super) const FUNCTIONS: &[ApiFn] = functions![
     msg_box,
@@ -34,6 +35,12 @@ fn left_answer(cx: &mut Cx, kind: DialogKind) -> Option<Data> {
     cx.change_ui(|ui| ui.dialogs.take_answer(kind))
 }
 
+/// The answer that was left for a dialog, else that of a person.
+fn answer(cx: &mut Cx, title: &str, text: &str, details: Details) -> Option<Data> {
+    let question = Question { title: title.to_owned(), text: text.to_owned(), details };
+    left_answer(cx, question.kind()).or_else(|| cx.ask_person(&question))
+}
+
 /// Notes a dialog for pages and tests.
 fn note_silently(cx: &mut Cx, kind: DialogKind, title: &str, text: &str, answer: &str) {
     cx.change_ui(|ui| {
@@ -48,7 +55,7 @@ fn note(cx: &mut Cx, kind: DialogKind, title: &str, text: &str, answer: &str) {
     cx.env().log(verbosity::SCRIPT_INFOS, &format!("{} '{title}': {text} (answer: {answer})", kind.name()));
 }
 
-/// Shows a message and waits for a button. Without a person, the answer is the usual one: ok; no; cancel; cancel. The message goes to the log.
+/// Shows a message and waits for a button. Without a person at a page of the viewer, the answer is the usual one: ok; no; cancel; cancel. The message goes to the log.
 ///
 /// @param type simUI.msgbox_type
 /// @param buttons simUI.msgbox_buttons
@@ -57,15 +64,22 @@ fn note(cx: &mut Cx, kind: DialogKind, title: &str, text: &str, answer: &str) {
 /// @return result simUI.msgbox_result
 #[api("simUI.msgBox")]
 fn msg_box(cx: &mut Cx, r#type: i64, buttons: i64, title: String, message: String) -> Result<i64> {
-    let _ = r#type;
     let place = usize::try_from(buttons).ok();
     let (usual, possible) = place.and_then(|place| BUTTONS.get(place)).copied().unwrap_or(BUTTONS[0]);
-    let result = match left_answer(cx, DialogKind::Message) {
-        Some(answer) => button_of(&answer, possible)?,
-        None => usual,
-    };
+    let result = pressed_button(cx, r#type, (usual, possible), &title, &message)?;
     note(cx, DialogKind::Message, &title, &message, RESULTS[result as usize]);
     Ok(result)
+}
+
+/// The button that was left as the answer to a message, else that a person presses, else the usual one.
+fn pressed_button(cx: &mut Cx, level: i64, (usual, possible): (i64, &[i64]), title: &str, text: &str) -> Result<i64> {
+    if let Some(answer) = left_answer(cx, DialogKind::Message) {
+        return button_of(&answer, possible);
+    }
+    let buttons = possible.iter().map(|number| RESULTS[*number as usize]).collect();
+    let details = Details::Message { buttons, usual: RESULTS[usual as usize], level };
+    let question = Question { title: title.to_owned(), text: text.to_owned(), details };
+    Ok(cx.ask_person(&question).and_then(|answer| button_of(&answer, possible).ok()).unwrap_or(usual))
 }
 
 /// The message of `sim.msgBox`: without a person the answer is ok, and nothing is logged.
@@ -77,10 +91,8 @@ fn msg_box(cx: &mut Cx, r#type: i64, buttons: i64, title: String, message: Strin
 /// @return result sim.msgbox_return_*
 #[api("simUI._simMsgBox")]
 fn sim_msg_box(cx: &mut Cx, r#type: i64, buttons: i64, title: String, message: String) -> Result<i64> {
-    let _ = r#type;
     let (_, possible) = usize::try_from(buttons).ok().and_then(|at| BUTTONS.get(at)).copied().unwrap_or(BUTTONS[0]);
-    let answer = left_answer(cx, DialogKind::Message);
-    let result = answer.map_or(Ok(OK), |answer| button_of(&answer, possible))?;
+    let result = pressed_button(cx, r#type, (OK, possible), &title, &message)?;
     note_silently(cx, DialogKind::Message, &title, &message, RESULTS[result as usize]);
     Ok(result)
 }
@@ -98,13 +110,13 @@ fn button_of(answer: &Data, possible: &[i64]) -> Result<i64> {
     })
 }
 
-/// The files that were left as the answer to a dialog.
-fn left_files(cx: &mut Cx) -> Vec<String> {
+/// The files that were left as the answer to a dialog, else those that a person names.
+fn chosen_files(cx: &mut Cx, title: &str, details: Details) -> Vec<String> {
     let text = |data: &Data| match data {
         Data::Text(bytes) => Some(String::from_utf8_lossy(bytes).into_owned()),
         _ => None,
     };
-    match left_answer(cx, DialogKind::File) {
+    match answer(cx, title, "", details) {
         Some(Data::Array(paths)) => paths.iter().filter_map(text).collect(),
         Some(path) => text(&path).into_iter().collect(),
         None => Vec::new(),
@@ -117,12 +129,12 @@ fn left_files(cx: &mut Cx) -> Vec<String> {
 /// @return result paths; empty if cancelled
 #[api("simUI._simFileDialog")]
 fn sim_file_dialog(cx: &mut Cx, title: String) -> Result<Vec<String>> {
-    let files = left_files(cx);
+    let files = chosen_files(cx, &title, Details::any_file());
     note_silently(cx, DialogKind::File, &title, "", &files.join(", "));
     Ok(files)
 }
 
-/// Asks for files. Without a person: none.
+/// Asks for files. Without a person at a page of the viewer: none.
 ///
 /// @param type simUI.filedialog_type
 /// @param title
@@ -144,14 +156,21 @@ fn file_dialog(
     ext: String,
     #[default(false)] native: bool,
 ) -> Result<Vec<String>> {
-    let _ = (r#type, ext_name, native);
-    let files = left_files(cx);
-    let asked = [start_path, init_name, ext].join(" ");
+    let _ = native;
+    let asked = [start_path.as_str(), &init_name, &ext].join(" ");
+    let details = Details::Files {
+        selects: r#type,
+        start_path,
+        initial_name: init_name,
+        extension_name: ext_name,
+        extensions: ext,
+    };
+    let files = chosen_files(cx, &title, details);
     note(cx, DialogKind::File, &title, asked.trim(), &files.join(", "));
     Ok(files)
 }
 
-/// Asks for a colour. Without a person: none.
+/// Asks for a colour. Without a person at a page of the viewer: none.
 ///
 /// @param initColor the colour to begin with: red, green, blue, and maybe opacity, 0 to 1; white without it
 /// @param title
@@ -167,23 +186,25 @@ fn color_dialog(
     #[default(true)] native: bool,
 ) -> Result<Data> {
     let _ = native;
-    if init_color.is_some_and(|color| !(3..=4).contains(&color.len())) {
+    if init_color.as_ref().is_some_and(|color| !(3..=4).contains(&color.len())) {
         return Err(ApiError::Other("read in arg 1 (initColor): must have 3 to 4 elements".into()));
     }
     let parts = if show_alpha_channel { 4 } else { 3 };
-    let color = match left_answer(cx, DialogKind::Color) {
+    let initial = init_color.unwrap_or_else(|| vec![1.0; 3]);
+    let details = Details::Color { initial, alpha: show_alpha_channel };
+    let color = match answer(cx, &title, "", details) {
         Some(Data::Array(mut color)) => {
             color.resize(parts, Data::Float(1.0));
             Data::Array(color)
         }
         _ => Data::Nil,
     };
-    let answer = if color == Data::Nil { "cancel" } else { "ok" };
-    note(cx, DialogKind::Color, &title, "", answer);
+    let shown = if color == Data::Nil { "cancel" } else { "ok" };
+    note(cx, DialogKind::Color, &title, "", shown);
     Ok(color)
 }
 
-/// Asks for a text. Without a person: none.
+/// Asks for a text. Without a person at a page of the viewer: none.
 ///
 /// @param initValue the text to begin with
 /// @param label what it is
@@ -196,15 +217,14 @@ fn input_dialog(
     #[default("Input value:")] label: String,
     #[default("")] title: String,
 ) -> Result<Data> {
-    let _ = init_value;
-    let entry = match left_answer(cx, DialogKind::Input) {
+    let entry = match answer(cx, &title, &label, Details::Text { initial: init_value }) {
         Some(Data::Text(entry)) => Some(entry),
         Some(Data::Int(number)) => Some(number.to_string().into_bytes()),
         Some(Data::Float(number)) => Some(number.to_string().into_bytes()),
         _ => None,
     };
-    let answer = entry.as_ref().map_or("cancel".into(), |entry| String::from_utf8_lossy(entry).into_owned());
-    note(cx, DialogKind::Input, &title, &label, &answer);
+    let shown = entry.as_ref().map_or("cancel".into(), |entry| String::from_utf8_lossy(entry).into_owned());
+    note(cx, DialogKind::Input, &title, &label, &shown);
     Ok(entry.map_or(Data::Nil, Data::Text))
 }
 

@@ -28,7 +28,7 @@ pub(crate) struct Changes {
     pub(super) removed_drawings: Vec<i64>,
     pub(super) windows: Vec<Arc<str>>,
     pub(super) removed_windows: Vec<String>,
-    pub(super) dialogs: Option<Arc<str>>,
+    pub(super) lists: Vec<(&'static str, Arc<str>)>,
     pub(super) selection: Option<Vec<i64>>,
     pub(super) log: Vec<Arc<str>>,
     /// A message.
@@ -56,8 +56,8 @@ impl Changes {
         self.list(&mut text, "removedDrawings", &self.removed_drawings);
         self.list(&mut text, "windows", &self.windows);
         self.list(&mut text, "removedWindows", &self.removed_windows);
-        if let Some(dialogs) = &self.dialogs {
-            member(&mut text, "dialogs", dialogs);
+        for (name, list) in &self.lists {
+            member(&mut text, name, list);
         }
         if let Some(selection) = &self.selection {
             list(&mut text, "selection", selection);

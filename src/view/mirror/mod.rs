@@ -45,7 +45,8 @@ pub(crate) struct Mirror {
     drawings: Entries<i64, Arc<str>>,
     /// Interfaces of scripts, by their identifiers in JSON.
     windows: Entries<String, Arc<str>>,
-    dialogs: (Revision, Arc<str>),
+    /// Lists as JSON, by their names in messages.
+    lists: BTreeMap<&'static str, (Revision, Arc<str>)>,
     poses: Poses,
     selection: (Revision, Vec<i64>),
     log: VecDeque<(Revision, Arc<str>)>,
@@ -108,15 +109,30 @@ impl Mirror {
     pub(crate) fn apply_windows(&mut self, seen: ObservedWindows) -> bool {
         let next = self.revision + 1;
         let mut changed = self.windows.apply(seen.windows, &seen.removed, seen.is_complete, next);
-        if *seen.dialogs != *self.dialogs.1 {
-            self.dialogs = (next, seen.dialogs);
-            changed = true;
+        for (name, list) in seen.lists {
+            changed |= self.apply_list(name, list, next);
         }
         self.begun = self.begun.max(self.windows.forgotten());
         if changed {
             self.revision = next;
         }
         changed
+    }
+
+    fn apply_list(&mut self, name: &'static str, list: Arc<str>, next: Revision) -> bool {
+        let is_new = self.lists.get(name).is_none_or(|(_, known)| *known != list);
+        if is_new {
+            self.lists.insert(name, (next, list));
+        }
+        is_new
+    }
+
+    /// The dialog that waits for a person, as JSON; null for none.
+    pub(crate) fn show_question(&mut self, question: &serde_json::Value) {
+        let next = self.revision + 1;
+        if self.apply_list("question", question.to_string().into(), next) {
+            self.revision = next;
+        }
     }
 
     fn retain(&mut self, blob: &Arc<Blob>, next: Revision) {
@@ -187,7 +203,7 @@ impl Mirror {
             removed_drawings: if is_snapshot { Vec::new() } else { self.drawings.removed_since(since) },
             windows: self.windows.since(since).cloned().collect(),
             removed_windows: if is_snapshot { Vec::new() } else { self.windows.removed_since(since) },
-            dialogs: newer(&self.dialogs),
+            lists: self.lists.iter().filter_map(|(name, list)| Some((*name, newer(list)?))).collect(),
             selection: (self.selection.0 > since || is_snapshot).then(|| self.selection.1.clone()),
             log: self.log.range(new_lines..).map(|(_, line)| Arc::clone(line)).collect(),
             poses: self.poses.since(since, self.time),

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::meshes::Meshes;
 use super::{ObservedObject, ScriptError, members};
-use crate::scene::{Object, ObjectFlags, Scene};
+use crate::scene::{Handle, Kind, Object, ObjectFlags, Scene};
 use crate::script::property_table::object_class;
 
 /// An object as pages show it; `place` is that among its siblings.
@@ -22,7 +22,7 @@ pub(super) fn object(
         "parent": object.parent().map_or(-1, |parent| parent.raw()),
         "childOrder": place,
         "objectType": object_class(&object.kind).word,
-        "visible": scene.is_visible(object.handle()).unwrap_or(false),
+        "visible": scene.is_visible(object.handle()).unwrap_or(false) && !holds_only_lights(scene, object),
         "layer": object.layer.bits(),
         "modelBase": object.is_model(),
         "selectable": object.object_property.contains(ObjectFlags::SELECTABLE),
@@ -38,4 +38,10 @@ pub(super) fn object(
         all.extend(own);
     }
     ObservedObject { text: value.to_string().into(), blobs }
+}
+
+/// A dummy that only keeps the lights of a scene together would stand large in the middle of small robots.
+fn holds_only_lights(scene: &Scene, object: &Object) -> bool {
+    let is_light = |child: &Handle| scene.object(*child).is_ok_and(|child| matches!(child.kind, Kind::Light(_)));
+    matches!(object.kind, Kind::Dummy(_)) && !object.children().is_empty() && object.children().iter().all(is_light)
 }

@@ -3,6 +3,7 @@
 //! The journal says which objects changed; those are described anew, and what hangs below moved ones is placed anew. What the journal leaves out, or
 //! would have to hold at every step, is compared each time: readings of proximity sensors, images of vision sensors on shapes, drawing objects.
 
+mod button_interfaces;
 mod describe;
 mod drawings;
 mod log;
@@ -21,10 +22,11 @@ use crate::scene::{Change, Cursor, Field, Handle, Kind, Scene, Topic, Topics, Un
 use crate::script::log::RecentLine;
 
 use super::blobs::Blob;
+pub(crate) use button_interfaces::handle_of;
 use meshes::Meshes;
 use moved::Moved;
 pub(crate) use scene::{RECORDING, Source};
-pub(crate) use windows::ObservedWindows;
+pub(crate) use windows::{ObservedWindows, WindowObserver};
 
 /// Changes of what pages show.
 const SHOWN: Topics = Topics::TREE.with(Topic::Selection).with(Topic::Settings).with_fields(&[
@@ -124,8 +126,8 @@ struct Concerned {
 impl Observer {
     /// What changed since the last call; everything at first. Takes time in proportion to that.
     pub(crate) fn observe(&mut self, source: &Source<'_>, lines: &[RecentLine]) -> Observation {
-        let scene = source.scene;
-        let is_another_scene = self.scene_uid.replace(source.scene_uid) != Some(source.scene_uid);
+        let scene = source.now.scene;
+        let is_another_scene = self.scene_uid.replace(source.now.scene_uid) != Some(source.now.scene_uid);
         if is_another_scene {
             *self = Self { scene_uid: self.scene_uid, ..Self::default() };
         }
@@ -149,7 +151,7 @@ impl Observer {
             drawings,
             removed_drawings,
             scene: Some(source.describe()),
-            time: source.time,
+            time: source.now.time,
             selection: (complete || concerned.selection)
                 .then(|| scene.selection().iter().map(|handle| handle.raw()).collect()),
             log: lines.iter().map(log::describe).collect(),

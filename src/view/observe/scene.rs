@@ -8,22 +8,14 @@ use crate::Simulator;
 use crate::perception::vision::views_background;
 use crate::scene::Scene;
 use crate::scene::appearance::environment::{Fog, FogType};
-use crate::script::SimulationState;
+use crate::script::{SimulationState, Situation};
 
 /// The mode of what is recorded.
 pub(crate) const RECORDING: &str = "recording";
 
-/// The present state of a simulator.
+/// A simulator as pages are to see it.
 pub(crate) struct Source<'a> {
-    pub scene: &'a Scene,
-    /// Another one after another scene was loaded.
-    pub scene_uid: i64,
-    pub state: SimulationState,
-    /// Seconds.
-    pub time: f64,
-    pub steps: u64,
-    /// Uncaught errors of scripts.
-    pub errors: u64,
+    pub now: Situation<'a>,
     /// Pages may only read.
     pub is_read_only: bool,
     /// What is shown is being recorded or viewed live.
@@ -33,46 +25,37 @@ pub(crate) struct Source<'a> {
 impl<'a> Source<'a> {
     /// A simulator as it is now, with its scene.
     pub(crate) fn of(sim: &Simulator, scene: &'a Scene) -> Self {
-        Self {
-            scene,
-            scene_uid: sim.scene_uid(),
-            state: sim.state(),
-            time: sim.time(),
-            steps: sim.steps(),
-            errors: sim.errors(),
-            is_read_only: false,
-            mode: "live",
-        }
+        Self { now: sim.situation(scene), is_read_only: false, mode: "live" }
     }
 
     /// The name of the scene's file.
     pub(crate) fn name(&self) -> String {
-        let name = Path::new(&self.scene.settings().path).file_name();
+        let name = Path::new(&self.now.scene.settings().path).file_name();
         name.map_or_else(|| "untitled".to_owned(), |name| name.to_string_lossy().into_owned())
     }
 
     /// The scene as JSON.
     pub(super) fn describe(&self) -> String {
-        let settings = self.scene.settings();
+        let settings = self.now.scene.settings();
         let name = self.name();
         // A recording is for others: where the file was is nobody's business.
         let path = if self.mode == RECORDING { &name } else { &settings.path };
         json!({
             "name": name,
             "path": path,
-            "state": state_name(self.state),
-            "time": self.time,
-            "steps": self.steps,
+            "state": state_name(self.now.state),
+            "time": self.now.time,
+            "steps": self.now.steps,
             "timeStep": settings.time_step,
             "realTime": settings.real_time,
             "speed": if settings.real_time { settings.real_time_factor } else { 0.0 },
             "visibilityLayers": settings.visibility_layers.bits(),
-            "background": views_background(self.scene),
+            "background": views_background(self.now.scene),
             "ambient": settings.environment.ambient_light,
             "fog": fog(&settings.environment.fog),
             "mode": self.mode,
             "readOnly": self.is_read_only,
-            "errors": self.errors,
+            "errors": self.now.errors,
         })
         .to_string()
     }

@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::*;
 use crate::scene::Pose;
 use crate::scene::object::dummy::Dummy;
-use crate::script::SimulationState;
+use crate::script::{SimulationState, Situation};
 use crate::view::blobs::Hash;
 use crate::view::mirror::{Message, Mirror};
 
@@ -32,12 +32,14 @@ impl Stage {
 
     fn observe_lines(&mut self, lines: &[RecentLine]) -> Observation {
         let source = Source {
-            scene: &self.scene,
-            scene_uid: 1,
-            state: SimulationState::Running,
-            time: 0.0,
-            steps: 0,
-            errors: 0,
+            now: Situation {
+                scene: &self.scene,
+                scene_uid: 1,
+                state: SimulationState::Running,
+                time: 0.0,
+                steps: 0,
+                errors: 0,
+            },
             is_read_only: false,
             mode: "live",
         };

@@ -2,6 +2,7 @@
 import { servedRecording, inlinedRecording } from './chunks.js';
 import { LiveSource } from './connection.js';
 import { Layout } from './layout.js';
+import { BannersPane } from './panes/banners.js';
 import { Bar } from './panes/bar.js';
 import { ConsolePane } from './panes/console.js';
 import { CurvesPane } from './panes/curves.js';
@@ -9,8 +10,11 @@ import { DialogsPane } from './panes/dialogs.js';
 import { Help, keysOf } from './panes/help.js';
 import { InspectorPane } from './panes/inspector.js';
 import { Overlay } from './panes/overlay.js';
+import { Questions } from './panes/questions.js';
 import { ScriptPane } from './panes/script.js';
+import { SensorImages } from './panes/sensor_images.js';
 import { TreePane } from './panes/tree.js';
+import { ViewsPane } from './panes/views.js';
 import { WindowsPane } from './panes/windows.js';
 import { Controls } from './render/controls.js';
 import { Renderer } from './render/renderer.js';
@@ -24,6 +28,7 @@ class Page {
   constructor(store, source) {
     Object.assign(this, { store, source });
     this.renderer = this._renderer();
+    this.sensorImages = new SensorImages(source);
     this.layout = new Layout(this);
     this.tree = new TreePane(at('tree-pane'), this);
     this.inspector = new InspectorPane(at('inspector-pane'), this);
@@ -33,7 +38,10 @@ class Page {
     this.bar = new Bar(at('bar'), this);
     this.overlay = new Overlay(this);
     this.windows = new WindowsPane(at('windows'), this);
+    this.views = new ViewsPane(at('windows'), this);
     this.dialogs = new DialogsPane(this);
+    this.questions = new Questions(this);
+    this.banners = new BannersPane(this);
     const keys = keysOf(this);
     this.help = new Help(keys);
     this._listen(keys);
@@ -230,7 +238,7 @@ class Page {
     this.store.flush();
     if (this.renderer) {
       this._moveCamera();
-      this.renderer.frame(seconds);
+      if (this.renderer.frame(seconds)) this.views.draw(true);
       this.overlay.frame();
     }
     requestAnimationFrame((next) => this.frame(next));

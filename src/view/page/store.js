@@ -37,6 +37,9 @@ export class Store {
     this.selection = [];
     this.windows = new Map();
     this.dialogs = [];
+    this.banners = [];
+    this.views = [];
+    this.question = null;
     this.images = new Map();
     this.contacts = [];
   }
@@ -48,7 +51,7 @@ export class Store {
     this.changedDrawings = new Set();
   }
 
-  /** Calls a function after changes of a topic: scene, objects, poses, drawings, selection, log, windows, dialogs, image, contacts, properties, connection. */
+  /** Calls a function after changes of a topic: scene, objects, poses, drawings, selection, log, windows, dialogs, banners, views, question, image, contacts, properties, connection. */
   on(topic, listener) {
     if (!this.listeners.has(topic)) this.listeners.set(topic, new Set());
     this.listeners.get(topic).add(listener);
@@ -59,7 +62,7 @@ export class Store {
     if (!this.dirty.size) return;
     const { dirty, changed, moved, changedDrawings } = this;
     this._marks();
-    for (const topic of ['connection', 'scene', 'objects', 'poses', 'drawings', 'selection', 'log', 'windows', 'dialogs', 'image', 'contacts', 'properties']) {
+    for (const topic of ['connection', 'scene', 'objects', 'poses', 'drawings', 'selection', 'log', 'windows', 'dialogs', 'banners', 'views', 'question', 'image', 'contacts', 'properties']) {
       if (!dirty.has(topic)) continue;
       const detail = { objects: changed, poses: moved, drawings: changedDrawings }[topic];
       this.listeners.get(topic)?.forEach((listener) => listener(detail));
@@ -93,7 +96,7 @@ export class Store {
     this.log = [];
     this.loggedLines = 0;
     this.dirty.add('log');
-    this._update({ selection: [], dialogs: [], ...message, removed, removedDrawings, removedWindows });
+    this._update({ selection: [], dialogs: [], banners: [], views: [], question: null, ...message, removed, removedDrawings, removedWindows });
   }
 
   _update(message) {
@@ -104,7 +107,7 @@ export class Store {
     message.drawings?.forEach((drawing) => this._drawing(drawing.id, drawing));
     this._take(message, 'selection');
     if (message.log?.length) this._lines(message.log);
-    this._take(message, 'dialogs');
+    for (const name of ['dialogs', 'banners', 'views', 'question']) this._take(message, name);
     message.removedWindows?.forEach((id) => this.windows.delete(id));
     message.windows?.forEach((window) => this.windows.set(window.id, window));
     if (message.windows?.length || message.removedWindows?.length) this.dirty.add('windows');

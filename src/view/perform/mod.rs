@@ -1,11 +1,13 @@
 //! What pages ask for, done on the simulation's thread between two iterations.
 
+mod button_interfaces;
 mod graph;
 mod inspector;
 mod values;
 
 use serde_json::{Value, json};
 
+use super::observe::handle_of;
 use super::request::Action;
 use crate::Simulator;
 use crate::scene::{Data, Handle};
@@ -39,10 +41,19 @@ pub(crate) fn perform(sim: &mut Simulator, action: &Action, lines: &mut Vec<Rece
             return Ok(json!({ "name": name, "language": language, "text": String::from_utf8_lossy(&text) }));
         }
         Action::Graph(handle) => return graph::curves(sim, *handle),
-        Action::Ui { window, widget, input } => sim.ui_input(&ui_input(window, widget, input)?)?,
+        Action::Ui { window, widget, input } => use_window(sim, window, widget, input)?,
+        Action::Answer { .. } => return Err("no dialog waits for an answer".into()),
         Action::Run(code) => return run(sim, code, lines).map(Value::String),
     }
     Ok(Value::Bool(true))
+}
+
+/// What a person does with a window of a script, or with a user interface of V-REP.
+fn use_window(sim: &mut Simulator, window: &Value, widget: &Value, input: &Value) -> Result<(), String> {
+    match window.as_str().and_then(handle_of) {
+        Some(interface) => button_interfaces::input(sim, interface, widget, input),
+        None => sim.ui_input(&ui_input(window, widget, input)?),
+    }
 }
 
 /// An input with the window and the widget that it concerns.

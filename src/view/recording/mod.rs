@@ -23,6 +23,7 @@ use index::ChunkPlace;
 pub(crate) use index::{Index, Mark, MarkKind};
 pub(crate) use page::{gzip, html};
 pub(crate) use reader::Recording;
+pub(crate) use recorder::Recorded;
 use recorder::Recorder;
 pub(crate) use run::RunRecorder;
 use writer::Writer;

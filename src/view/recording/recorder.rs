@@ -5,6 +5,7 @@ use std::io::Write;
 use super::{Mark, MarkKind, Writer, graphs};
 use crate::scene::Scene;
 use crate::script::log::RecentLine;
+use crate::view::images::Images;
 use crate::view::mirror::Revision;
 use crate::view::mirror::{Message, Mirror};
 use crate::view::observe::{Observation, Observer, Source};
@@ -20,6 +21,16 @@ pub(crate) struct Recorder<W> {
     before: f64,
     /// Of the last message in the present simulation, seconds.
     last: f64,
+    /// What of the images of vision sensors is in the chunk; None if they are not recorded.
+    images: Option<Images>,
+}
+
+/// What is recorded of a simulation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Recorded {
+    #[default]
+    Scene,
+    SceneAndImages,
 }
 
 impl<W: Write> Recorder<W> {
@@ -27,10 +38,11 @@ impl<W: Write> Recorder<W> {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub(crate) fn new(file: W, source: &Source<'_>, lines: &[RecentLine]) -> std::io::Result<Self> {
-        let writer = Writer::new(file, &source.name(), source.scene.settings().time_step)?;
+    pub(crate) fn new(file: W, source: &Source<'_>, lines: &[RecentLine], recorded: Recorded) -> std::io::Result<Self> {
+        let writer = Writer::new(file, &source.name(), source.now.scene.settings().time_step)?;
         let (observer, mirror) = (Observer::default(), Mirror::default());
-        let mut recorder = Self { observer, mirror, seen: 0, writer, before: 0.0, last: source.time };
+        let images = (recorded == Recorded::SceneAndImages).then(Images::default);
+        let mut recorder = Self { images, observer, mirror, seen: 0, writer, before: 0.0, last: source.now.time };
         recorder.record(source, lines)?;
         Ok(recorder)
     }
@@ -40,14 +52,15 @@ impl<W: Write> Recorder<W> {
     /// # Errors
     /// When the file cannot be written.
     pub(crate) fn record(&mut self, source: &Source<'_>, lines: &[RecentLine]) -> std::io::Result<()> {
-        if source.time < self.last {
+        if source.now.time < self.last {
             // Another simulation has begun: the timeline goes on.
             self.before += self.last;
         }
-        self.last = source.time;
+        self.last = source.now.time;
         self.mark_errors(lines);
         let seen = self.observer.observe(source, lines);
-        self.add(seen)
+        self.add(seen)?;
+        self.add_images(source.now.scene)
     }
 
     fn add(&mut self, seen: Observation) -> std::io::Result<()> {
@@ -58,6 +71,9 @@ impl<W: Write> Recorder<W> {
         let is_snapshot = self.writer.chunk_is_full(time);
         if is_snapshot {
             self.writer.end_chunk()?;
+            if let Some(images) = &mut self.images {
+                images.forget();
+            }
         }
         for blob in self.mirror.blobs_since(self.seen) {
             self.writer.add_blob(time, blob)?;
@@ -69,6 +85,12 @@ impl<W: Write> Recorder<W> {
         let Some(changes) = changes else { return Ok(()) };
         self.seen = changes.revision;
         changes.messages().iter().try_for_each(|message| self.writer.add(time, message))
+    }
+
+    fn add_images(&mut self, scene: &Scene) -> std::io::Result<()> {
+        let time = self.time();
+        let new = self.images.as_mut().map(|images| images.of_all(scene, time)).unwrap_or_default();
+        new.into_iter().try_for_each(|image| self.writer.add(time, &Message::Binary(image)))
     }
 
     /// Of the timeline, seconds.

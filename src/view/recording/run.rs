@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::io::Write;
 use std::rc::Rc;
 
-use super::{MarkKind, Recorder};
+use super::{MarkKind, Recorded, Recorder};
 use crate::Simulator;
 use crate::scene::{Handle, Scene};
 use crate::script::Present;
@@ -27,8 +27,8 @@ impl<W: Write + 'static> RunRecorder<W> {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub(crate) fn start(sim: &Simulator, file: W) -> std::io::Result<Self> {
-        let recorder = sim.with_present(|present| Recorder::new(file, &source(present), &present.lines))?;
+    pub(crate) fn start(sim: &Simulator, file: W, recorded: Recorded) -> std::io::Result<Self> {
+        let recorder = sim.with_present(|present| Recorder::new(file, &source(present), &present.lines, recorded))?;
         let (signals, contacts) = Default::default();
         let state = Rc::new(RefCell::new(State { recorder: Some(recorder), failure: None, signals, contacts }));
         let watching = Rc::clone(&state);
@@ -52,7 +52,7 @@ impl<W: Write + 'static> RunRecorder<W> {
             return Err(error);
         }
         let recorder = state.recorder.take().expect("it goes with a failure only");
-        sim.with_present(|present| recorder.finish(present.scene, &present.lines))
+        sim.with_present(|present| recorder.finish(present.now.scene, &present.lines))
     }
 }
 
@@ -74,7 +74,7 @@ impl<W: Write> State<W> {
         present.broadcasts.iter().for_each(|name| self.mark(MarkKind::Broadcast, name, None));
         let contacts = std::mem::replace(&mut self.contacts, present.contacts.clone());
         for [first, second] in present.contacts.difference(&contacts) {
-            let text = format!("{} and {}", path(present.scene, *first), path(present.scene, *second));
+            let text = format!("{} and {}", path(present.now.scene, *first), path(present.now.scene, *second));
             self.mark(MarkKind::Contact, &text, Some(first.raw()));
         }
     }
@@ -87,16 +87,7 @@ impl<W: Write> State<W> {
 }
 
 fn source<'a>(present: &Present<'a>) -> Source<'a> {
-    Source {
-        scene: present.scene,
-        scene_uid: present.scene_uid,
-        state: present.state,
-        time: present.time,
-        steps: present.steps,
-        errors: present.errors,
-        is_read_only: true,
-        mode: RECORDING,
-    }
+    Source { now: present.now, is_read_only: true, mode: RECORDING }
 }
 
 fn path(scene: &Scene, handle: Handle) -> String {

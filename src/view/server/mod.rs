@@ -6,6 +6,7 @@ mod site;
 mod visitor;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -31,6 +32,8 @@ pub(crate) struct Shared {
     requests: Mutex<VecDeque<Pending>>,
     arrived: Condvar,
     is_read_only: bool,
+    /// How many dialogs were shown.
+    questions: AtomicU64,
     /// Why the simulator ends, once it does.
     end: Mutex<Option<String>>,
 }
@@ -89,6 +92,16 @@ impl Shared {
     /// Whether any page is connected.
     pub(crate) fn has_pages(&self) -> bool {
         !lock(&self.demand).pages.is_empty()
+    }
+
+    /// The number of the next dialog, from 1.
+    pub(crate) fn number_question(&self) -> u64 {
+        self.questions.fetch_add(1, Ordering::Relaxed) + 1
+    }
+
+    /// Whether any page is connected that may answer.
+    pub(crate) fn has_persons(&self) -> bool {
+        !self.is_read_only && self.has_pages()
     }
 
     /// What all pages together want.

@@ -4,8 +4,9 @@ use std::cell::RefCell;
 use std::rc::{Rc, Weak};
 
 use super::Cx;
+use crate::scene::Data;
 use crate::script::error::ApiResult;
-use crate::ui::{Ui, UiResult, Window};
+use crate::ui::{Question, Ui, UiResult, Window};
 
 /// What a script has opened: it goes with the state of the script.
 #[derive(Default)]
@@ -19,6 +20,7 @@ struct Ownership {
 enum Item {
     Window(String),
     Banner(i64),
+    View(i64),
 }
 
 impl Drop for Ownership {
@@ -30,7 +32,9 @@ impl Drop for Ownership {
             let _ = match &self.item {
                 Item::Window(window) => ui.destroy(window).is_ok(),
                 Item::Banner(banner) => ui.dialogs.remove_banner(*banner),
+                Item::View(view) => ui.views.remove(*view),
             };
+            ui.touch();
         }
     }
 }
@@ -56,6 +60,16 @@ impl Cx<'_> {
         self.own(Item::Banner(banner));
     }
 
+    /// Removes a floating view when the calling script ends.
+    pub(crate) fn own_view(&mut self, view: i64) {
+        self.own(Item::View(view));
+    }
+
+    /// What a person answers to a dialog; None without one.
+    pub(crate) fn ask_person(&mut self, question: &Question) -> Option<Data> {
+        self.sim.ask_person(question)
+    }
+
     fn own(&mut self, item: Item) {
         let ui = self.app().ui.clone();
         let opened = self.script_state::<Opened>();
@@ -63,6 +77,7 @@ impl Cx<'_> {
         opened.retain(|other| match &other.item {
             Item::Window(window) => ui.borrow().window(window).is_ok(),
             Item::Banner(banner) => ui.borrow().dialogs.has_banner(*banner),
+            Item::View(view) => ui.borrow().views.contains(*view),
         });
         opened.push(Ownership { ui: Rc::downgrade(&ui), item });
     }

@@ -16,6 +16,7 @@ use crate::script::files::app_storage::AppStorage;
 use crate::script::lifecycle::random::Random;
 use crate::script::log::auxiliary_consoles::AuxiliaryConsoles;
 use crate::script::log::verbosity;
+use crate::script::person::Ask;
 use crate::script::present::Watching;
 use crate::script::sim::{Options, Sim};
 use crate::script::video::Videos;
@@ -47,6 +48,8 @@ pub(crate) struct AppData {
     pub videos: Videos,
     /// The windows of scripts.
     pub ui: Rc<RefCell<Ui>>,
+    /// Who answers dialogs, if anybody does.
+    pub person: Option<Rc<Ask>>,
     pub watching: Watching,
 }
 

@@ -22,7 +22,9 @@ export class ConsolePane {
     this.empty = el('p', { class: 'hint' }, 'Nothing was logged yet. What scripts print appears here.');
     this.history = [];
     this.input = el('input', { type: 'text', class: 'mono', placeholder: 'Lua', 'aria-label': 'Run Lua', spellcheck: 'false', autocomplete: 'off', onkeydown: (event) => this._key(event) });
-    pane.append(el('div', { class: 'pane-tools' }, this.level, this.filter), this.lines, this.empty, el('div', { class: 'console-input' }, el('span', { 'aria-hidden': 'true' }, '>'), this.input));
+    this.entry = el('div', { class: 'console-input' }, el('span', { 'aria-hidden': 'true' }, '>'), this.input);
+    this.entry.hidden = !page.source.live;
+    pane.append(el('div', { class: 'pane-tools' }, this.level, this.filter), this.lines, this.empty, this.entry);
     this.first = undefined;
     this.count = 0;
     this.store.on('log', () => this._update());

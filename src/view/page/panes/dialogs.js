@@ -1,4 +1,4 @@
-// Dialogs of scripts: they were answered when they came, since nobody may be watching; the page says what and how.
+// Dialogs of scripts that were answered when they came, since no page could answer: the page says what and how.
 import { el, iconButton } from '../dom.js';
 
 const SHOWN = 8000; // milliseconds
@@ -6,6 +6,7 @@ const SHOWN = 8000; // milliseconds
 export class DialogsPane {
   constructor(page) {
     this.page = page;
+    this.asked = new Set(); // titles of those that this page has asked itself
     this.last = null; // number of the newest dialog that was there before the page came
     this.list = el('div', { class: 'dialogs', role: 'status' });
     document.getElementById('stage').append(this.list);
@@ -16,7 +17,7 @@ export class DialogsPane {
     const newest = dialogs.reduce((most, { number }) => Math.max(most, number ?? 0), 0);
     const fresh = this.last === null ? [] : dialogs.filter(({ number }) => number > this.last);
     this.last = newest;
-    fresh.forEach((dialog) => this._show(dialog));
+    for (const dialog of fresh) if (!this.asked.delete(dialog.title)) this._show(dialog);
   }
 
   _show({ title, text, answer }) {

@@ -1,6 +1,7 @@
 // Properties of the selected object: grouped, live, editable where a script could write them.
 import { copyText, el, iconButton, setText } from '../dom.js';
 import { Sparkline } from './curves.js';
+import { drawImage } from './sensor_images.js';
 import { editorOf, formatted } from './values.js';
 
 const GETTERS = {
@@ -74,22 +75,13 @@ export class InspectorPane {
   }
 
   _watch() {
-    const isSensor = this.store.objects.get(this.handle)?.objectType === 'visionSensor';
+    this.isSensor = this.store.objects.get(this.handle)?.objectType === 'visionSensor';
     this.picture.hidden = true;
-    this.page.source.request('watch', { handles: isSensor ? [this.handle] : [] }).catch(() => {});
+    this.page.sensorImages.watch(this, this.isSensor ? [this.handle] : []);
   }
 
   _image() {
-    const image = this.store.images.get(this.handle);
-    if (!image || image.rgb.length < 3 * image.width * image.height) return;
-    const { width, height, rgb } = image;
-    Object.assign(this.picture, { width, height, hidden: false });
-    const pixels = new ImageData(width, height);
-    for (let i = 0, n = width * height; i < n; i++) {
-      for (let k = 0; k < 3; k++) pixels.data[4 * i + k] = rgb[3 * i + k];
-      pixels.data[4 * i + 3] = 255;
-    }
-    this.picture.getContext('2d').putImageData(pixels, 0, 0);
+    this.picture.hidden = !this.isSensor || !drawImage(this.picture, this.store.images.get(this.handle));
   }
 
   _show(rows) {

@@ -14,17 +14,25 @@ export function container(content, form) {
   element.style.padding = `${margins[1]}px ${margins[2]}px ${margins[3]}px ${margins[0]}px`;
   element.style.gap = `${spacing < 0 ? USUAL_SPACING : spacing}px`;
   const there = items.filter(Boolean);
+  if (layout === 'none') reach(element, there, margins);
   if (layout === 'grid') fillGrid(element, there, form);
-  else there.forEach((item) => element.append(placed(item, layout, form)));
+  else there.forEach((item) => element.append(placed(item, layout, form, margins)));
   return element;
 }
 
-function placed(item, layout, form) {
+function placed(item, layout, form, margins) {
   if (item.kind === 'stretch') return stretched(el('div', { 'aria-hidden': 'true' }), Math.max(item.factor ?? 0, 1));
   const element = widget(item, form);
   if (item.stretch > 0) stretched(element, item.stretch);
-  if (layout === 'none' && item.geometry) ['left', 'top', 'width', 'height'].forEach((side, i) => (element.style[side] = `${item.geometry[i]}px`));
+  if (layout === 'none' && item.geometry) ['left', 'top', 'width', 'height'].forEach((side, i) => (element.style[side] = `${item.geometry[i] + (i < 2 ? margins[i] : 0)}px`));
   return element;
+}
+
+/** As large as what is placed in it. */
+function reach(element, items, [left, top, right, bottom]) {
+  const far = (i) => Math.max(0, ...items.filter((item) => item.geometry).map(({ geometry }) => geometry[i] + geometry[i + 2]));
+  element.style.minWidth = `${far(0) + left + right}px`;
+  element.style.minHeight = `${far(1) + top + bottom}px`;
 }
 
 function stretched(element, factor) {
@@ -52,9 +60,20 @@ function widget(item, form) {
   made.dataset.leaf = item.content || item.pages ? '' : item.id;
   if (!made.dataset.leaf) delete made.dataset.leaf;
   made.classList.add('widget', `ui-${item.kind}`);
+  if (item.look) dress(made, item.look);
   if (item.visible === false) made.hidden = true;
   if (item.enabled === false || !form.enabled) disable(made);
   return made;
+}
+
+const css = (color) => `rgb(${color.map((x) => Math.round(x * 255)).join(' ')})`;
+
+/** Colours that the scene itself chose. */
+function dress(element, { background, color, bordered }) {
+  element.style.background = background ? css(background) : 'none';
+  element.style.color = background ? css(color) : '';
+  element.classList.add('dressed');
+  element.classList.toggle('bordered', bordered);
 }
 
 function disable(element) {
@@ -68,8 +87,26 @@ const key = (item) => ({ 'data-widget': item.id });
 function button(item, form) {
   const pressed = item.checkable ? { 'aria-pressed': String(!!item.checked) } : {};
   const element = el('button', { type: 'button', ...key(item), ...pressed }, item.text || '');
+  if (item.holds) return holding(element, form);
   element.addEventListener('click', () => form.send({ type: 'click' }));
   if (item.repeat) repeat(element, item.repeat, () => form.send({ type: 'click' }));
+  return element;
+}
+
+/** Down as long as the pointer or a key is; the element may be exchanged meanwhile. */
+function holding(element, form) {
+  let held = false;
+  const send = (value) => form.send({ type: 'hold', value });
+  const down = () => {
+    held = true;
+    send(true);
+    const ended = new AbortController();
+    const up = () => (ended.abort(), send(false));
+    for (const end of ['pointerup', 'pointercancel', 'keyup', 'blur']) addEventListener(end, up, { signal: ended.signal });
+  };
+  element.addEventListener('pointerdown', (event) => event.button === 0 && down());
+  element.addEventListener('keydown', (event) => (event.key === ' ' || event.key === 'Enter') && !event.repeat && down());
+  element.addEventListener('click', () => (held ? (held = false) : form.send({ type: 'click' }))); // of what reads the screen
   return element;
 }
 
@@ -103,13 +140,14 @@ function combobox(item, form) {
 
 function edit(item, form) {
   const field = el('input', { type: item.password ? 'password' : 'text', ...key(item), value: item.value, 'aria-label': 'Text', autocomplete: 'off' });
-  field.addEventListener('input', () => form.send({ type: 'value', value: field.value }));
-  field.addEventListener('change', () => form.send({ type: 'finish' }));
+  if (item.look) field.addEventListener('change', () => form.send({ type: 'value', value: field.value }));
+  else field.addEventListener('input', () => form.send({ type: 'value', value: field.value }));
+  if (!item.look) field.addEventListener('change', () => form.send({ type: 'finish' }));
   return field;
 }
 
 function slider(item, form) {
-  const field = el('input', { type: 'range', ...key(item), min: item.minimum, max: item.maximum, step: 1, 'aria-label': 'Value' });
+  const field = el('input', { type: 'range', ...key(item), min: item.minimum, max: item.maximum, step: 1, 'aria-label': item.label || 'Value' });
   const turned = (x) => (item.inverted ? item.minimum + item.maximum - x : x);
   field.value = turned(item.value);
   field.addEventListener('input', () => form.send({ type: 'value', value: turned(Number(field.value)) }));
@@ -127,6 +165,7 @@ function spinbox(item, form) {
 }
 
 function label(item, form) {
+  if (item.plain) return el('div', {}, item.text ?? '');
   const element = el('div', { class: item.wordWrap ? 'wraps' : '' });
   element.append(richText(item.text ?? '', (href) => form.send({ type: 'link', href })));
   return element;

@@ -1,6 +1,11 @@
 // The elements of simUI with many parts: tables, trees, plots, images, properties.
 import { el } from '../dom.js';
 import { drawCurves } from './curves.js';
+import { scene3d } from './scene3d.js';
+
+const MANY = 300; // rows that a table has at once
+const ROWS = 40; // rows that come and go together
+const ROW = 25; // pixels, until one is measured
 
 /** Keys as Qt numbers them, for handlers that want them. */
 const QT_KEYS = { Escape: 0x1000000, Tab: 0x1000001, Backspace: 0x1000003, Enter: 0x1000004, Insert: 0x1000006, Delete: 0x1000007, Home: 0x1000010, End: 0x1000011, ArrowLeft: 0x1000012, ArrowUp: 0x1000013, ArrowRight: 0x1000014, ArrowDown: 0x1000015, PageUp: 0x1000016, PageDown: 0x1000017 };
@@ -17,11 +22,33 @@ function table(item, form) {
   const columns = Array.from({ length: item.columnCount }, (_, i) => i);
   const titled = (i, text) => el('th', { scope: i < 0 ? 'row' : 'col' }, text ?? '');
   const head = item.showHorizontalHeader && el('thead', {}, el('tr', {}, item.showVerticalHeader && el('td', {}), ...columns.map((i) => titled(i, header(item.columnHeaders, i)))));
-  const rows = Array.from({ length: item.rowCount }, (_, row) =>
-    el('tr', {}, item.showVerticalHeader && titled(-1, header(item.rowHeaders, row)), ...columns.map((column) => tableCell(item, form, cells.get(`${row} ${column}`), row, column))));
-  const element = el('div', { class: 'scrolls', tabindex: 0, role: 'group', 'aria-label': 'Table', 'data-widget': item.id }, el('table', { class: item.showGrid ? 'grid-lines' : '' }, head, el('tbody', {}, ...rows)));
+  const row = (i) => el('tr', { 'aria-rowindex': i + 1 }, item.showVerticalHeader && titled(-1, header(item.rowHeaders, i)), ...columns.map((column) => tableCell(item, form, cells.get(`${i} ${column}`), i, column)));
+  const body = el('tbody');
+  const element = el('div', { class: 'scrolls', tabindex: 0, role: 'group', 'aria-label': 'Table', 'data-widget': item.id }, el('table', { class: item.showGrid ? 'grid-lines' : '', 'aria-rowcount': item.rowCount }, head, body));
+  fillRows(element, body, item.rowCount, row);
   if (item.handlers?.includes('on-key-press')) sendKeys(element, form);
   return element;
+}
+
+/** All rows of a body; of many only those about the place that is scrolled to. */
+function fillRows(scroller, body, count, row) {
+  if (count <= MANY) return body.append(...Array.from({ length: count }, (_, i) => row(i)));
+  let shown = -1;
+  const space = (rows, height) => {
+    const element = el('tr', { 'aria-hidden': 'true' });
+    element.style.height = `${rows * height}px`;
+    return element;
+  };
+  const show = () => {
+    const height = body.children[1]?.offsetHeight || ROW;
+    const first = Math.max(Math.floor(scroller.scrollTop / height / ROWS) * ROWS - ROWS, 0);
+    if (first === shown) return;
+    shown = first;
+    const last = Math.min(first + 4 * ROWS, count);
+    body.replaceChildren(space(first, height), ...Array.from({ length: last - first }, (_, i) => row(first + i)), space(count - last, height));
+  };
+  scroller.addEventListener('scroll', show);
+  show();
 }
 
 /** Headers come as a list or by index. */
@@ -46,7 +73,12 @@ function editCell(element, cell, done) {
 }
 
 function tree(item, form) {
-  const below = (parent) => item.items.filter((each) => each.parent === parent);
+  const children = new Map();
+  for (const each of item.items) {
+    if (!children.has(each.parent)) children.set(each.parent, []);
+    children.get(each.parent).push(each);
+  }
+  const below = (parent) => children.get(parent) ?? [];
   const row = (each) => {
     const inside = below(each.id);
     const chosen = each.id === item.selected;
@@ -131,11 +163,6 @@ function properties(item, form) {
     return element;
   };
   return el('div', { class: 'scrolls', tabindex: 0, role: 'group', 'aria-label': 'Properties' }, el('table', { class: 'grid-lines' }, el('tbody', {}, ...item.rows.map(row))));
-}
-
-function scene3d(item) {
-  const nodes = item.nodes ?? [];
-  return el('div', { class: 'hint' }, `A 3D picture with ${nodes.length} nodes, which this page does not draw.`);
 }
 
 export const collections = { table, tree, plot, image, svg: svgImage, properties, scene3d };

@@ -19,7 +19,7 @@ class Frame {
     this.element.addEventListener('keydown', (event) => this._key(event));
     this.bar.addEventListener('pointerdown', (event) => this._drag(event));
     this.update(window);
-    this._setFolded(innerWidth < NARROW);
+    this._setFolded(innerWidth < NARROW || !!window.folded);
   }
 
   _setFolded(folded) {
@@ -34,7 +34,8 @@ class Frame {
     setText(this.title, window.title || 'Window');
     this.element.hidden = !window.visible;
     this.element.classList.toggle('resizable', !!window.resizable);
-    if (before && before.revision === window.revision) return;
+    if (before && window.revision !== undefined && before.revision === window.revision) return;
+    if (before && !!before.folded !== !!window.folded) this._setFolded(!!window.folded);
     const form = { id: this.id, enabled: window.enabled !== false, send: (input) => this._send(input) };
     this._replaceBody(window.content ? container(window.content, form) : null);
   }
@@ -44,8 +45,13 @@ class Frame {
     const held = document.activeElement?.closest?.('.window-body') === this.body ? document.activeElement : null;
     if (held && this._patch(content)) return;
     const [key, start, end, scroll] = [held?.dataset.widget, held?.selectionStart, held?.selectionEnd, this.body.scrollTop];
+    const scrolled = [...this.body.querySelectorAll('.scrolls[data-leaf]')].map((each) => [each.dataset.leaf, each.scrollTop]);
     this.body.replaceChildren(...(content ? [content] : []));
     this.body.scrollTop = scroll;
+    for (const [leaf, at] of scrolled) {
+      const again = this.body.querySelector(`.scrolls[data-leaf="${leaf}"]`);
+      if (again) again.scrollTop = at;
+    }
     const again = key && this.body.querySelector(`[data-widget="${key}"]`);
     if (!again) return;
     again.focus({ preventScroll: true });

@@ -75,16 +75,32 @@ export class Renderer {
     return this.canvas.width / this.canvas.height;
   }
 
-  /** Draws, if something changed. @param {number} seconds since the last call */
+  /** Draws, if something changed. @param {number} seconds since the last call @returns {boolean} whether it did */
   frame(seconds) {
-    if (this.gl.isContextLost()) return;
+    if (this.gl.isContextLost()) return false;
     const moved = this.camera.advance(seconds);
     if (this.loaded && performance.now() - this.loaded > LOADING) Object.assign(this, { stale: true, loaded: undefined });
     if (this.surroundings.outdated(performance.now())) this.stale = true;
     if (this.quality.update(seconds, moved || this.stale)) this.stale = true;
     this.resize();
-    if (!moved && !this.stale) return;
+    if (!moved && !this.stale) return false;
     this.stale = false;
+    this._draw();
+    return true;
+  }
+
+  /** What one of the scene's cameras sees, on another canvas; the picture on the page is drawn again after it. */
+  drawThrough(object, pose, canvas) {
+    if (!pose || this.gl.isContextLost()) return;
+    const { camera, matrices, canvas: own, surroundings } = this;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((x) => Math.max(Math.round(x), 1));
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    this.camera = Object.assign(new Camera(), { distance: surroundings.sphere.radius });
+    this.camera.setFixed(pose, object);
+    this.canvas = { width: Math.min(width, own.width), height: Math.min(height, own.height), clientWidth: width };
+    this._draw();
+    canvas.getContext('2d').drawImage(own, 0, own.height - this.canvas.height, this.canvas.width, this.canvas.height, 0, 0, width, height);
+    Object.assign(this, { camera, matrices, canvas: own });
     this._draw();
   }
 

@@ -66,6 +66,22 @@ export function sphere(sides = 24) {
   return mesh;
 }
 
+/** About z, with a ring of radius 1 and a tube of radius `minor`. */
+export function torus(minor, sides = 36, around = 16) {
+  const mesh = { positions: [], indices: [], normals: [], uvs: null, edges: [] };
+  const point = (i, k, radius, tube) => {
+    const [x, y] = ring(k, around, tube, 0);
+    return ring(i, sides, radius + x, y);
+  };
+  for (let i = 0; i < sides; i++) {
+    for (let k = 0; k < around; k++) {
+      const all = [[i, k], [i + 1, k], [i + 1, k + 1], [i, k + 1]];
+      appendQuad(mesh, all.map(([a, b]) => point(a, b, 1, minor)), all.map(([a, b]) => point(a, b, 0, 1)));
+    }
+  }
+  return mesh;
+}
+
 /** In the plane of x and y. */
 export function disc(sides = 32) {
   return faceted([Array.from({ length: sides }, (_, i) => ring(i, sides, 0.5, 0))]);

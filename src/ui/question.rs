@@ -1,0 +1,121 @@
+//! Dialogs that wait for a person: what pages show of them, and the answers that pages send.
+
+use serde_json::{Value, json};
+
+use super::dialogs::DialogKind;
+use crate::scene::Data;
+
+/// A dialog that waits.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Question {
+    pub title: String,
+    pub text: String,
+    pub details: Details,
+}
+
+/// What a dialog asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Details {
+    /// One of the buttons; the usual one is pressed by Enter.
+    Message {
+        buttons: Vec<&'static str>,
+        usual: &'static str,
+        /// `simUI.msgbox_type`.
+        level: i64,
+    },
+    Files {
+        /// `simUI.filedialog_type`.
+        selects: i64,
+        start_path: String,
+        initial_name: String,
+        /// What the extensions are called.
+        extension_name: String,
+        /// With semicolons between them.
+        extensions: String,
+    },
+    /// Red, green, blue, and opacity if `alpha` says so, 0 to 1.
+    Color {
+        initial: Vec<f64>,
+        alpha: bool,
+    },
+    Text {
+        initial: String,
+    },
+}
+
+impl Details {
+    /// A file to load, of any kind.
+    pub(crate) fn any_file() -> Self {
+        let none = String::new;
+        Self::Files {
+            selects: 0,
+            start_path: none(),
+            initial_name: none(),
+            extension_name: none(),
+            extensions: none(),
+        }
+    }
+}
+
+impl Question {
+    pub(crate) fn kind(&self) -> DialogKind {
+        match self.details {
+            Details::Message { .. } => DialogKind::Message,
+            Details::Files { .. } => DialogKind::File,
+            Details::Color { .. } => DialogKind::Color,
+            Details::Text { .. } => DialogKind::Input,
+        }
+    }
+
+    /// As pages get it (docs/VIEW_PROTOCOL.md).
+    pub(crate) fn json(&self, number: u64) -> Value {
+        let mut all = json!({"number": number, "kind": self.kind().name(), "title": self.title, "text": self.text});
+        let details = match &self.details {
+            Details::Message { buttons, usual, level } => json!({"buttons": buttons, "usual": usual, "type": level}),
+            Details::Files { selects, start_path, initial_name, extension_name, extensions } => json!({
+                "type": selects, "startPath": start_path, "initName": initial_name, "extName": extension_name,
+                "extensions": extensions,
+            }),
+            Details::Color { initial, alpha } => json!({"initial": initial, "alpha": alpha}),
+            Details::Text { initial } => json!({"initial": initial}),
+        };
+        if let (Value::Object(all), Value::Object(details)) = (&mut all, details) {
+            all.extend(details);
+        }
+        all
+    }
+}
+
+/// What a page answers: texts, numbers, and lists of them. None for null and for what is no answer.
+pub(crate) fn answer_of_page(answer: &Value) -> Option<Data> {
+    match answer {
+        Value::String(text) => Some(Data::text(text)),
+        Value::Number(number) => number.as_i64().map(Data::Int).or_else(|| number.as_f64().map(Data::Float)),
+        Value::Array(items) => items.iter().map(answer_of_page).collect::<Option<Vec<_>>>().map(Data::Array),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pages_get_what_is_asked_for() {
+        let details = Details::Message { buttons: vec!["yes", "no"], usual: "no", level: 1 };
+        let question = Question { title: "a".into(), text: "<b>".into(), details };
+        let expected = json!({
+            "number": 3, "kind": "msgBox", "title": "a", "text": "<b>", "buttons": ["yes", "no"], "usual": "no", "type": 1,
+        });
+        assert_eq!(question.json(3), expected);
+    }
+
+    #[test]
+    fn answers_are_texts_numbers_and_lists() {
+        assert_eq!(answer_of_page(&json!("ok")), Some(Data::text("ok")));
+        assert_eq!(answer_of_page(&json!([0, 0.5])), Some(Data::Array(vec![Data::Int(0), Data::Float(0.5)])));
+        for wrong in [json!(null), json!(true), json!({"a": 1}), json!([1, null])] {
+            assert_eq!(answer_of_page(&wrong), None, "{wrong}");
+        }
+    }
+}
