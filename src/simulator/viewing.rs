@@ -8,7 +8,7 @@ use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Data, Scene, ValueType};
 use crate::script::log::RecentLine;
 use crate::script::property_table::flags;
-use crate::script::{ApiError, Ask, Present, Situation, Watcher};
+use crate::script::{ApiError, Ask, Present, Situation, SysCall, Watcher};
 
 /// A property of an object, of the scene or of the application.
 pub(crate) struct PropertyRow {
@@ -114,6 +114,15 @@ impl Simulator {
     pub(crate) fn script_text(&self, handle: i64) -> Result<(String, String, Vec<u8>), ApiError> {
         let script = self.sim.script(handle).ok_or(ApiError::NoSuchScript)?;
         Ok(self.sim.text_of(&script))
+    }
+
+    /// Calls `sysCall_userConfig` of a script, as a double click on its symbol does; whether it has such a function.
+    ///
+    /// # Errors
+    /// When there is no script with that handle.
+    pub(crate) fn configure(&mut self, script: i64) -> Result<bool, ApiError> {
+        let script = self.sim.script(script).ok_or(ApiError::NoSuchScript)?;
+        Ok(self.sim.deliver(&script, SysCall::UserConfig, &[]).ran)
     }
 
     /// Starts or resumes the simulation, beyond a pause that [`step_and_pause`](Self::step_and_pause) has set.

@@ -27,6 +27,8 @@ pub(crate) enum Action {
         value: Value,
     },
     Script(i64),
+    /// Opens the settings of a model, which a script of it has.
+    Configure(i64),
     Watch(Vec<i64>),
     Show {
         contacts: bool,
@@ -104,6 +106,7 @@ fn action(members: &Members) -> Result<Action, String> {
             value: members.get("value").cloned().ok_or("`value` is missing")?,
         },
         "script" => Action::Script(handle(members)?),
+        "configure" => Action::Configure(handle(members)?),
         "watch" => Action::Watch(handles(members)?),
         "show" => Action::Show { contacts: flag(members, "contacts")? },
         "graph" => Action::Graph(handle(members)?),

@@ -108,6 +108,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("rustix", "src/io"),
     ("rustls", "src/io/socket/tls.rs"),
     ("rustls_native_certs", "src/io/socket/tls.rs"),
+    ("ruzstd", "src/view/mcap"),
     ("ruzstd", "src/view/recording"),
     ("serde_json", "src/cli"),
     ("serde_json", "src/format/ttt"),

@@ -6,7 +6,7 @@ function sysCall_init()
     sim.setObjectAlias(joint, 'Arm')
     eye = sim.createVisionSensor(2, {6, 4, 0, 0}, {0.01, 5, 1, 0.05, 0, 0, 0, 0, 0, 0, 0})
     sim.setObjectAlias(eye, 'Eye')
-    sim.setObjectPosition(eye, {1, 0, -1})
+    sim.setObjectPosition(eye, {1, 0, 0.05})
 end
 function sysCall_sensing()
     local t = sim.getSimulationTime()

@@ -115,6 +115,30 @@ def solids_are_drawn_and_picked(browser, sim):
     sim.printed("got, node, 7")
 
 
+MODEL = """
+require 'configUi'
+ConfigUI('Feeder', {speed = {type = 'float', name = 'Speed', default = 1, minimum = 0, maximum = 5}}, function(config) print('speed', config.speed) end)
+"""
+
+
+def models_open_their_settings(browser, sim):
+    code = f"model = sim.createDummy(0.1) script = sim.createScript(sim.scripttype_customization, [==[{MODEL}]==]) sim.setObjectParent(script, model) sim.initScript(script)"
+    run(browser, code + " sim.setObjectSel({model})")
+    browser.shows("!!document.querySelector('.inspected-tools [title=\"Settings of the model\"]')", "the symbol")
+    browser.evaluate("document.querySelector('.inspected-tools [title=\"Settings of the model\"]').click()")
+    browser.shows("[...document.querySelectorAll('.window:not(.view) .ui-label')].some(label => label.textContent.startsWith('Speed'))", "the window")
+
+
+def large_tables_have_few_rows(browser):
+    run(browser, "big = simUI.create('<ui title=\"Big\"><table id=\"1\"/></ui>') simUI.setColumnCount(big, 1, 2) simUI.setRowCount(big, 1, 10000) "
+        "simUI.setItem(big, 1, 0, 0, 'first') simUI.setItem(big, 1, 9999, 0, 'last')")
+    rows = "[...document.querySelectorAll('[data-window] .ui-table td')].map(cell => cell.textContent)"
+    browser.shows(f"{rows}.includes('first')", "the first row")
+    same("few rows", browser.evaluate("document.querySelectorAll('[data-window] .ui-table tr').length < 200"), True)
+    browser.evaluate("(scroller => scroller.scrollTop = scroller.scrollHeight)(document.querySelector('[data-window] .ui-table'))")
+    browser.shows(f"{rows}.includes('last')", "the last row")
+
+
 def views_show_sensors(browser):
     browser.shows("document.querySelector('[data-view] h2')?.textContent == 'Eye'", "the view")
     run(browser, "sim.handleVisionSensor(sensor)")
@@ -134,6 +158,8 @@ def main():
         views_show_sensors(browser)
         solids_are_drawn_and_picked(browser, sim)
         dialogs_wait_for_answers(browser, sim)
+        large_tables_have_few_rows(browser)
+        models_open_their_settings(browser, sim)
         same("exceptions", [event for event in browser.events if event["method"] == "Runtime.exceptionThrown"], [])
 
 

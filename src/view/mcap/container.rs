@@ -1,13 +1,16 @@
-//! The container of MCAP files: messages in chunks without compression, with an index (mcap.dev, "MCAP File Format").
+//! The container of MCAP files: messages in chunks compressed by zstd, with an index (mcap.dev, "MCAP File Format").
 //!
 //! (The crate `mcap` brings thirty packages for what is a page here, and with serde's macros it has everything else built anew.)
 
 use std::collections::BTreeMap;
 use std::io::{Result, Write};
 
+use ruzstd::encoding::{CompressionLevel, compress_to_vec};
+
 const MAGIC: &[u8] = b"\x89MCAP0\r\n";
 /// Bytes of messages in a chunk.
 const CHUNK: usize = 1 << 20;
+const COMPRESSION: &str = "zstd";
 
 /// Kinds of records.
 mod op {
@@ -108,7 +111,10 @@ impl<W: Write> Container<W> {
         let times = [first.to_le_bytes(), last.to_le_bytes()].concat();
         let size = (records.len() as u64).to_le_bytes();
         let sum = crc32fast::hash(&records).to_le_bytes();
-        self.write(&record(op::CHUNK, &[&times, &size[..], &sum, &text(""), &size, &records].concat()))?;
+        let compressed = compress_to_vec(records.as_slice(), CompressionLevel::Fastest);
+        let compressed_size = (compressed.len() as u64).to_le_bytes();
+        let head = [&times, &size[..], &sum, &text(COMPRESSION), &compressed_size].concat();
+        self.write(&record(op::CHUNK, &[head, compressed].concat()))?;
         let length = self.place - start;
         let mut places = Vec::new();
         for (channel, messages) in std::mem::take(&mut self.indexed) {
@@ -124,8 +130,8 @@ impl<W: Write> Container<W> {
             &length.to_le_bytes(),
             &bytes(&places),
             &indices,
-            &text(""),
-            &size,
+            &text(COMPRESSION),
+            &compressed_size,
             &size,
         ];
         self.chunk_indices.extend(record(op::CHUNK_INDEX, &index.concat()));

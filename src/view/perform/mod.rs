@@ -40,6 +40,9 @@ pub(crate) fn perform(sim: &mut Simulator, action: &Action, lines: &mut Vec<Rece
             let (name, language, text) = sim.script_text(*handle).map_err(|error| error.to_string())?;
             return Ok(json!({ "name": name, "language": language, "text": String::from_utf8_lossy(&text) }));
         }
+        Action::Configure(handle) => {
+            return sim.configure(*handle).map(Value::Bool).map_err(|error| error.to_string());
+        }
         Action::Graph(handle) => return graph::curves(sim, *handle),
         Action::Ui { window, widget, input } => use_window(sim, window, widget, input)?,
         Action::Answer { .. } => return Err("no dialog waits for an answer".into()),

@@ -11,6 +11,6 @@ export class BannersPane {
 
   _banner({ id, text, buttons }) {
     const press = (key) => this.page.ask('ui', { window: null, widget: null, input: { type: 'banner', banner: id, key } });
-    return el('div', { class: 'banner', role: 'status' }, el('span', {}, text), ...buttons.map(({ key, label }) => el('button', { type: 'button', class: 'answer-button', onclick: () => press(key) }, label)));
+    return el('div', { class: 'banner', role: 'status' }, el('span', {}, text), ...buttons.map(({ key, label }) => el('button', { type: 'button', class: 'answer-button', disabled: !this.page.canWrite, onclick: () => press(key) }, label)));
   }
 }

@@ -70,8 +70,20 @@ export class InspectorPane {
     const tools = [];
     if (object?.objectType === 'script') tools.push(iconButton('script', 'Read the script', () => this.page.openScript(this.handle)));
     if (object && object.objectType !== 'script') tools.push(iconButton('follow', 'Follow with the camera', () => this.page.follow(object.handle)), iconButton('fit', 'Look at it (F)', () => this.page.fit([object.handle])));
+    if (this._configurator() !== undefined && this.page.canWrite) tools.push(iconButton('options', 'Settings of the model', () => this._configure()));
     if (object?.objectType === 'graph') tools.push(iconButton('curve', 'Show the curves', () => this.page.showGraph(this.handle)));
     this.tools.replaceChildren(...tools);
+  }
+
+  /** The customization script of what is inspected: itself or one below it. */
+  _configurator() {
+    const isOne = ({ objectType, scriptType, handle, parent }) => objectType === 'script' && scriptType === 'customization' && (handle === this.handle || parent === this.handle);
+    return this.handle >= 0 ? [...this.store.objects.values()].find(isOne)?.handle : undefined;
+  }
+
+  async _configure() {
+    const has = await this.page.ask('configure', { handle: this._configurator() });
+    if (!has) this.page.overlay.say('This model has no settings.');
   }
 
   _watch() {
