@@ -49,7 +49,7 @@ async def page(url, until, counts, number):
     """Sessions of a page: it reads, some of them slowly, watches, asks, presses a button, and goes in the middle."""
     random_of_page = random.Random(number)
     while time.monotonic() < until:
-        async with websockets.connect(url, max_size=None) as socket:
+        async with websockets.connect(url, max_size=None, ping_interval=None) as socket:
             counts["sessions"] += 1
             end = min(time.monotonic() + random_of_page.uniform(5, 60), until)
             slow = random_of_page.random() < 0.2
