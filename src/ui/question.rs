@@ -47,13 +47,7 @@ impl Details {
     /// A file to load, of any kind.
     pub(crate) fn any_file() -> Self {
         let none = String::new;
-        Self::Files {
-            selects: 0,
-            start_path: none(),
-            initial_name: none(),
-            extension_name: none(),
-            extensions: none(),
-        }
+        Self::Files { selects: 0, start_path: none(), initial_name: none(), extension_name: none(), extensions: none() }
     }
 }
 
