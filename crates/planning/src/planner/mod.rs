@@ -8,6 +8,7 @@ mod lazy_roadmap;
 mod roadmap;
 mod rrt;
 mod rrt_star;
+mod subdivision;
 
 use crate::{Problem, Refusal, Solution, State};
 
@@ -109,7 +110,7 @@ impl Algorithm {
     }
 
     /// A planner. Names with the same guarantee share an implementation: CForest and LBTRRT are RRT*, SPARS and SPARStwo are PRM*, STRIDE is
-    /// EST, PDST is KPIECE1; BIT* and LazyPRM* differ in where they sample.
+    /// EST; BIT* and LazyPRM* differ in where they sample.
     pub fn planner(self) -> Box<dyn Planner> {
         use Algorithm as A;
         match self {
@@ -124,7 +125,8 @@ impl Algorithm {
             A::LazyPrm => Box::new(lazy_roadmap::LazyRoadmap::new(lazy_roadmap::Kind::First)),
             A::LazyPrmStar => Box::new(lazy_roadmap::LazyRoadmap::new(lazy_roadmap::Kind::Optimal)),
             A::BitStar => Box::new(lazy_roadmap::LazyRoadmap::new(lazy_roadmap::Kind::Informed)),
-            A::Kpiece1 | A::Pdst => Box::new(grid::Single::default()),
+            A::Kpiece1 => Box::new(grid::Single::default()),
+            A::Pdst => Box::new(subdivision::Subdivision::default()),
             A::Bkpiece1 => Box::new(grid::Double::new(grid::Kind::Bkpiece)),
             A::Lbkpiece1 => Box::new(grid::Double::new(grid::Kind::Lbkpiece)),
             A::Sbl => Box::new(grid::Double::new(grid::Kind::Sbl)),
