@@ -65,7 +65,7 @@ fn a_stream_with_a_delay_waits() {
     while begun.elapsed() < Duration::from_millis(400) {
         answers += client.exchange(&[]).commands.len();
     }
-    assert!((4..=10).contains(&answers), "{answers} results within 400 ms");
+    assert!((2..=10).contains(&answers), "{answers} results within 400 ms");
 }
 
 #[test]
