@@ -24,4 +24,8 @@ pub use mlua;
 pub use perception::vision::{Channels, Picture};
 pub use permissions::{Denied, HostRule, Permissions};
 pub use script::{Console, Limits, LogLine, Options, Silent, SimulationState, VideoFailure, VideoOptions, VideoView};
-pub use simulator::{Builder, Error, RunLimits, RunObserver, RunTotals, ScriptKind, ScriptRef, Simulator};
+pub use simulator::{
+    ApiFunction, Builder, Caller, Error, ModuleMember, NativeScript, NativeScriptFactory, Progress, RunLimits,
+    RunObserver, RunTotals, ScriptKind, ScriptRef, Simulator, folder_of_scene,
+};
+pub use view::Viewer;

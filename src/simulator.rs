@@ -1,12 +1,17 @@
 //! The embedding API: a simulator as a value.
 
 mod builder;
+mod caller;
 #[cfg(test)]
 mod journal_tests;
 #[cfg(test)]
 mod language_tests;
+mod native_script;
+#[cfg(test)]
+mod native_tests;
 mod picture;
 mod run;
+mod scene;
 mod ui;
 mod viewing;
 
@@ -30,7 +35,11 @@ use crate::script::{
 };
 
 pub use builder::Builder;
+pub use caller::{ApiFunction, Caller, ModuleMember, Progress};
+use native_script::{NativeLanguage, NativeScripts};
+pub use native_script::{NativeScript, NativeScriptFactory};
 pub use run::{RunLimits, RunObserver, RunTotals};
+pub use scene::folder_of_scene;
 pub(crate) use viewing::PropertyRow;
 
 /// The add-on that serves clients by ZeroMQ.
@@ -49,6 +58,9 @@ pub enum Error {
     /// A script's own error; it has been logged.
     #[error("{0}")]
     Script(String),
+    /// A file cannot be read.
+    #[error("{0}")]
+    Unreadable(String),
 }
 
 /// Type of script made from a file.
@@ -82,6 +94,7 @@ impl ScriptRef {
 /// Deep recursion in scripts takes native stack: run a simulator on a thread with [`Simulator::STACK_SIZE`] bytes of it.
 pub struct Simulator {
     sim: Rc<Sim>,
+    native_scripts: Rc<NativeScripts>,
 }
 
 impl Simulator {
@@ -103,13 +116,13 @@ impl Simulator {
         Builder::default()
     }
 
-    fn with_main_and_sandbox(sim: Rc<Sim>) -> Self {
+    fn with_main_and_sandbox(sim: Rc<Sim>, native_scripts: Rc<NativeScripts>) -> Self {
         let main_text = sim.modules.registry.main_script();
         sim.scripts.add_detached(ScriptType::Main, Detached::of_text("mainScript", main_text.as_bytes()));
         let sandbox =
             sim.scripts.add_detached(ScriptType::Sandbox, Detached::of_text("sandboxScript", b"sim = require 'sim'"));
         sim.deliver(&sandbox, SysCall::Init, &[]);
-        Self { sim }
+        Self { sim, native_scripts }
     }
 
     /// A simulator with the default scene that runs tests: what they see of it and leave behind is on `bench`. They are chunks of the sandbox.

@@ -14,6 +14,7 @@ mod modules;
 mod overview;
 mod plugins;
 mod properties;
+mod python_stubs;
 mod row;
 mod stubs;
 mod usage;
@@ -93,6 +94,7 @@ pub fn files() -> Vec<(String, String)> {
     files.push(("docs/api/modules.md".to_owned(), modules::page()));
     files.extend(modules::own_pages());
     files.extend(stubs().into_iter().map(|(path, text)| (format!("{STUBS}/{path}"), text)));
+    files.push((python_stubs::PATH.to_owned(), python_stubs::text()));
     files.push(("docs/COVERAGE.md".to_owned(), coverage::text(&functions)));
     files.push(("docs/PROPERTIES.md".to_owned(), properties::text()));
     files.push(("docs/CALLBACKS.md".to_owned(), callbacks::text()));

@@ -54,6 +54,7 @@ const INNER: &[&str] = &[
     "simIK/overlays",
     "simIK/paths",
     "simZMQ/proxy",
+    "swanilda/calls",
     "swanilda/console",
     "swanilda/display",
     "swanilda/conveyors/along",

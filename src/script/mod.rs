@@ -59,7 +59,6 @@ pub(crate) use events::Filters;
 pub(crate) use files::app_storage::Section;
 pub(crate) use files::scene_save::readable_bytes;
 pub(crate) use files::scene_switch::SceneSource;
-#[cfg(test)]
 pub(crate) use lifecycle::env::Env;
 pub(crate) use lifecycle::env::Hook;
 pub(crate) use lifecycle::instance::Detached;
@@ -75,6 +74,5 @@ pub(crate) use person::Ask;
 pub(crate) use present::{Present, Situation, Watcher};
 pub(crate) use property::{Target, table as property_table};
 pub(crate) use runtime::Languages;
-#[cfg(test)]
 pub(crate) use runtime::{CallError, CallbackResult, Callee, Interpreter, Language, Runtime, ScriptError, SourceText};
 pub(crate) use sim::Sim;

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::Simulator;
+use super::{NativeLanguage, NativeScripts, Simulator};
 use crate::modules;
 use crate::permissions::Permissions;
 use crate::script::{Console, Languages, LuaLanguage, Options, Silent, Sim, UserModule};
@@ -77,7 +77,12 @@ impl Builder {
 
     /// A simulator with an empty scene.
     pub fn build(self) -> Simulator {
-        let languages = Languages::new(vec![Box::new(LuaLanguage::new(self.modules))]);
-        Simulator::with_main_and_sandbox(Sim::new(self.options, modules::registry(), self.console, languages))
+        let native_scripts = Rc::<NativeScripts>::default();
+        let languages = Languages::new(vec![
+            Box::new(LuaLanguage::new(self.modules)),
+            Box::new(NativeLanguage(Rc::clone(&native_scripts))),
+        ]);
+        let sim = Sim::new(self.options, modules::registry(), self.console, languages);
+        Simulator::with_main_and_sandbox(sim, native_scripts)
     }
 }

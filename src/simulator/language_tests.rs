@@ -223,7 +223,7 @@ impl Fixture {
         let console = Box::new(Errors(Rc::clone(&errors)));
         let sim = Sim::new(options, modules::registry(), console, Languages::new(languages));
         let _ = shared.sim.set(Rc::downgrade(&sim));
-        Self { simulator: Simulator::with_main_and_sandbox(sim), shared, errors }
+        Self { simulator: Simulator::with_main_and_sandbox(sim, Rc::default()), shared, errors }
     }
 
     fn add(&mut self, alias: &str, language: &str, text: &str) -> ScriptRef {

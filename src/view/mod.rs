@@ -21,4 +21,5 @@ mod server;
 mod viewer;
 
 pub(crate) use server::page_file;
-pub(crate) use viewer::{RecordedViewer, Viewer};
+pub(crate) use viewer::RecordedViewer;
+pub use viewer::Viewer;

@@ -28,7 +28,7 @@ const IMAGE: Duration = Duration::from_millis(100);
 const VALUES: Duration = Duration::from_millis(200);
 
 /// Shows a simulator to pages. They are told of the end when this is dropped.
-pub(crate) struct Viewer {
+pub struct Viewer {
     observer: Observer,
     shared: Arc<Shared>,
     server: SiteServer,
@@ -62,7 +62,7 @@ impl Viewer {
     ///
     /// # Errors
     /// When the server cannot start.
-    pub(crate) fn start(sim: &Simulator, listener: TcpListener, is_read_only: bool) -> io::Result<Self> {
+    pub fn start(sim: &Simulator, listener: TcpListener, is_read_only: bool) -> io::Result<Self> {
         let token = ViewSite::new_token()?;
         let shared = Arc::new(Shared::new(is_read_only));
         let site = ViewSite::new(Arc::clone(&shared), token.clone());
@@ -86,12 +86,12 @@ impl Viewer {
     }
 
     /// Where the page is.
-    pub(crate) fn url(&self) -> String {
+    pub fn url(&self) -> String {
         url(self.server.address(), &self.token)
     }
 
     /// Answers requests, waiting up to `patience` for the first, and shows what changed if it is time for that.
-    pub(crate) fn attend(&mut self, sim: &mut Simulator, patience: Duration) {
+    pub fn attend(&mut self, sim: &mut Simulator, patience: Duration) {
         let mut patience = patience;
         let mut answered = false;
         while let Some(pending) = self.shared.next_request(patience) {

@@ -1,4 +1,4 @@
-//! Programs of others against Swanilda: the Python files of this folder.
+//! Programs of others against Swanilda: the Python files of this folder; and the Python package.
 //!
 //! Needs python3 with `venv`, and the Python index once: the environment stays in `target/`. Without python3 the tests are skipped,
 //! except where `CI` is set.
@@ -6,6 +6,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests start programs and look at the environment")]
 
 mod motion;
+mod package;
 mod recordings;
 mod reports;
 mod rust_client;

@@ -12,7 +12,7 @@ use crate::format::script_file;
 use crate::format::ttt::FileError;
 use crate::permissions::{Permissions, read_bounded};
 use crate::script::log::verbosity;
-use crate::{Error, Options, ScriptKind, ScriptRef, Simulator};
+use crate::{Error, Options, ScriptKind, ScriptRef, Simulator, folder_of_scene};
 
 /// Simulator options
 #[derive(clap::Args)]
@@ -123,7 +123,7 @@ impl Setup {
             named_params: self.define.iter().cloned().collect(),
             data_dir: self.data_dir.clone(),
             resources: self.resources.folder(),
-            package_dirs: scene.map(folder_of).into_iter().collect(),
+            package_dirs: scene.map(folder_of_scene).into_iter().collect(),
             stop: interrupt.flag(),
             original_errors: self.original_errors,
             ..Options::default()
@@ -201,14 +201,6 @@ fn read_scene(path: &Path) -> Result<Scene, String> {
     match SceneInput::read(path, &Permissions::all())? {
         SceneInput::Script(code) => Ok(Scene::Script(Source { name: name_of(path), code, path: path.to_owned() })),
         SceneInput::File(file) => Ok(Scene::File(Box::new(file.scene().map_err(unreadable)?))),
-    }
-}
-
-/// The folder of a file, where scripts find their modules.
-fn folder_of(file: &Path) -> PathBuf {
-    match file.parent() {
-        Some(folder) if folder != Path::new("") => folder.to_owned(),
-        _ => PathBuf::from("."),
     }
 }
 

@@ -19,9 +19,23 @@ impl Sim {
     /// # Errors
     /// The errors of the function, or when there is no such function.
     pub(crate) fn call_api(&self, caller: &Rc<Script>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
+        self.call_member(caller, self.modules.registry.find(name), name, args)
+    }
+
+    /// The same for a name that was looked up before.
+    ///
+    /// # Errors
+    /// As `call_api`.
+    pub(crate) fn call_member(
+        &self,
+        caller: &Rc<Script>,
+        member: Option<Member>,
+        name: &str,
+        args: &[Data],
+    ) -> ApiResult<Vec<Data>> {
         let runtime = caller.current_runtime().ok_or(ApiError::ScriptNotInitialized)?;
         let registry = &self.modules.registry;
-        match registry.find(name) {
+        match member {
             Some(Member::Native(id)) => call_native(&runtime, registry.bound(id), args),
             Some(Member::Missing(id)) => Err(registry.missing_function(id).error()),
             Some(Member::Constant(_)) => Err(ApiError::CallFailed),
@@ -29,8 +43,33 @@ impl Sim {
         }
     }
 
+    /// Calls a function of a module by the Lua interpreter of a script.
+    ///
+    /// # Errors
+    /// The first line of the function's error, or when the script is not running.
+    pub(crate) fn call_library_function(
+        &self,
+        caller: &Rc<Script>,
+        module: &str,
+        function: &str,
+        args: &[Data],
+    ) -> ApiResult<Vec<Data>> {
+        let runtime = caller.current_runtime().ok_or(ApiError::ScriptNotInitialized)?;
+        self.call_library_in(&runtime, module, function, args)
+    }
+
     fn call_library(&self, runtime: &Rc<Runtime>, name: &str, args: &[Data]) -> ApiResult<Vec<Data>> {
         let (module, member) = name.rsplit_once('.').ok_or(ApiError::CallFailed)?;
+        self.call_library_in(runtime, module, member, args)
+    }
+
+    fn call_library_in(
+        &self,
+        runtime: &Rc<Runtime>,
+        module: &str,
+        member: &str,
+        args: &[Data],
+    ) -> ApiResult<Vec<Data>> {
         let _level = Level::enter(&self.scripts, &runtime.env);
         let results = runtime.interpreter.call_library(module, member, args);
         results.map_err(|error| ApiError::Other(error.text.lines().next().unwrap_or_default().to_owned()))

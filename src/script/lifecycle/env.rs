@@ -133,6 +133,11 @@ impl Env {
         Some("interrupted.")
     }
 
+    /// The simulator, until it is gone.
+    pub(crate) fn simulator(&self) -> Option<Rc<Sim>> {
+        self.sim.upgrade()
+    }
+
     /// The interpreter this belongs to, until it is closed.
     pub(crate) fn runtime(&self) -> Option<Rc<Runtime>> {
         self.runtime.get()?.upgrade()

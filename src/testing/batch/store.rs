@@ -71,6 +71,19 @@ impl Store {
         Ok(())
     }
 
+    /// Keeps the row of a line that [`Row::line`] made elsewhere; false when it is no row of this batch, or is there already.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn add_line(&mut self, text: &str, runs: &[Run]) -> Result<bool, Error> {
+        let Some(row) = rows(text, runs).into_values().next() else { return Ok(false) };
+        let is_new = !self.rows.contains_key(&row.run.number);
+        if is_new {
+            self.add(row)?;
+        }
+        Ok(is_new)
+    }
+
     /// How many runs failed.
     pub fn failed(&self) -> usize {
         self.rows.values().filter(|row| row.error.is_some()).count()
@@ -138,6 +151,13 @@ fn checksum(bytes: &[u8]) -> u64 {
 /// Time is a sum of steps: its last digits are rounding errors.
 fn seconds(time: f64) -> f64 {
     (time * 1e9).round() / 1e9
+}
+
+impl Row {
+    /// The row as a line of `runs.jsonl`.
+    pub fn line(&self) -> String {
+        line(self)
+    }
 }
 
 fn line(row: &Row) -> String {

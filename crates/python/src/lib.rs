@@ -1,0 +1,43 @@
+//! The extension module of the Python package `swanilda`: simulators, and the modules that scripts have, in-process.
+//!
+//! Values are converted and calls passed on; everything else is the library's, or Python's in `python/swanilda`.
+
+mod batch;
+mod callables;
+mod console;
+mod convert;
+mod errors;
+mod lua_tests;
+mod module;
+mod script;
+mod simulator;
+mod worlds;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _swanilda {
+    #[pymodule_export]
+    use crate::batch::Batch;
+    #[pymodule_export]
+    use crate::errors::Error;
+    #[pymodule_export]
+    use crate::lua_tests::{list_tests, run_tests};
+    #[pymodule_export]
+    use crate::module::{Function, Module};
+    #[pymodule_export]
+    use crate::simulator::Simulator;
+    #[pymodule_export]
+    use crate::worlds::{close_all, forget_after_fork};
+
+    use super::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+
+    /// Nothing: what a call from Python costs at least.
+    #[pyfunction]
+    fn empty_call() {}
+}

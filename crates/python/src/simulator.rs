@@ -1,0 +1,375 @@
+//! A simulator as an object of Python.
+
+use std::collections::BTreeMap;
+use std::net::{Ipv4Addr, TcpListener};
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::time::Duration;
+
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyTuple};
+use swanilda::scene::Handle;
+use swanilda::{Channels, Options, Permissions, ScriptKind, SimulationState, Viewer, folder_of_scene};
+
+use crate::callables::Callables;
+use crate::console::PythonConsole;
+use crate::errors::{self, Error};
+use crate::module::Module;
+use crate::script::{MainProgram, PythonScript};
+use crate::worlds::{self, Shared, Speaker, World};
+
+/// Steps between two looks at signals, such as that of ctrl-c.
+const STEPS_AT_ONCE: u64 = 32;
+
+/// A simulator, of the thread that makes it.
+#[pyclass(subclass, frozen, module = "swanilda._swanilda")]
+pub struct Simulator {
+    number: u64,
+}
+
+/// The type of script of that name.
+fn kind_of(name: &str) -> PyResult<ScriptKind> {
+    match name {
+        "customization" => Ok(ScriptKind::Customization),
+        "simulation" => Ok(ScriptKind::Simulation),
+        "addon" => Ok(ScriptKind::AddOn),
+        "sandbox" => Ok(ScriptKind::Sandbox),
+        "main" => Ok(ScriptKind::Main),
+        _ => Err(PyValueError::new_err(format!(
+            "there are no scripts of type '{name}': it is customization, simulation, addon, sandbox or main"
+        ))),
+    }
+}
+
+fn made(options: Options, quiet: bool) -> World {
+    let builder = swanilda::Simulator::builder().options(options);
+    let builder = if quiet { builder } else { builder.console(Box::new(PythonConsole)) };
+    let mut simulator = builder.build();
+    let (callables, shared) = (Rc::<Callables>::default(), Rc::<Shared>::default());
+    let (functions, exceptions) = (Rc::clone(&callables), Rc::clone(&shared));
+    let main = simulator.add_native_script(ScriptKind::AddOn, "Python", move |_| {
+        Ok(Box::new(MainProgram { callables: Rc::clone(&functions), shared: Rc::clone(&exceptions) }))
+    });
+    let main = main.expect("add-ons are no objects, for which there could be no room");
+    let main = Rc::new(Speaker { caller: simulator.caller(&main), callables });
+    World { number: worlds::new_number(), simulator: simulator.into(), main, shared, viewer: None.into() }
+}
+
+#[pymethods]
+impl Simulator {
+    #[new]
+    #[pyo3(signature = (scene=None, *, seed=None, params=None, kind="customization", time_step=None, empty=false, quiet=false,
+        unsafe_functions=true, package_dirs=None, data_dir=None, verbosity=None, render_threads=None))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments, each of which has a default")]
+    fn new(
+        py: Python<'_>,
+        scene: Option<PathBuf>,
+        seed: Option<u32>,
+        params: Option<BTreeMap<String, String>>,
+        kind: &str,
+        time_step: Option<f64>,
+        empty: bool,
+        quiet: bool,
+        unsafe_functions: bool,
+        package_dirs: Option<Vec<PathBuf>>,
+        data_dir: Option<PathBuf>,
+        verbosity: Option<i64>,
+        render_threads: Option<usize>,
+    ) -> PyResult<Self> {
+        let kind = kind_of(kind)?;
+        if time_step.is_some_and(|step| !(step > 0.0 && step.is_finite())) {
+            return Err(PyValueError::new_err("time_step is a number of seconds above 0"));
+        }
+        let mut options = Options {
+            named_params: params.unwrap_or_default(),
+            package_dirs: scene.iter().map(|scene| folder_of_scene(scene)).collect(),
+            data_dir,
+            render_threads: render_threads.and_then(std::num::NonZero::new),
+            permissions: if unsafe_functions { Permissions::all() } else { Permissions::none() },
+            ..Options::default()
+        };
+        options.package_dirs.extend(package_dirs.unwrap_or_default());
+        options.seed = seed.unwrap_or(options.seed);
+        options.verbosity = verbosity.unwrap_or(options.verbosity);
+        let this = Self::filled(py, options, quiet, scene, kind, empty)?;
+        if let Some(step) = time_step {
+            worlds::get(this.number)?.borrow()?.scene_mut().modify_settings(|settings| settings.time_step = step);
+        }
+        Ok(this)
+    }
+
+    /// Steps of the simulation; returns how many ran, fewer when a script stopped or paused it.
+    #[pyo3(signature = (count=1))]
+    fn step(&self, py: Python<'_>, count: u64) -> PyResult<u64> {
+        let world = self.world()?;
+        if count > 0 {
+            Self::check_running(&world)?;
+        }
+        let number = self.number;
+        let mut left = count;
+        while left > 0 && world.main.caller.state().is_advancing() {
+            let now = left.min(STEPS_AT_ONCE);
+            let ran = py.detach(|| steps_of(number, now))?;
+            left -= ran.min(left);
+            world.raise()?;
+            py.check_signals()?;
+        }
+        Ok(count - left)
+    }
+
+    /// One iteration of the loop, with a step if the simulation runs.
+    fn iterate(&self, py: Python<'_>) -> PyResult<()> {
+        self.serve(py, 0.0)
+    }
+
+    /// One iteration of the loop, then browsers that show the simulator are served, waiting up to `patience` seconds for what they ask.
+    #[pyo3(name = "_serve")]
+    fn serve(&self, py: Python<'_>, patience: f64) -> PyResult<()> {
+        let patience = Duration::try_from_secs_f64(patience).unwrap_or_default();
+        let number = self.number;
+        py.detach(|| -> PyResult<()> {
+            let world = worlds::get(number)?;
+            let mut simulator = world.borrow()?;
+            simulator.iterate();
+            world.show(&mut simulator, patience);
+            Ok(())
+        })?;
+        self.world()?.raise()
+    }
+
+    /// Shows the simulator to browsers on this machine; returns the address of the page.
+    fn _view(&self, port: u16) -> PyResult<String> {
+        let world = self.world()?;
+        if world.viewer.borrow().is_none() {
+            let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
+            let mut simulator = world.borrow()?;
+            let mut viewer = Viewer::start(&simulator, listener, false)?;
+            viewer.attend(&mut simulator, Duration::ZERO);
+            world.viewer.replace(Some(viewer));
+        }
+        Ok(world.viewer.borrow().as_ref().map(Viewer::url).unwrap_or_default())
+    }
+
+    /// Starts the simulation, or resumes it.
+    fn start(&self, py: Python<'_>) -> PyResult<()> {
+        self.run(py, |simulator| simulator.start())
+    }
+
+    fn pause(&self, py: Python<'_>) -> PyResult<()> {
+        self.run(py, |simulator| simulator.pause())
+    }
+
+    /// Ends the simulation, with all its clean-up.
+    fn stop(&self, py: Python<'_>) -> PyResult<()> {
+        self.run(py, |simulator| simulator.stop())
+    }
+
+    /// Ends the simulator; its scripts clean up.
+    fn close(&self, py: Python<'_>) -> PyResult<()> {
+        let number = self.number;
+        py.detach(|| worlds::close(number))
+    }
+
+    /// Whether it can be used: by this thread, and not closed.
+    #[getter]
+    fn is_open(&self) -> bool {
+        worlds::get(self.number).is_ok()
+    }
+
+    /// Simulated time, seconds.
+    #[getter]
+    fn time(&self) -> PyResult<f64> {
+        Ok(self.world()?.main.caller.time())
+    }
+
+    /// Steps since the start.
+    #[getter]
+    fn steps(&self) -> PyResult<u64> {
+        Ok(self.world()?.main.caller.steps())
+    }
+
+    /// Number of uncaught script errors.
+    #[getter]
+    fn errors(&self) -> PyResult<u64> {
+        Ok(self.world()?.main.caller.errors())
+    }
+
+    /// `stopped`, `paused` or `running`.
+    #[getter]
+    fn state(&self) -> PyResult<&'static str> {
+        Ok(match self.world()?.main.caller.state() {
+            SimulationState::Stopped => "stopped",
+            SimulationState::Paused => "paused",
+            _ => "running",
+        })
+    }
+
+    /// A module, as scripts get it; in the name of the script with that handle, if there is one.
+    #[pyo3(signature = (name, script=None))]
+    fn require(&self, py: Python<'_>, name: &str, script: Option<i64>) -> PyResult<Module> {
+        Module::require(py, self.number, script, name)
+    }
+
+    /// Adds a script in Python; returns its handle. `create` gets the handle each time the script starts, and returns the object whose
+    /// functions are called.
+    fn _add_python_script(&self, py: Python<'_>, kind: &str, name: String, create: Py<PyAny>) -> PyResult<i64> {
+        let kind = kind_of(kind)?;
+        let shared = SendRc(self.number);
+        let added = self.detached(py, move |simulator| {
+            let shared = shared.shared()?;
+            let create = Rc::new(create);
+            let script =
+                simulator.add_native_script(kind, &name, move |caller| PythonScript::start(caller, &create, &shared));
+            script.map(|script| script.handle()).map_err(|error| errors::plain(&error))
+        })?;
+        self.world()?.raise()?;
+        added
+    }
+
+    /// Adds a script in Lua; returns its handle.
+    fn _add_lua_script(&self, py: Python<'_>, kind: &str, name: String, code: Vec<u8>) -> PyResult<i64> {
+        let kind = kind_of(kind)?;
+        let added = self.detached(py, move |simulator| simulator.add_script(kind, &name, &code).map(|s| s.handle()))?;
+        self.world()?.raise()?;
+        added.map_err(|error| errors::plain(&error))
+    }
+
+    /// Calls a global function of a script.
+    #[pyo3(signature = (script, function, *args))]
+    fn _call_script(
+        &self,
+        py: Python<'_>,
+        script: i64,
+        function: &str,
+        args: &Bound<'_, PyTuple>,
+    ) -> PyResult<Py<PyAny>> {
+        let world = self.world()?;
+        let mut all = vec![swanilda::scene::Data::text(function), swanilda::scene::Data::Int(script)];
+        all.extend(crate::convert::arguments(args, &world.main.callables)?);
+        let number = self.number;
+        let result = py.detach(|| -> PyResult<_> {
+            let world = worlds::get(number)?;
+            let call = world.main.caller.function("sim.callScriptFunction");
+            Ok(world.main.caller.call(&call, &all))
+        })?;
+        world.raise()?;
+        crate::convert::results(py, result.map_err(|error| errors::in_function(function, &error))?)
+    }
+
+    /// Width, height and the bytes of a picture, three for each point, from its upper left corner: of a camera or vision sensor, or of the
+    /// whole scene.
+    #[pyo3(signature = (camera=None, resolution=None))]
+    fn _picture<'py>(
+        &self,
+        py: Python<'py>,
+        camera: Option<i64>,
+        resolution: Option<[u32; 2]>,
+    ) -> PyResult<(usize, usize, Bound<'py, PyBytes>)> {
+        let from = camera
+            .map(|raw| Handle::from_raw(raw).ok_or_else(|| Error::new_err("object does not exist.")))
+            .transpose()?;
+        let picture = self.detached(py, move |simulator| simulator.picture(from, resolution, Channels::COLOUR))?;
+        let picture = picture.map_err(|error| errors::plain(&error))?;
+        let [width, height] = picture.resolution.map(|side| side as usize);
+        let rows: Vec<u8> = picture.colour.chunks(3 * width.max(1)).rev().flatten().copied().collect();
+        Ok((width, height, PyBytes::new(py, &rows)))
+    }
+
+    #[getter]
+    fn _number(&self) -> u64 {
+        self.number
+    }
+}
+
+/// The way of a simulator's number to another closure on the same thread.
+struct SendRc(u64);
+
+impl SendRc {
+    fn shared(&self) -> PyResult<Rc<Shared>> {
+        Ok(Rc::clone(&worlds::get(self.0)?.shared))
+    }
+}
+
+fn steps_of(number: u64, count: u64) -> PyResult<u64> {
+    let world = worlds::get(number)?;
+    let mut simulator = world.borrow()?;
+    let mut ran = 0;
+    while ran < count && simulator.state().is_advancing() && world.shared.exception.borrow().is_none() {
+        let before = simulator.steps();
+        simulator.iterate();
+        world.show(&mut simulator, Duration::ZERO);
+        // In real time, an iteration may be too early for a step.
+        ran += u64::from(simulator.steps() != before);
+    }
+    Ok(ran)
+}
+
+impl Simulator {
+    fn world(&self) -> PyResult<Rc<World>> {
+        worlds::get(self.number)
+    }
+
+    fn filled(
+        py: Python<'_>,
+        options: Options,
+        quiet: bool,
+        scene: Option<PathBuf>,
+        kind: ScriptKind,
+        empty: bool,
+    ) -> PyResult<Self> {
+        let number = py.detach(move || {
+            let world = made(options, quiet);
+            let number = world.number;
+            worlds::add(world);
+            number
+        });
+        let this = Self { number };
+        let opened = this.detached(py, move |simulator| match scene {
+            Some(scene) => simulator.open(&scene, kind),
+            None if empty => Ok(()),
+            None => simulator.add_default_objects(),
+        })?;
+        if let Err(error) = opened {
+            this.close(py)?;
+            return Err(errors::plain(&error));
+        }
+        this.world()?.raise()?;
+        Ok(this)
+    }
+
+    fn check_running(world: &World) -> PyResult<()> {
+        match world.main.caller.state() {
+            SimulationState::Stopped => Err(Error::new_err("the simulation is stopped: start() it first.")),
+            SimulationState::Paused => Err(Error::new_err("the simulation is paused: start() resumes it.")),
+            _ => Ok(()),
+        }
+    }
+
+    /// Lets other threads of Python run meanwhile.
+    fn detached<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&mut swanilda::Simulator) -> T + Send,
+    ) -> PyResult<T> {
+        let number = self.number;
+        py.detach(move || -> PyResult<T> {
+            let world = worlds::get(number)?;
+            let mut simulator = world.borrow()?;
+            Ok(work(&mut simulator))
+        })
+    }
+
+    fn run(&self, py: Python<'_>, work: impl FnOnce(&mut swanilda::Simulator) + Send) -> PyResult<()> {
+        self.detached(py, work)?;
+        self.world()?.raise()
+    }
+}
+
+impl Drop for Simulator {
+    fn drop(&mut self) {
+        // Of another thread it ends with that thread.
+        let number = self.number;
+        Python::try_attach(|py| py.detach(|| drop(worlds::close(number))));
+    }
+}

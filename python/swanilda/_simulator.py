@@ -1,0 +1,144 @@
+"""The simulator: what is easier in Python than in the extension."""
+
+import inspect
+import os
+import time
+
+from . import _display, _swanilda
+
+
+class Script:
+    """A script of a simulator. Its global functions are attributes: `script.position(2)`."""
+
+    def __init__(self, simulator, handle):
+        self._simulator = simulator
+        self.handle = handle
+
+    def require(self, name):
+        """A module, in the name of this script: relative paths such as '..' start at it."""
+        return self._simulator.require(name, self.handle)
+
+    def call(self, function, *args):
+        """Calls a global function of the script."""
+        return self._simulator._call_script(self.handle, function, *args)
+
+    def __getattr__(self, name):
+        if name.startswith("__"):
+            raise AttributeError(name)
+
+        def function(*args):
+            return self.call(name, *args)
+
+        function.__name__ = name
+        return function
+
+    def __index__(self):
+        return self.handle
+
+    def __repr__(self):
+        return f"<script {self.handle} of a simulator>"
+
+
+class Simulator(_swanilda.Simulator):
+    """A simulator, in-process. It belongs to the thread that makes it.
+
+    scene: a scene or model of CoppeliaSim, a Lua file or an unpacked folder; without one the default scene, or nothing if `empty`.
+    seed: of every random number of scripts. params: named parameters for scripts. kind: the type of script that a Lua file becomes.
+    time_step: seconds. quiet: shows neither prints nor the log. unsafe_functions=False: scripts reach no files, programs or networks.
+    """
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *exception):
+        self.close()
+
+    def script(self, path):
+        """The script with that path or handle."""
+        sim = self.require("sim")
+        handle = sim.getObject(path) if isinstance(path, str) else int(path)
+        return Script(self, handle)
+
+    def add_script(self, code, kind="customization", name=""):
+        """Adds a script.
+
+        code: Lua as text; or in Python a module, an object or a class, whose functions `sysCall_init`, `sysCall_actuation`, ... are
+        called. A class is instantiated each time the script starts; if it takes an argument, with the `Script`. `sysCall_thread` is a
+        generator: it waits for the next step at each `yield`.
+        kind: 'customization', 'simulation' or 'addon'; Lua also 'sandbox' and 'main'.
+        """
+        if isinstance(code, str):
+            return Script(self, self._add_lua_script(kind, name, code.encode()))
+        return Script(self, self._add_python_script(kind, name or _name_of(code), self._factory(code)))
+
+    def _factory(self, code):
+        if not inspect.isclass(code):
+            return lambda handle: code
+        if _takes_an_argument(code):
+            return lambda handle: code(Script(self, handle))
+        return lambda handle: code()
+
+    def image(self, sensor=None, resolution=None):
+        """What a vision sensor or camera sees, or a picture of the scene, as an array (height, width, 3) of bytes, upright."""
+        import numpy
+
+        width, height, rows = self._picture(_handle(sensor), resolution)
+        return numpy.frombuffer(rows, numpy.uint8).reshape(height, width, 3)
+
+    def sensor_image(self, sensor):
+        """The image that a vision sensor took when it was last handled, as an array (height, width, 3) of bytes, upright."""
+        import numpy
+
+        rows, (width, height) = self.require("sim").getVisionSensorImg(int(sensor))
+        return numpy.frombuffer(rows, numpy.uint8).reshape(height, width, 3)[::-1]
+
+    def sensor_depth(self, sensor):
+        """The depths that a vision sensor saw when it was last handled, in metres, as an array (height, width) of floats, upright."""
+        import numpy
+
+        sim = self.require("sim")
+        depths, (width, height) = sim.getVisionSensorDepth(int(sensor), 1)
+        return numpy.frombuffer(depths, numpy.float32).reshape(height, width)[::-1]
+
+    def objects(self):
+        """The objects of the scene: a list of (handle, path, type)."""
+        sim = self.require("sim")
+        handles = sim.getObjectsInTree(sim.handle_scene)
+        return [(handle, sim.getObjectAlias(handle, 2), sim.getObjectType(handle)) for handle in handles]
+
+    def view(self, port=0, height=480):
+        """The viewer's page: a notebook shows it, `.url` is its address. It follows the steps; `serve` looks after it between them."""
+        return _display.View(self._view(port), height)
+
+    def serve(self, seconds=None):
+        """Runs the loop for people who look at the viewer's page, for some seconds or until ctrl-c."""
+        end = None if seconds is None else time.monotonic() + seconds
+        while end is None or time.monotonic() < end:
+            self._serve(0.02)
+
+    def _repr_html_(self):
+        return _display.simulator_html(self) if self.is_open else None
+
+    def __repr__(self):
+        if not self.is_open:
+            return "<closed simulator>"
+        return f"<simulator: {self.state}, {self.time:.3f} s>"
+
+    def __reduce__(self):
+        raise TypeError("a simulator stays in its process: make one in each")
+
+
+def _handle(thing):
+    return None if thing is None else int(thing)
+
+
+def _name_of(code):
+    name = getattr(code, "__name__", None) or type(code).__name__
+    return "".join(c if c.isalnum() or c == "_" else "_" for c in os.path.basename(name))
+
+
+def _takes_an_argument(cls):
+    try:
+        return bool(inspect.signature(cls).parameters)
+    except ValueError:
+        return False

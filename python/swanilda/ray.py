@@ -1,0 +1,100 @@
+"""Batches of runs on a cluster of Ray: the same table as `swanilda batch`, byte for byte.
+
+    from swanilda.ray import sweep
+
+    sweep('scene.lua', {'kp': [1, 2, 5]}, seeds=range(100), out='results')
+
+Needs ray (`pip install swanilda[ray]`), and the package and the scene on each machine.
+"""
+
+import os
+import pathlib
+
+import ray
+
+from . import _swanilda
+
+__all__ = ["dataset", "sweep"]
+
+# Runs that are under way for each processor of the cluster: the next is there when one ends.
+AHEAD = 2
+
+
+@ray.remote(max_retries=0)
+def _simulate(description, number):
+    return _swanilda.Batch(**description).simulate(number)
+
+
+def sweep(
+    scene,
+    params=None,
+    seeds=(0,),
+    cluster=None,
+    *,
+    out="results",
+    fixed=None,
+    time=None,
+    timeout=3600.0,
+    retries=3,
+    force=False,
+    on_row=None,
+):
+    """Runs a scene with all combinations of parameters and seeds; returns the path of the table.
+
+    params: names with the values each takes. cluster: address of a Ray cluster; without one, that of this process or a local one.
+    out: the folder of `runs.jsonl` and `results.csv`; an interrupted sweep goes on there, `force` begins anew. time, timeout: limits of
+    a run, in simulated seconds and by the clock. A run that is lost with its worker is made again up to `retries` times; then its row
+    has an error. on_row: called with each row, a line of JSON, as it comes.
+    """
+    if not ray.is_initialized():
+        ray.init(address=cluster, log_to_driver=False, include_dashboard=False)
+    description = {
+        "scene": os.fspath(scene),
+        "seeds": [int(seed) for seed in seeds],
+        "sweeps": [(name, [_text(value) for value in values]) for name, values in (params or {}).items()],
+        "fixed": {name: _text(value) for name, value in (fixed or {}).items()},
+        "time": time,
+        "timeout": timeout,
+    }
+    batch = _swanilda.Batch(**description)
+    waiting = batch.open(os.fspath(out), force)[::-1]
+    # Workers have another working directory.
+    remote = {**description, "scene": str(pathlib.Path(scene).resolve())}
+    under_way, losses = {}, {}
+    while waiting or under_way:
+        while waiting and len(under_way) < AHEAD * max(1, int(ray.cluster_resources().get("CPU", 1))):
+            number = waiting.pop()
+            under_way[_simulate.remote(remote, number)] = number
+        for done in ray.wait(list(under_way), num_returns=1)[0]:
+            number = under_way.pop(done)
+            line = _line(batch, done, number, losses, retries)
+            if line is None:
+                waiting.append(number)
+            elif batch.add(line) and on_row:
+                on_row(line)
+    return batch.finish()
+
+
+def _line(batch, done, number, losses, retries):
+    """The row of a run; None when it was lost and is to be made again."""
+    try:
+        return ray.get(done)
+    except ray.exceptions.RayTaskError as error:
+        return batch.lost(number, str(error.cause))
+    except ray.exceptions.RayError as error:
+        losses[number] = losses.get(number, 0) + 1
+        if losses[number] <= retries:
+            return None
+        return batch.lost(number, f"lost {losses[number]} times: {type(error).__name__}")
+
+
+def dataset(out="results"):
+    """The rows of a sweep as a Ray Dataset."""
+    import ray.data
+
+    return ray.data.read_json(os.path.join(os.fspath(out), "runs.jsonl"))
+
+
+def _text(value):
+    """A parameter in the words of the command line."""
+    return value if isinstance(value, str) else repr(value) if isinstance(value, float) else str(value)

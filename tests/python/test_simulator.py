@@ -1,0 +1,319 @@
+"""Simulators in-process: scenes, calls, values, errors, scripts in Python, threads and processes."""
+
+import math
+import multiprocessing
+import os
+import pathlib
+import subprocess
+import sys
+import threading
+
+import pytest
+
+import swanilda
+
+SCENES = pathlib.Path(__file__).parents[2] / "scenes"
+
+
+def test_a_scene_runs_and_is_read(simulator, sim):
+    with swanilda.Simulator(SCENES / "inverted_pendulum.lua", seed=1, quiet=True) as s:
+        sim = s.require("sim")
+        rail = sim.getObject("/Rail")
+        assert sim.getObjectPosition(rail, sim.handle_world) == [0, 0, 1]
+        s.start()
+        while s.time < 1:
+            s.step()
+        assert (s.steps, s.errors, s.state) == (20, 0, "running")
+        angle, place = s.script("/Controller").state()
+        assert abs(angle) < 0.2 and 0 < place < 1
+        s.stop()
+        assert s.state == "stopped"
+
+
+def test_the_same_seed_is_the_same_run():
+    def run():
+        with swanilda.Simulator(SCENES / "inverted_pendulum.lua", seed=7, quiet=True) as s:
+            s.start()
+            s.step(50)
+            sim = s.require("sim")
+            return sim.getObjectPose(sim.getObject("/Pole"), -1)
+
+    assert run() == run()
+
+
+def test_values_pass_both_ways(simulator, sim):
+    echo = simulator.add_script("function echo(...) return ... end")
+    for value in [True, False, 5, -(2**63), 0.5, math.inf, "text", "ä", b"", b"\0\xff", [1, 2.5, "x"], {"a": [1], 2: "b"}]:
+        back = echo.echo(value)
+        assert back == value and type(back) is type(value)
+    assert echo.echo() is None
+    assert echo.echo(1, None, "x") == (1, None, "x")
+    assert echo.echo((1, 2)) == [1, 2]
+    assert echo.echo(bytearray(b"ab"), memoryview(b"cd")) == (b"ab", b"cd")
+    with pytest.raises(OverflowError):
+        echo.echo(2**63)
+    with pytest.raises(TypeError, match="no values of type set"):
+        echo.echo({1})
+    nested = []
+    nested.append(nested)
+    with pytest.raises(ValueError, match="nested"):
+        echo.echo(nested)
+
+
+def test_arrays_are_lists(sim):
+    numpy = pytest.importorskip("numpy")
+    dummy = sim.createDummy(0.1)
+    sim.setObjectPosition(dummy, numpy.array([1.0, 2.0, 3.0]))
+    sim.setObjectPosition(dummy, [numpy.float64(1), numpy.int32(2), numpy.float32(3)])
+    assert sim.getObjectPosition(numpy.int64(dummy)) == [1, 2, 3]
+
+
+def test_images_are_upright(simulator, sim):
+    numpy = pytest.importorskip("numpy")
+    sim.removeObjects(sim.getObjectsInTree(sim.handle_scene))
+    sensor = sim.createVisionSensor(1 | 2, [64, 48, 0, 0], [0.01, 10, 1, 0.1, 0, 0, 0, 0, 0, 0, 0])
+    sim.setObjectOrientation(sensor, [-math.pi / 2, 0, math.pi])
+    box = sim.createPrimitiveShape(sim.primitiveshape_cuboid, [0.3, 0.3, 0.3])
+    sim.setObjectPosition(box, [0, 2, 0.6])
+    sim.handleVisionSensor(sensor)
+    image, depth = simulator.sensor_image(sensor), simulator.sensor_depth(sensor)
+    assert image.shape == (48, 64, 3) and image.dtype == numpy.uint8
+    upper, lower = depth[:24].min(), depth[24:].min()
+    assert upper < 2.5 < lower, "the box is above the middle, or the image is upside down"
+    assert simulator.image(resolution=[32, 16]).shape == (16, 32, 3)
+    assert simulator.image(sensor).shape == (48, 64, 3)
+
+
+def test_errors_have_the_words_of_scripts(simulator, sim):
+    with pytest.raises(swanilda.Error, match=r"^in sim.getObjectPosition: object does not exist\.$"):
+        sim.getObjectPosition(987654)
+    with pytest.raises(swanilda.Error, match=r"^in sim.getObject: object does not exist, or alias/path is ill formatted\.$"):
+        sim.getObject("/nothing")
+    with pytest.raises(swanilda.Error, match="not implemented in Swanilda: sim.announceSceneContentChange"):
+        sim.announceSceneContentChange()
+    with pytest.raises(AttributeError, match="module 'sim' has no member 'nothing'"):
+        sim.nothing
+    with pytest.raises(swanilda.Error):
+        simulator.require("no_such_module")
+    with pytest.raises(swanilda.Error, match="cannot read"):
+        swanilda.Simulator("no_such_scene.ttt")
+    with pytest.raises(swanilda.Error, match=r"start\(\) it first"):
+        simulator.step()
+    with pytest.raises(swanilda.Error, match=r"sim.wait: .*start\(\) it first"):
+        sim.wait(1)
+    with pytest.raises(ValueError):
+        swanilda.Simulator(kind="nothing")
+
+
+def test_every_module_and_constant(simulator, sim):
+    assert sim.handle_world == -1 and callable(sim.getObject)
+    assert {"getObject", "handle_world"} <= set(dir(sim))
+    assert simulator.require("simZMQ").z85_encode("\1\2\3\4") == "0rJua"
+    assert simulator.require("simUI").curve_type.time is not None
+    assert simulator.require("tablex").slice([1, 2, 3], 2) == [2, 3]
+    assert "relativeTo" in sim.getObjectPosition.__doc__
+
+
+def test_functions_that_wait_run_the_steps(simulator, sim):
+    simulator.start()
+    before = simulator.time
+    left = sim.wait(0.2)
+    assert simulator.time == pytest.approx(before + 0.2 + left)
+    sim.step()
+    assert simulator.steps == 5
+
+
+class Robot:
+    made = []
+
+    def __init__(self, script):
+        self.script, self.sim, self.calls = script, script.require("sim"), []
+        Robot.made.append(self)
+
+    def sysCall_init(self):
+        self.calls.append("init")
+
+    def sysCall_actuation(self):
+        self.calls.append(self.sim.getSimulationTime())
+
+    def sysCall_thread(self):
+        for turn in range(2):
+            self.calls.append(f"thread {turn}")
+            yield
+
+    def sysCall_cleanup(self):
+        self.calls.append("cleanup")
+
+    def double(self, number):
+        return 2 * number, "twice"
+
+
+def test_a_class_is_a_script(simulator, sim):
+    Robot.made.clear()
+    robot = simulator.add_script(Robot, kind="simulation")
+    simulator.start()
+    simulator.step(3)
+    assert robot.double(4) == (8, "twice")
+    assert sim.callScriptFunction("double", robot.handle, 5) == (10, "twice")
+    asks = simulator.add_script("sim = require 'sim' function ask(robot) return sim.callScriptFunction('double', robot, 1) end")
+    assert asks.ask(robot.handle) == (2, "twice")
+    simulator.stop()
+    calls = Robot.made[0].calls
+    assert calls[0] == "init" and calls[-1] == "cleanup" and calls[1:5] == ["thread 0", 0.0, "thread 1", 0.05]
+    simulator.start()
+    simulator.step()
+    assert len(Robot.made) == 2, "each run has an instance of its own"
+
+
+def test_an_exception_of_a_script_is_raised_and_ends_it(simulator, capsys):
+    class Broken:
+        def sysCall_actuation(self):
+            raise ValueError("a wheel is off")
+
+    simulator.add_script(Broken)
+    simulator.start()
+    with pytest.raises(ValueError, match="a wheel is off"):
+        simulator.step(10)
+    assert simulator.errors == 1
+    assert "a wheel is off" in capsys.readouterr().err
+
+
+def test_functions_of_lua_call_back(simulator, sim):
+    seen = []
+    movement = {"vel": 0.5, "accel": 0.5, "jerk": 0.5}
+    params = {
+        "pos": [0.0], "targetPos": [0.1], "maxVel": [1.0], "maxAccel": [1.0], "maxJerk": [10.0],
+        "callback": lambda data: seen.append(data["pos"]),
+    }
+    simulator.start()
+    sim.moveToConfig(params)
+    assert movement and seen[-1] == pytest.approx([0.1]) and len(seen) > 3
+
+    def fails(data):
+        raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        sim.moveToConfig({**params, "callback": fails})
+
+
+def test_a_function_that_the_simulator_calls_cannot_step_it(simulator):
+    class Steps:
+        def sysCall_actuation(self):
+            simulator.step()
+
+    simulator.add_script(Steps)
+    simulator.start()
+    with pytest.raises(swanilda.Error, match="in the middle of a step"):
+        simulator.step()
+
+
+def test_scripts_print_to_pythons_streams(simulator, capsys):
+    simulator.add_script("print('from lua') error('from lua, too')")
+    out, err = capsys.readouterr()
+    assert "from lua\n" in out and "from lua, too" in err
+
+
+def test_threads_have_simulators_of_their_own(sim):
+    refused, times = [], []
+
+    def work(number):
+        try:
+            sim.getObject("/Floor")
+        except swanilda.Error as error:
+            refused.append(str(error))
+        with swanilda.Simulator(SCENES / "inverted_pendulum.lua", seed=number, quiet=True) as s:
+            s.start()
+            s.step(20)
+            times.append(s.time)
+
+    threads = [threading.Thread(target=work, args=(number,)) for number in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(refused) == 4 and "another thread" in refused[0]
+    assert times == [pytest.approx(1)] * 4
+
+
+def test_other_threads_run_while_it_steps():
+    """The lock of Python is free during a step: a thread that counts gets on."""
+    count, done = [0], threading.Event()
+
+    def counts():
+        while not done.is_set():
+            count[0] += 1
+
+    with swanilda.Simulator(quiet=True) as s:
+        s.add_script("function sysCall_actuation() local n = 0 for i = 1, 2e6 do n = n + i end end")
+        s.start()
+        thread = threading.Thread(target=counts)
+        thread.start()
+        before = count[0]
+        s.step()
+        after = count[0]
+        done.set()
+        thread.join()
+    assert after - before > 1000
+
+
+def _steps_in_a_process(number):
+    with swanilda.Simulator(quiet=True, seed=number) as s:
+        s.start()
+        return s.step(3)
+
+
+@pytest.mark.parametrize("method", ["spawn", "fork"])
+def test_processes(simulator, method):
+    context = multiprocessing.get_context(method)
+    with context.Pool(2) as pool:
+        assert pool.map(_steps_in_a_process, range(2)) == [3, 3]
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
+def test_a_simulator_does_not_survive_a_fork(simulator):
+    read, write = os.pipe()
+    child = os.fork()
+    if child == 0:
+        try:
+            simulator.start()
+            os.write(write, b"started")
+        except swanilda.Error as error:
+            os.write(write, str(error).encode())
+        finally:
+            os._exit(0)
+    os.waitpid(child, 0)
+    assert b"does not survive a fork" in os.read(read, 1000)
+    simulator.start()
+    assert simulator.step() == 1
+
+
+def test_the_end_of_python_is_the_end_of_simulators():
+    code = "import swanilda\nclass R:\n def sysCall_cleanup(self): print('cleaned up')\ns = swanilda.Simulator()\ns.add_script(R)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "cleaned up\n", "")
+
+
+def test_a_closed_simulator_says_so():
+    s = swanilda.Simulator(quiet=True)
+    sim = s.require("sim")
+    s.close()
+    s.close()
+    with pytest.raises(swanilda.Error, match="is closed"):
+        sim.getObject("/Floor")
+    assert repr(s) == "<closed simulator>" and s._repr_html_() is None
+
+
+def test_notebooks_show_a_picture_and_a_table(simulator):
+    page = simulator._repr_html_()
+    assert "data:image/png;base64," in page and "/Floor" in page
+    view = simulator.view()
+    assert view.url.startswith("http://127.0.0.1:") and view.url in view._repr_html_()
+    simulator.serve(0.05)
+
+
+def test_code_without_a_purpose_is_refused(simulator, sim):
+    for bad in [(), (None,), ("x",), ([],), ({},), (math.nan,), (1, 2, 3, 4, 5, 6)]:
+        try:
+            sim.setObjectPosition(*bad)
+        except swanilda.Error:
+            pass
