@@ -98,3 +98,21 @@ def dataset(out="results"):
 def _text(value):
     """A parameter in the words of the command line."""
     return value if isinstance(value, str) else repr(value) if isinstance(value, float) else str(value)
+
+
+def _main():
+    """The runs of `swanilda batch --ray`: its arguments as JSON."""
+    import json
+    import sys
+
+    arguments = json.loads(sys.argv[1])
+    sweeps = arguments.pop("params")
+    table = sweep(params=dict(sweeps), **arguments)
+    print(table)
+
+
+if __name__ == "__main__":
+    # As a module of its own name, so that workers find its functions.
+    from swanilda.ray import _main as main
+
+    main()
