@@ -1,0 +1,22 @@
+# The command `swanilda` in a small image, for a user who is not root.
+#
+#     docker build -t swanilda .
+#     docker run --rm -v "$PWD:/work" swanilda run robot.ttt --time 5
+FROM rust:1.89-slim-bookworm AS build
+RUN apt-get update -qq && apt-get install -y -qq --no-install-recommends g++ make pkg-config && rm -rf /var/lib/apt/lists/*
+WORKDIR /source
+COPY . .
+RUN cargo build --release --locked --bin swanilda && strip target/release/swanilda
+
+FROM debian:bookworm-slim
+RUN apt-get update -qq && apt-get install -y -qq --no-install-recommends ca-certificates libstdc++6 && rm -rf /var/lib/apt/lists/* \
+    && useradd --create-home --uid 1000 swanilda
+COPY --from=build /source/target/release/swanilda /usr/local/bin/swanilda
+COPY LICENSE-MIT LICENSE-APACHE /usr/share/doc/swanilda/
+USER swanilda
+WORKDIR /work
+# The remote APIs, when the command is `serve --bind 0.0.0.0`.
+EXPOSE 23000 23050
+HEALTHCHECK --interval=30s --timeout=5s CMD ["swanilda", "--version"]
+ENTRYPOINT ["swanilda"]
+CMD ["--help"]
