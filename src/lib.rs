@@ -26,6 +26,6 @@ pub use permissions::{Denied, HostRule, Permissions};
 pub use script::{Console, Limits, LogLine, Options, Silent, SimulationState, VideoFailure, VideoOptions, VideoView};
 pub use simulator::{
     ApiFunction, Builder, Caller, Error, ModuleMember, NativeScript, NativeScriptFactory, Progress, RunLimits,
-    RunObserver, RunTotals, ScriptKind, ScriptRef, Simulator, folder_of_scene,
+    RunObserver, RunTotals, ScriptKind, ScriptRef, Simulator,
 };
 pub use view::Viewer;

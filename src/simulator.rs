@@ -39,7 +39,6 @@ pub use caller::{ApiFunction, Caller, ModuleMember, Progress};
 use native_script::{NativeLanguage, NativeScripts};
 pub use native_script::{NativeScript, NativeScriptFactory};
 pub use run::{RunLimits, RunObserver, RunTotals};
-pub use scene::folder_of_scene;
 pub(crate) use viewing::PropertyRow;
 
 /// The add-on that serves clients by ZeroMQ.

@@ -101,14 +101,16 @@ def _text(value):
 
 
 def _main():
-    """The runs of `swanilda batch --ray`: its arguments as JSON."""
+    """The runs of `swanilda batch --ray`: its arguments as JSON. The exit code is 3 when some failed."""
     import json
     import sys
 
     arguments = json.loads(sys.argv[1])
     sweeps = arguments.pop("params")
-    table = sweep(params=dict(sweeps), **arguments)
+    failed = []
+    table = sweep(params=dict(sweeps), on_row=lambda line: failed.append(json.loads(line)["error"]), **arguments)
     print(table)
+    sys.exit(3 if any(failed) else 0)
 
 
 if __name__ == "__main__":

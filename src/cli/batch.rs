@@ -41,7 +41,7 @@ pub(super) struct Args {
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = named_param)]
     define: Vec<(String, String)>,
     /// Number of runs in parallel [default: number of processors]
-    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), conflicts_with = "ray")]
     jobs: Option<u16>,
     /// Folder for the results
     #[arg(long, value_name = "FOLDER", default_value = "results")]
@@ -53,8 +53,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "SECONDS", default_value = "3600", value_parser = seconds, allow_negative_numbers = true)]
     timeout: f64,
     /// Memory limit for the Lua code of a run, MiB
-    #[arg(long, value_name = "MIB", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "MIB", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..), conflicts_with = "ray")]
     memory: u32,
+    /// Make the runs on a cluster of Ray, with Python's package swanilda: its address, or local
+    #[arg(long, value_name = "ADDRESS")]
+    ray: Option<String>,
     /// Start over and overwrite existing results
     #[arg(long)]
     force: bool,
@@ -80,6 +83,12 @@ pub(super) fn batch(args: &Args) -> ExitCode {
 
 fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {
     let batch = args.batch();
+    if let Some(address) = &args.ray {
+        if args.permissions.is_restricted() {
+            return Err("--ray knows no restrictions of permissions.".into());
+        }
+        return super::batch_ray::run(&batch, address, &args.out, args.timeout, args.force);
+    }
     let runs = batch.runs();
     let mut store = Store::open(&args.out, &batch, args.force).map_err(|error| error.to_string())?;
     let missing = store.missing(&runs);

@@ -5,6 +5,7 @@
 
 mod api;
 mod batch;
+mod batch_ray;
 mod diff;
 mod doctor;
 mod export;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use super::row::{Function, Parameter};
-use super::{functions, module_functions};
+use super::{functions, module_functions, module_names};
 use crate::modules::ALL;
 use crate::script::pairs;
 
@@ -28,9 +28,12 @@ const KEYWORDS: &[&str] = &[
 pub(super) fn text() -> String {
     let mut out = HEAD.to_owned();
     let mut names = Vec::new();
+    let mut required: BTreeSet<String> = module_names().into_iter().collect();
+    required.insert("sim".to_owned());
     let of_sim = functions().into_iter().filter(|function| function.name.starts_with("sim."));
     let all: Vec<Function> = of_sim.chain(module_functions()).collect();
-    let modules: BTreeSet<&str> = all.iter().filter_map(|function| module_of(function)).collect();
+    let modules = all.iter().filter_map(|function| module_of(function)).filter(|name| required.contains(*name));
+    let modules: BTreeSet<&str> = modules.collect();
     for module in modules {
         let members: Vec<&Function> = all.iter().filter(|function| module_of(function) == Some(module)).collect();
         declare_module(&mut out, module, &members);

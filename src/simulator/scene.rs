@@ -35,6 +35,14 @@ impl Simulator {
         Ok(())
     }
 
+    /// The folder of a scene, where its scripts find their modules: for `Options::package_dirs`.
+    pub fn folder_of_scene(scene: &Path) -> PathBuf {
+        match scene.parent() {
+            Some(folder) if folder != Path::new("") => folder.to_owned(),
+            _ => PathBuf::from("."),
+        }
+    }
+
     /// Adds the objects of the default scene: floor, camera, lights.
     ///
     /// # Errors
@@ -42,13 +50,5 @@ impl Simulator {
     pub fn add_default_objects(&mut self) -> Result<(), Error> {
         self.scene_mut().add_default_objects().map_err(|error| Error::Api(error.into()))?;
         Ok(())
-    }
-}
-
-/// The folder of a scene, where its scripts find their modules: for `Options::package_dirs`.
-pub fn folder_of_scene(scene: &Path) -> PathBuf {
-    match scene.parent() {
-        Some(folder) if folder != Path::new("") => folder.to_owned(),
-        _ => PathBuf::from("."),
     }
 }

@@ -123,6 +123,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("strsim", "src/cli/api.rs"),
     ("strsim", "src/script/log"),
     ("swanilda", "crates/python"),
+    ("swanilda", "src/main.rs"),
     ("syn", "crates/api-macro"),
     ("tempfile", "src/cli/test"),
     ("tempfile", "src/format"),

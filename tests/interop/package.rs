@@ -49,6 +49,7 @@ fn the_package_passes_its_tests() {
     let server = Server::start();
     let mut pytest = Command::new(python);
     pytest.args(["-m", "pytest", "-q", "-p", "no:cacheprovider"]).arg(root().join("tests/python"));
-    pytest.env("SWANILDA_PORT", &server.port).env("PYTHONDONTWRITEBYTECODE", "1").current_dir(root().join("tests"));
+    pytest.env("SWANILDA_PORT", &server.port).env("SWANILDA_BIN", env!("CARGO_BIN_EXE_swanilda"));
+    pytest.env("PYTHONDONTWRITEBYTECODE", "1").current_dir(root().join("tests"));
     succeed(&mut pytest, TESTS);
 }

@@ -5,6 +5,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import sys
 
 import pytest
 
@@ -81,6 +82,17 @@ def test_the_table_is_that_of_the_command(cluster, scene, tmp_path):
     sweep(scene, {"kp": [1, 2]}, range(4), out=tmp_path / "ray", fixed={"pids": pids})
     for name in ["results.csv", "runs.jsonl"]:
         assert (tmp_path / "ray" / name).read_bytes() == (tmp_path / "command" / name).read_bytes()
+
+
+@pytest.mark.skipif("SWANILDA_BIN" not in os.environ, reason="the command is not known")
+def test_the_command_asks_ray(scene, tmp_path):
+    pids = str(tmp_path / "pids.txt")
+    command = [os.environ["SWANILDA_BIN"], "batch", str(scene), "--seeds", "0..1", "-D", f"pids={pids}", "-D", "kp=1"]
+    folder = pathlib.Path(sys.executable).parent
+    environment = {**os.environ, "PATH": f"{folder}{os.pathsep}{os.environ['PATH']}"}
+    for extra in [["--out", "alone"], ["--out", "ray", "--ray", "local"]]:
+        subprocess.run([*command, *extra], check=True, capture_output=True, timeout=120, cwd=tmp_path, env=environment)
+    assert (tmp_path / "ray" / "results.csv").read_bytes() == (tmp_path / "alone" / "results.csv").read_bytes()
 
 
 def test_an_interrupted_sweep_goes_on(cluster, scene, tmp_path):

@@ -10,7 +10,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple};
 use swanilda::scene::Handle;
-use swanilda::{Channels, Options, Permissions, ScriptKind, SimulationState, Viewer, folder_of_scene};
+use swanilda::{Channels, Options, Permissions, ScriptKind, SimulationState, Viewer};
 
 use crate::callables::Callables;
 use crate::console::PythonConsole;
@@ -83,7 +83,7 @@ impl Simulator {
         }
         let mut options = Options {
             named_params: params.unwrap_or_default(),
-            package_dirs: scene.iter().map(|scene| folder_of_scene(scene)).collect(),
+            package_dirs: scene.iter().map(|scene| swanilda::Simulator::folder_of_scene(scene)).collect(),
             data_dir,
             render_threads: render_threads.and_then(std::num::NonZero::new),
             permissions: if unsafe_functions { Permissions::all() } else { Permissions::none() },

@@ -12,7 +12,7 @@ use crate::format::script_file;
 use crate::format::ttt::FileError;
 use crate::permissions::{Permissions, read_bounded};
 use crate::script::log::verbosity;
-use crate::{Error, Options, ScriptKind, ScriptRef, Simulator, folder_of_scene};
+use crate::{Error, Options, ScriptKind, ScriptRef, Simulator};
 
 /// Simulator options
 #[derive(clap::Args)]
@@ -123,7 +123,7 @@ impl Setup {
             named_params: self.define.iter().cloned().collect(),
             data_dir: self.data_dir.clone(),
             resources: self.resources.folder(),
-            package_dirs: scene.map(folder_of_scene).into_iter().collect(),
+            package_dirs: scene.map(Simulator::folder_of_scene).into_iter().collect(),
             stop: interrupt.flag(),
             original_errors: self.original_errors,
             ..Options::default()
