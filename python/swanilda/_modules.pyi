@@ -5324,6 +5324,313 @@ class _simConvex:
         params: resolution (100000: voxels in all, at most 16 million), concavity (0.1), plane_downsampling (4), hull_downsampling (4), alpha (0.05), beta (0.05); other fields have no effect
         """
 
+class _simEigen:
+    op: Any
+    def mtxBlock(self, handle: str, i: int | None = ..., j: int | None = ..., p: int | None = ..., q: int | None = ..., /) -> str:
+        """A part of a matrix, as a new one.
+        handle: the matrix
+        i: first row, from 0
+        j: first column, from 0
+        p: number of rows; -1: all that follow
+        q: number of columns; -1: all that follow
+        """
+    def mtxBlockAssign(self, handle: str, handle2: str, i: int | None = ..., j: int | None = ..., p: int | None = ..., q: int | None = ..., /) -> None:
+        """Puts a matrix into another.
+        handle: the matrix that changes
+        handle2: the matrix that is put in
+        i: first row, from 0
+        j: first column, from 0
+        p: number of rows; -1: all of `handle2`
+        q: number of columns; -1: all of `handle2`
+        """
+    def mtxCopy(self, handle: str, /) -> str:
+        """A copy.
+        handle: the matrix
+        """
+    def mtxCross(self, handle: str, handle2: str, /) -> str:
+        """The vector product of two vectors of length 3.
+        handle: the first
+        handle2: the second
+        """
+    def mtxDestroy(self, handle: str, /) -> None:
+        """Ends a matrix.
+        handle: the matrix
+        """
+    def mtxDeterminant(self, handle: str, /) -> float:
+        """The determinant of a square matrix.
+        handle: the matrix
+        """
+    def mtxDot(self, handle: str, handle2: str, /) -> float:
+        """The scalar product of two vectors.
+        handle: the first
+        handle2: the second
+        """
+    def mtxGetColData(self, handle: str, j: int, /) -> list[float]:
+        """The numbers of a column.
+        handle: the matrix
+        j: column, from 0
+        """
+    def mtxGetData(self, handle: str, /) -> list[float]:
+        """All numbers.
+        handle: the matrix
+        """
+    def mtxGetItem(self, handle: str, i: int, j: int, /) -> float:
+        """One number.
+        handle: the matrix
+        i: row, from 0
+        j: column, from 0
+        """
+    def mtxGetRowData(self, handle: str, i: int, /) -> list[float]:
+        """The numbers of a row.
+        handle: the matrix
+        i: row, from 0
+        """
+    def mtxGetSize(self, handle: str, /) -> tuple[int, int]:
+        """Rows and columns.
+        handle: the matrix
+        """
+    def mtxHorzCat(self, handles: Sequence[str], /) -> str:
+        """Matrices side by side.
+        handles: matrices with as many rows
+        """
+    def mtxIMul(self, handle: str, handle2: str, /) -> None:
+        """Multiplies a matrix by another.
+        handle: the matrix that changes
+        handle2: the second
+        """
+    def mtxKron(self, handle: str, handle2: str, /) -> str:
+        """The Kronecker product.
+        handle: the first
+        handle2: the second
+        """
+    def mtxLinSpaced(self, count: int, low: float | None = ..., high: float | None = ..., /) -> str:
+        """A column of evenly spaced numbers.
+        count: how many
+        low: the first
+        high: the last; without it each is one more than the one before
+        """
+    def mtxMaxCoeff(self, handle: str, /) -> float:
+        """The largest number.
+        handle: the matrix
+        """
+    def mtxMean(self, handle: str, /) -> float:
+        """The mean of all numbers.
+        handle: the matrix
+        """
+    def mtxMinCoeff(self, handle: str, /) -> float:
+        """The smallest number.
+        handle: the matrix
+        """
+    def mtxMul(self, handle: str, handle2: str, /) -> str:
+        """The product of two matrices.
+        handle: the first
+        handle2: the second
+        """
+    def mtxNew(self, rows: int, cols: int, initialData: Sequence[float] | None = ..., /) -> str:
+        """A new matrix.
+        rows: number of rows
+        cols: number of columns
+        initialData: by rows; zeros without
+        """
+    def mtxNorm(self, handle: str, /) -> float:
+        """The root of the sum of squares.
+        handle: the matrix
+        """
+    def mtxNormalize(self, handle: str, /) -> None:
+        """Divides a matrix by its norm.
+        handle: the matrix that changes
+        """
+    def mtxNormalized(self, handle: str, /) -> str:
+        """A matrix divided by its norm.
+        handle: the matrix
+        """
+    def mtxOp(self, handle: str, op: int, handle2: str | None = ..., inplace: bool | None = ..., /) -> str:
+        """A function of each number of a matrix, or of each pair of numbers of two.
+        handle: the matrix
+        op: one of simEigen.op
+        handle2: the second matrix, for operations with two
+        inplace: changes the first matrix instead of making a new one
+        """
+    def mtxOpK(self, handle: str, op: int, k: float, inplace: bool | None = ..., /) -> str:
+        """A function of each number of a matrix and another number.
+        handle: the matrix
+        op: one of simEigen.op
+        k: the second operand
+        inplace: changes the matrix instead of making a new one
+        """
+    def mtxPInv(self, m: str, b: str | None = ..., damping: float | None = ..., /) -> tuple[str, str]:
+        """The pseudo-inverse.
+        m: the matrix
+        b: right sides of m * x = b
+        damping: d: each singular value s counts as (s² + d²) / s
+        """
+    def mtxProd(self, handle: str, /) -> float:
+        """The product of all numbers.
+        handle: the matrix
+        """
+    def mtxRandom(self, rows: int, cols: int, /) -> str:
+        """A matrix of random numbers from -1 to 1.
+        rows: number of rows
+        cols: number of columns
+        """
+    def mtxReshaped(self, handle: str, rows: int, cols: int, /) -> str:
+        """The same numbers, by rows, in another shape.
+        handle: the matrix
+        rows: number of rows; -1: what the number of columns asks for
+        cols: number of columns; -1: what the number of rows asks for
+        """
+    def mtxSVD(self, m: str, computeThinU: bool | None = ..., computeThinV: bool | None = ..., b: str | None = ..., /) -> tuple[str, str, str, str]:
+        """Singular value decomposition: m = u * diagonal(s) * transposed v.
+        m: the matrix
+        computeThinU: whether u is wanted; else it is empty
+        computeThinV: whether v is wanted; else it is empty
+        b: right sides of m * x = b
+        """
+    def mtxSetColData(self, handle: str, j: int, data: Sequence[float], /) -> None:
+        """Sets the numbers of a column.
+        handle: the matrix
+        j: column, from 0
+        data: as many as there are rows
+        """
+    def mtxSetData(self, handle: str, data: Sequence[float], /) -> None:
+        """Sets all numbers.
+        handle: the matrix
+        data: by rows
+        """
+    def mtxSetItem(self, handle: str, i: int, j: int, data: float, /) -> None:
+        """Sets one number.
+        handle: the matrix
+        i: row, from 0
+        j: column, from 0
+        data: the number
+        """
+    def mtxSetRowData(self, handle: str, i: int, data: Sequence[float], /) -> None:
+        """Sets the numbers of a row.
+        handle: the matrix
+        i: row, from 0
+        data: as many as there are columns
+        """
+    def mtxSquaredNorm(self, handle: str, /) -> float:
+        """The sum of squares.
+        handle: the matrix
+        """
+    def mtxSum(self, handle: str, /) -> float:
+        """The sum of all numbers.
+        handle: the matrix
+        """
+    def mtxTrace(self, handle: str, /) -> float:
+        """The sum of the diagonal.
+        handle: the matrix
+        """
+    def mtxTranspose(self, handle: str, /) -> None:
+        """Exchanges rows and columns.
+        handle: the matrix that changes
+        """
+    def mtxTransposed(self, handle: str, /) -> str:
+        """With rows and columns exchanged.
+        handle: the matrix
+        """
+    def mtxVertCat(self, handles: Sequence[str], /) -> str:
+        """Matrices below each other.
+        handles: matrices with as many columns
+        """
+    def pinv(self, m: Sequence[Any] | Mapping[Any, Any], b: Sequence[Any] | Mapping[Any, Any] | None = ..., damping: float | None = ..., /) -> tuple[Any, Any]:
+        """Pseudo-inverse of a grid, a table of dims and data.
+        m: the grid
+        b: right sides
+        damping: see mtxPInv
+        """
+    def quatCopy(self, handle: str, /) -> str:
+        """A copy.
+        handle: the quaternion
+        """
+    def quatDestroy(self, handle: str, /) -> None:
+        """Ends a quaternion.
+        handle: the quaternion
+        """
+    def quatFromAxisAngle(self, axisHandle: str, angle: float, /) -> str:
+        """A rotation around an axis.
+        axisHandle: vector along the axis
+        angle: radians
+        """
+    def quatFromEuler(self, handle: str, /) -> str:
+        """From Euler angles as those of `sim`: around x, then the new y, then the new z.
+        handle: vector of the angles, radians
+        """
+    def quatFromRotation(self, handle: str, /) -> str:
+        """From a matrix of 3 by 3.
+        handle: the matrix
+        """
+    def quatFromTwoVectors(self, handle: str, handle2: str, /) -> str:
+        """The shortest rotation from one direction to another.
+        handle: the vector to turn
+        handle2: the vector it is turned to
+        """
+    def quatFromYPR(self, handle: str, /) -> str:
+        """From yaw, pitch and roll: around z, then the new y, then the new x.
+        handle: vector of the angles, radians
+        """
+    def quatGetData(self, handle: str, /) -> list[float]:
+        """Its numbers.
+        handle: the quaternion
+        """
+    def quatInv(self, handle: str, /) -> str:
+        """The inverse.
+        handle: the quaternion
+        """
+    def quatMulQuat(self, handle: str, handle2: str, inplace: bool | None = ..., /) -> str:
+        """The product of two quaternions.
+        handle: the first
+        handle2: the second
+        inplace: changes the first instead of making a new one
+        """
+    def quatMulVec(self, handle: str, vectorHandle: str, /) -> str:
+        """A rotated vector.
+        handle: the quaternion
+        vectorHandle: the vector
+        """
+    def quatNew(self, initialData: Sequence[float] | None = ..., /) -> str:
+        """A new quaternion.
+        initialData: x, y, z, w; no rotation without
+        """
+    def quatRandom(self, /) -> str:
+        """A random rotation.
+        """
+    def quatSLERP(self, handle: str, handle2: str, t: float, /) -> str:
+        """A rotation between two, on the shortest way.
+        handle: at t = 0
+        handle2: at t = 1
+        t: from 0 to 1
+        """
+    def quatSetData(self, handle: str, data: Sequence[float], /) -> None:
+        """Sets its numbers.
+        handle: the quaternion
+        data: x, y, z, w
+        """
+    def quatToAxisAngle(self, handle: str, /) -> tuple[str, float]:
+        """The axis and angle of a rotation; x and 0 of none.
+        handle: the quaternion
+        """
+    def quatToEuler(self, handle: str, /) -> str:
+        """Euler angles as those of `sim`.
+        handle: the quaternion
+        """
+    def quatToRotation(self, handle: str, /) -> str:
+        """A matrix of 3 by 3.
+        handle: the quaternion
+        """
+    def quatToYPR(self, handle: str, /) -> str:
+        """Yaw, pitch and roll.
+        handle: the quaternion
+        """
+    def svd(self, m: Sequence[Any] | Mapping[Any, Any], computeThinU: bool | None = ..., computeThinV: bool | None = ..., b: Sequence[Any] | Mapping[Any, Any] | None = ..., /) -> tuple[Any, Any, Any, Any]:
+        """Singular value decomposition of a grid, a table of dims and data.
+        m: the grid
+        computeThinU: whether u is wanted
+        computeThinV: whether v is wanted
+        b: right sides
+        """
+
 class _simGeom:
     def copyMesh(self, meshHandle: int, /) -> int:
         """Copies a mesh.
@@ -6299,6 +6606,59 @@ class _simQHull:
     def computeShape(self, handles: Sequence[int], /) -> int:
         """The convex hull of objects, as a new shape.
         handles: shapes and other objects with points
+        """
+
+class _simQML:
+    def createEngine(self, /) -> str:
+        """Makes an engine, which can load one interface.
+        """
+    def destroyEngine(self, handle: str, /) -> None:
+        """Ends an engine and closes its window.
+        handle: the engine
+        """
+    def imageDataURL(self, data: bytes | str, width: int, height: int, format: str | None = ..., data_format: int | None = ..., /) -> str:
+        """An image as a text that QML takes as the source of an Image.
+        data: rows of pixels, the first on top
+        width: pixels
+        height: pixels
+        format: BMP, PNG or JPG
+        data_format: one of simQML.image_data_format
+        """
+    def load(self, engineHandle: str, filename: str, /) -> None:
+        """Loads an interface from a file.
+        engineHandle: the engine
+        filename: a file with QML; without a folder that is its own, in that of the scene
+        """
+    def loadData(self, engineHandle: str, data: str, basepath: str | None = ..., /) -> None:
+        """Loads an interface from a text.
+        engineHandle: the engine
+        data: QML
+        basepath: without effect: nothing that the text names is loaded
+        """
+    def qtVersion(self, /) -> list[int]:
+        """The version of Qt: there is none.
+        """
+    def sendEvent(self, engine: str, name: str, data: Sequence[Any] | Mapping[Any, Any], /) -> None:
+        """Sends an event to an interface.
+        engine: the engine
+        name: name
+        data: any value that JSON has
+        """
+    def sendEventRaw(self, engineHandle: str, eventName: str, eventData: str, /) -> None:
+        """Sends an event to an interface.
+        engineHandle: the engine
+        eventName: name
+        eventData: JSON
+        """
+    def setEventHandler(self, engine: str, funcName: str, /) -> None:
+        """Names the function that receives the events of an interface, with engine, name and data.
+        engine: the engine
+        funcName: a global function of the script
+        """
+    def setEventHandlerRaw(self, engineHandle: str, functionName: str, /) -> None:
+        """Names the function that receives the events of an interface, with engine, name and JSON.
+        engineHandle: the engine
+        functionName: a global function of the script
         """
 
 class _simRemoteApi:
@@ -8441,11 +8801,15 @@ class Requires:
     @overload
     def require(self, name: Literal["simConvex"], script: int | None = None) -> _simConvex: ...
     @overload
+    def require(self, name: Literal["simEigen"], script: int | None = None) -> _simEigen: ...
+    @overload
     def require(self, name: Literal["simGeom"], script: int | None = None) -> _simGeom: ...
     @overload
     def require(self, name: Literal["simIM"], script: int | None = None) -> _simIM: ...
     @overload
     def require(self, name: Literal["simQHull"], script: int | None = None) -> _simQHull: ...
+    @overload
+    def require(self, name: Literal["simQML"], script: int | None = None) -> _simQML: ...
     @overload
     def require(self, name: Literal["simRemoteApi"], script: int | None = None) -> _simRemoteApi: ...
     @overload

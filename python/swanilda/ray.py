@@ -107,10 +107,9 @@ def _main():
 
     arguments = json.loads(sys.argv[1])
     sweeps = arguments.pop("params")
-    failed = []
-    table = sweep(params=dict(sweeps), on_row=lambda line: failed.append(json.loads(line)["error"]), **arguments)
-    print(table)
-    sys.exit(3 if any(failed) else 0)
+    print(sweep(params=dict(sweeps), **arguments))
+    lines = pathlib.Path(arguments["out"], "runs.jsonl").read_text().splitlines()
+    sys.exit(3 if any(json.loads(line)["error"] is not None for line in lines) else 0)
 
 
 if __name__ == "__main__":

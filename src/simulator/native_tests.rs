@@ -4,8 +4,8 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use crate::scene::Data;
-use crate::simulator::ScriptRef;
-use crate::{Caller, NativeScript, Options, Progress, ScriptKind, Simulator};
+use crate::script::Options;
+use crate::simulator::{Caller, NativeScript, Progress, ScriptKind, ScriptRef, Simulator};
 
 /// Notes what it is called, and calls the API meanwhile.
 struct Robot {
