@@ -2071,6 +2071,12 @@ class _sim:
     def acquireLock(self, /) -> Any:
         """Forbids yielding and interruption until sim.releaseLock.
         """
+    def addBanner(self, text: str, size: float, options: int, /, *args: Any) -> int:
+        """Adds a banner, which is not shown.
+        text: on it
+        size: of the letters
+        options: bits
+        """
     def addDrawingObject(self, objectType: int, size: float | None = ..., duplicateTolerance: float | None = ..., parentObjectHandle: int | None = ..., maxItemCount: int | None = ..., color: Sequence[float] | None = ..., reserved: Sequence[float] | None = ..., specular: Sequence[float] | None = ..., emission: Sequence[float] | None = ..., /) -> int:
         """Something to draw points, lines, triangles or small bodies with, seen by cameras and vision sensors. Without
         sim.drawing_persistent it ends with the script.
@@ -2170,13 +2176,18 @@ class _sim:
         tag: of the reference
         options: wholeTree: refer to all objects below, too
         """
+    def addScript(self, scriptType: int, /) -> int:
+        """A new script without an object; sim.associateScriptWithObject attaches it to one.
+        Deprecated: use sim.createScript.
+        scriptType: sim.scripttype_simulation or sim.scripttype_customization
+        """
     def addStatusbarMessage(self, message: str | None = ..., /) -> int:
         """Writes a line to the log in the name of this script, as an information.
         Deprecated: use sim.addLog.
         message: the line; nil: none is written
         """
     def adjustView(self, viewHandleOrIndex: int, objectHandle: int, options: int, /, *args: Any) -> int:
-        """Shows an object in a view.
+        """Shows an object in a view. Views of the page are not changed: in the viewer everybody chooses their own.
         viewHandleOrIndex: from sim.floatingViewAdd, or the number of a view of the page
         objectHandle: a camera, vision sensor or graph, or -1
         options: bits
@@ -2191,6 +2202,12 @@ class _sim:
         alpha: about x, first
         beta: about the new y
         gamma: about the new z
+        """
+    def associateScriptWithObject(self, scriptHandle: int, objectHandle: int, /) -> int:
+        """Attaches a script that is no object to an object.
+        Deprecated: use sim.createScript / sim.setObjectParent.
+        scriptHandle: from sim.addScript, or of an old scene
+        objectHandle: the object; -1 detaches it
         """
     def auxFunc(self, cmd: str, /, *args: Any) -> Any:
         """Small services of the host: `headless`, `useBuffers`. Other commands return nothing.
@@ -2219,7 +2236,7 @@ class _sim:
         showState: true to show it
         """
     def boolAnd16(self, a: int, b: int, /) -> int:
-        """Bitwise and of the lower 16 bits.
+        """Bitwise and, as sim.boolAnd32.
         a: number
         b: number
         """
@@ -2230,7 +2247,7 @@ class _sim:
         b: number
         """
     def boolOr16(self, a: int, b: int, /) -> int:
-        """Bitwise or of the lower 16 bits.
+        """Bitwise or, as sim.boolOr32.
         a: number
         b: number
         """
@@ -2241,7 +2258,7 @@ class _sim:
         b: number
         """
     def boolXor16(self, a: int, b: int, /) -> int:
-        """Bitwise exclusive or of the lower 16 bits.
+        """Bitwise exclusive or, as sim.boolXor32.
         a: number
         b: number
         """
@@ -2286,6 +2303,13 @@ class _sim:
         The first two arguments may come in either order.
         functionName: name of a global function; dots walk through tables
         scriptHandle: the script
+        """
+    def cameraFitToView(self, viewHandleOrIndex: int, objectHandles: Any | None = ..., options: int | None = ..., scaling: float | None = ..., /) -> int:
+        """Moves a camera along its line of sight, and sideways, until it shows objects.
+        viewHandleOrIndex: a camera with 0x00400000 added; the number of a view has no camera here
+        objectHandles: what is shown; nil: all objects
+        options: ignored
+        scaling: how much of the picture they fill
         """
     def cancelScheduledExecution(self, id: int, /) -> bool:
         """Cancels a scheduled function.
@@ -2426,9 +2450,12 @@ class _sim:
         """Copy of a table, tables inside included.
         original: table
         """
-    def createCollection(self, options: int | None = ..., /) -> int:
+    def createCollection(self, options: Any | None = ..., oldOptions: int | None = ..., /) -> int:
         """Creates an empty collection. It ends with the script that created it.
+
+        V-REP gave a name first: such a collection stays with the scene.
         options: 1: its members override their collidable, measurable and detectable flags
+        oldOptions: the options, after a name
         """
     def createDummy(self, size: float, /) -> int:
         """A new dummy at the world's origin, the last root.
@@ -2478,6 +2505,8 @@ class _sim:
         """
     def createPath(self, ctrlPts: Sequence[float], options: int | None = ..., subdiv: int | None = ..., smoothness: float | None = ..., orientationMode: int | None = ..., upVector: Sequence[float] | None = ..., /) -> int:
         """Creates a path object from control points.
+
+        With a number first it is a path object of V-REP: attributes, integer parameters, floating-point parameters, colours.
         ctrlPts: poses, seven numbers each, at least two
         options: 1 hidden while a simulation runs, 2 closed, 4 a shape along it, 16 orientation computed from the direction
         subdiv: number of points of the sampled path
@@ -2549,6 +2578,12 @@ class _sim:
         intParams: width and height in pixels, 0, 0
         floatParams: near and far plane in metres, angle in rad or size in metres, display size, ...
         """
+    def cutPathCtrlPoints(self, pathHandle: int, startIndex: int, ptCnt: int, /) -> int:
+        """Removes control points of a path of V-REP.
+        pathHandle: the path
+        startIndex: the first one, from 0; negative: all
+        ptCnt: how many; negative: all
+        """
     def destroyCollection(self, collectionHandle: int, /) -> None:
         """Removes a collection; its objects stay.
         collectionHandle: the collection
@@ -2581,7 +2616,7 @@ class _sim:
         """Does nothing: what there is to calculate is calculated.
         count: of threads
         """
-    def endDialog(self, handle: int, /) -> int:
+    def endDialog(self, handle: int, /) -> None:
         """Closes a window of sim.displayDialog.
         Deprecated: use the simUI functionality.
         handle: from sim.displayDialog
@@ -2610,7 +2645,7 @@ class _sim:
         ext: extensions without dots, with semicolons between them
         """
     def floatingViewAdd(self, posX: float, posY: float, sizeX: float, sizeY: float, options: int, /) -> int:
-        """Adds a view to the page.
+        """Adds a view above the scene. Pages of the viewer show it.
         posX: of its centre, 0 to 1
         posY: of its centre
         sizeX: part of the window
@@ -2620,6 +2655,15 @@ class _sim:
     def floatingViewRemove(self, floatingViewHandle: int, /) -> int:
         """Removes a view.
         floatingViewHandle: from sim.floatingViewAdd
+        """
+    def followPath(self, object: int, path: int, what: int, start: float, velocity: float, acceleration: float | None = ..., /) -> float:
+        """Moves an object along a path of V-REP, blocking. The position of the path itself stays.
+        object: handle
+        path: handle
+        what: 1 position, 2 orientation
+        start: place on the path, from 0 to 1
+        velocity: m/s; negative: towards the start of the path
+        acceleration: nil or 0: none is needed
         """
     def generateShapeFromPath(self, path: Sequence[float], section: Sequence[float], options: int | None = ..., upVector: Sequence[float] | None = ..., /) -> int:
         """A new shape: a section moved along a path. Its frame is the world's, its ends are open.
@@ -2693,6 +2737,20 @@ class _sim:
         lengths: from sim.getPathLengths
         position: the given point
         """
+    def getClosestPositionOnPath(self, pathHandle: int, position: Sequence[float], /) -> float:
+        """The place on a path of V-REP that is closest to a point.
+        pathHandle: the path
+        position: of the point, in the frame of the path
+        """
+    def getCollectionHandle(self, collectionName: str, /) -> int:
+        """A collection of an old scene.
+        Deprecated: use sim.createCollection.
+        collectionName: its name; with `@silentError`: -1 if there is none
+        """
+    def getCollectionName(self, collectionHandle: int, /) -> str:
+        """The name of a collection of an old scene.
+        collectionHandle: the collection
+        """
     def getCollectionObjects(self, collectionHandle: int, /) -> list[int]:
         """The objects a collection holds now.
         collectionHandle: the collection
@@ -2725,6 +2783,16 @@ class _sim:
         """The customization script of an object.
         Deprecated: use sim.getObject.
         objectHandle: the object
+        """
+    def getDataOnPath(self, pathHandle: int, relativeDistance: float, /) -> tuple[int, list[float]]:
+        """Auxiliary data of a point of a path of V-REP.
+        pathHandle: the path
+        relativeDistance: part of the length, from 0 to 1
+        """
+    def getDialogInput(self, handle: int, /) -> str:
+        """The user's input; there is none.
+        Deprecated: use the simUI functionality.
+        handle: from sim.displayDialog
         """
     def getDialogResult(self, handle: int, /) -> int:
         """The user's choice; there is none.
@@ -2779,8 +2847,8 @@ class _sim:
         matrix: upper 3 by 4 block, row by row
         """
     def getExplicitHandling(self, objectHandle: int, /) -> int:
-        """Whether a sensor or graph is handled explicitly, so that handling all leaves it out.
-        objectHandle: proximity sensor, vision sensor or graph; collision or distance object of an old scene
+        """Whether an object is handled explicitly, so that handling all leaves it out.
+        objectHandle: proximity sensor, vision sensor, graph, joint or path of V-REP; collision or distance object or IK group of an old scene
         """
     def getExtensionString(self, objectHandle: int, index: int, key: str | None = ..., /) -> str:
         """The extension string of an object or the scene, for renderers: `povray {focalBlur {true}} openGL3 {...}`.
@@ -2830,9 +2898,9 @@ class _sim:
         graphHandle: the graph
         """
     def getIkGroupHandle(self, ikGroupName: str, /) -> int:
-        """Handle of an IK group of the scene; there are none.
+        """A group of inverse kinematics of an old scene.
         Deprecated: use the simIK functionality.
-        ikGroupName: its name
+        ikGroupName: its name; with `@silentError`: -1 if there is none
         """
     def getInt32Param(self, parameter: int, /) -> int:
         """An integer parameter.
@@ -3169,6 +3237,11 @@ class _sim:
         """The centres of the voxels, in the frame of the octree.
         octreeHandle: the octree
         """
+    def getOrientationOnPath(self, pathHandle: int, relativeDistance: float, /) -> list[float]:
+        """Orientation of a point of a path of V-REP in the world.
+        pathHandle: the path
+        relativeDistance: as in sim.getPositionOnPath
+        """
     def getPathInterpolatedConfig(self, path: Sequence[float], lengths: Sequence[float], t: float, method: Mapping[Any, Any] | None = ..., types: Sequence[int] | None = ..., /) -> list[float]:
         """Configuration at a distance along a path.
         path: flat table of points
@@ -3177,11 +3250,19 @@ class _sim:
         method: type (linear or quadraticBezier), strength, forceOpen, closed
         types: 0 linear, 1 cyclic, 2 (four times) quaternion
         """
+    def getPathLength(self, pathHandle: int, /) -> float:
+        """Length of a path of V-REP.
+        pathHandle: the path
+        """
     def getPathLengths(self, path: Sequence[float], dof: int, distCallback: Callable[..., Any] | str | None = ..., /) -> tuple[list[float], float]:
         """Distances along a path, from its start to each of its points.
         path: dof numbers per point
         dof: numbers per point
         distCallback: function(a, b, dof) giving a distance; default: of the first three coordinates
+        """
+    def getPathPosition(self, pathHandle: int, /) -> float:
+        """The position that moves along a path of V-REP.
+        pathHandle: the path
         """
     def getPersistentDataTags(self, /) -> list[str]:
         """Names of the data kept with the application.
@@ -3208,6 +3289,11 @@ class _sim:
         target: object or script, sim.handle_app, sim.handle_scene, sim.handle_self
         propertyName: its name
         options: noError: nothing instead of an error
+        """
+    def getPositionOnPath(self, pathHandle: int, relativeDistance: float, /) -> list[float]:
+        """A point of a path of V-REP in the world.
+        pathHandle: the path
+        relativeDistance: part of the length, from 0 to 1; -1, -2, ... for control points
         """
     def getProperties(self, target: int, options: Mapping[Any, Any] | None = ..., /) -> dict[Any, Any]:
         """All properties of a target.
@@ -3329,11 +3415,11 @@ class _sim:
         handle: script, object that has a script, or path to one
         scriptType: which script of an object that is none itself
         """
-    def getScriptHandle(self, scriptType: Any | None = ..., scriptName: str | None = ..., objectHandle: int | None = ..., /) -> int:
+    def getScriptHandle(self, scriptType: Any | None = ..., scriptName: Any | None = ..., objectHandle: int | None = ..., /) -> int:
         """Handle of a script.
         Deprecated: use sim.getObject.
-        scriptType: sim.scripttype_*; sim.handle_self or nil for the caller; V-REP gave the name of an object here, for its simulation script
-        scriptName: path of the object the script belongs to, or the display name of an add-on
+        scriptType: sim.scripttype_*; sim.handle_self or nil for the caller. V-REP gave the name of an object here, for its simulation script, with `customization@` before it for its customization script
+        scriptName: path, old-style name or handle of the object the script belongs to, or the display name of an add-on
         objectHandle: the object the script belongs to
         """
     def getScriptInt32Param(self, scriptHandle: int, parameterId: int, /) -> int:
@@ -3632,9 +3718,9 @@ class _sim:
         simulationTime: of the values
         """
     def handleIkGroup(self, ikGroupHandle: int, /) -> int:
-        """Does nothing: IK groups of the scene are gone, simIK is for that.
+        """Handles groups of inverse kinematics of old scenes, which are not computed.
         Deprecated: use the simIK functionality.
-        ikGroupHandle: any
+        ikGroupHandle: a group that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
         """
     def handleJoint(self, jointHandle: int, deltaTime: float, /) -> int:
         """Does nothing: kinematic joints move by sim.handleJointMotion.
@@ -3648,7 +3734,7 @@ class _sim:
         """Does nothing: mechanisms are gone.
         mechanismHandle: any
         """
-    def handleMill(self, millHandle: int, /) -> int:
+    def handleMill(self, millHandle: int, /) -> None:
         """Does nothing: mills are gone.
         millHandle: any
         """
@@ -3656,11 +3742,6 @@ class _sim:
         """Does nothing: there are no plugins to notify.
         module: a name, or sim.handle_all
         calledInSensingPart: any
-        """
-    def handlePath(self, pathHandle: int, deltaTime: float, /) -> int:
-        """Does nothing: path objects are gone.
-        pathHandle: any
-        deltaTime: seconds
         """
     def handleProximitySensor(self, sensorHandle: int, /) -> tuple[int, float, list[float], int, list[float]]:
         """Measures with a sensor that is tagged for explicit handling, or with all sensors. Scripts of a sensor that detects something are called
@@ -3723,6 +3804,14 @@ class _sim:
         gridSize: edge of the cells for shapes, 0.001 to 1 m
         color: red, green, blue, 0 to 255; nothing for the colour of the point cloud
         duplicateTolerance: points this near to another are left out, metres
+        """
+    def insertPathCtrlPoints(self, pathHandle: int, options: int, startIndex: int, ptCnt: int, ptData: Sequence[float], /) -> int:
+        """Inserts control points into a path of V-REP, and opens or closes it.
+        pathHandle: the path
+        options: 1: closed; 2: with auxiliary data
+        startIndex: the first new point will have this index, from 0
+        ptCnt: number of points
+        ptData: 11 numbers each: x, y, z, alpha, beta, gamma, relative velocity, distance on the spot, number of Bezier points, Bezier factors before and after; with option 2 also flags and 4 channels
         """
     def insertPointsIntoPointCloud(self, pointCloudHandle: int, options: int, points: Sequence[float], color: Sequence[float] | None = ..., duplicateTolerance: float | None = ..., /) -> int:
         """Adds points.
@@ -3846,21 +3935,22 @@ class _sim:
         """Advances a motion by one time step.
         motionObject: from sim.moveToConfig_init
         """
-    def moveToJointPositions(self, joints: Sequence[int], targets: Sequence[float], velocity: float, acceleration: float | None = ..., /) -> None:
-        """Moves joints to positions at one velocity, blocking.
-        joints: handles
+    def moveToJointPositions(self, joints: Sequence[int], targets: Sequence[float], velocity: Any | None = ..., acceleration: Any | None = ..., angleCoefficient: float | None = ..., /) -> float:
+        """Moves joints to positions, blocking.
+        joints: handles; spherical joints and what is no joint is left out
         targets: one per joint
-        velocity: limit
-        acceleration: limit; nil: none
+        velocity: a number: all arrive together; a table: each for itself
+        acceleration: a number or a table; nil or 0: none is needed
+        angleCoefficient: metres per radian
         """
-    def moveToObject(self, object: int, target: int, options: int, distance: float, velocity: float, acceleration: float | None = ..., /) -> None:
-        """Moves an object to the pose of another one at one velocity, blocking.
+    def moveToObject(self, object: int, target: int, what: int, relativePosition: float, velocity: float, acceleration: float | None = ..., /) -> float:
+        """Moves an object to another one, which may move, blocking.
         object: handle
         target: handle of the other
-        options: ignored: position and orientation are both followed
-        distance: ignored: position on a path of V-REP
-        velocity: limit
-        acceleration: limit; nil: none
+        what: 1 position, 2 orientation
+        relativePosition: place on a path of V-REP, from 0 to 1; nil: the target itself
+        velocity: 1/s: the way counts as 1
+        acceleration: 1/s^2; nil or 0: none is needed
         """
     def moveToPose(self, params: Mapping[Any, Any], /) -> dict[Any, Any]:
         """Moves a pose, an object or the tip of a robot to a target pose, with limited velocity, acceleration and jerk.
@@ -3880,17 +3970,18 @@ class _sim:
         """Advances a motion by one time step.
         motionObject: from sim.moveToPose_init
         """
-    def moveToPosition(self, object: int, relativeTo: int, position: Sequence[float], angles: Sequence[float], velocity: float, acceleration: float | None = ..., /) -> None:
-        """Moves an object to a position and orientation at one velocity, blocking.
+    def moveToPosition(self, object: int, relativeTo: int, position: Sequence[float], angles: Sequence[float], velocity: float, acceleration: float | None = ..., distance: Sequence[float] | None = ..., /) -> float:
+        """Moves an object to a position and orientation, blocking.
         object: handle
-        relativeTo: frame of the target, -1 for the world
+        relativeTo: frame of the target, which may move: sim.handle_world, sim.handle_parent or a handle
         position: nil: unchanged
-        angles: nil: unchanged
-        velocity: limit
-        acceleration: limit; nil: none
+        angles: Euler angles; nil: unchanged
+        velocity: m/s
+        acceleration: nil or 0: none is needed
+        distance: sim.distcalcmethod_* and metres per radian
         """
     def msgBox(self, dlgType: int, buttons: int, title: str, message: str, /) -> int:
-        """A message with buttons, as simUI.msgBox.
+        """A message with buttons, as simUI.msgBox; without a person the answer is ok.
         Deprecated: use the simUI functionality.
         dlgType: sim.msgbox_type_*
         buttons: sim.msgbox_buttons_*
@@ -4083,14 +4174,22 @@ class _sim:
         shapeHandle: the shape
         pose: in the world; a quaternion of zeros means the frame of the bounding box
         """
-    def removeCollection(self, collectionHandle: int, /) -> None:
-        """Removes a collection; its objects stay.
+    def removeBanner(self, bannerId: int, /) -> int:
+        """Removes a banner.
+        """
+    def removeCollection(self, collectionHandle: int, /) -> int:
+        """Removes a collection, or all; their objects stay.
         Deprecated: use sim.destroyCollection.
-        collectionHandle: the collection
+        collectionHandle: the collection, or sim.handle_all
         """
     def removeDrawingObject(self, drawingObjectHandle: int, /) -> int:
         """Removes a drawing object.
         drawingObjectHandle: from sim.addDrawingObject, or sim.handle_all
+        """
+    def removeIkGroup(self, ikGroupHandle: int, /) -> int:
+        """Removes a group of inverse kinematics of an old scene.
+        Deprecated: use the simIK functionality.
+        ikGroupHandle: the group, or sim.handle_all
         """
     def removeModel(self, objectHandle: int, delayedRemoval: bool | None = ..., /) -> int:
         """Removes a model: its base and everything below.
@@ -4136,10 +4235,11 @@ class _sim:
         tag: of the references
         delayed: as in sim.removeObjects
         """
-    def removeScript(self, scriptHandle: int, /) -> None:
-        """Removes a script object.
+    def removeScript(self, scriptHandle: int, /) -> int:
+        """Removes a script that is attached to an object, as in old scenes; script objects are removed as objects. A customization script ends
+        after the present callbacks; a simulation script is removed only while the simulation is stopped.
         Deprecated: use sim.removeObject.
-        scriptHandle: the script
+        scriptHandle: the script, or sim.handle_self
         """
     def removeVoxelsFromOctree(self, octreeHandle: int, options: int, points: Sequence[float] | None = ..., /) -> int:
         """Empties the cells that points are in.
@@ -4179,11 +4279,15 @@ class _sim:
         """Clears the recorded data.
         objectHandle: the graph, sim.handle_all or sim.handle_all_except_explicit
         """
-    def resetMill(self, millHandle: int, /) -> int:
+    def resetJoint(self, jointHandle: int, /) -> int:
+        """Does nothing: kinematic joints move by sim.handleJointMotion.
+        jointHandle: any
+        """
+    def resetMill(self, millHandle: int, /) -> None:
         """Does nothing: mills are gone.
         millHandle: any
         """
-    def resetMilling(self, objectHandle: int, /) -> int:
+    def resetMilling(self, objectHandle: int, /) -> None:
         """Does nothing: mills are gone.
         objectHandle: any
         """
@@ -4203,7 +4307,7 @@ class _sim:
         """Does nothing: threads are coroutines, which their scripts resume.
         location: sim.scriptthreadresume_*
         """
-    def rmlMoveToJointPositions(self, joints: Sequence[int], flags: int, currentVel: Sequence[float], currentAccel: Sequence[float], maxVel: Sequence[float], maxAccel: Sequence[float], maxJerk: Sequence[float], targetPos: Sequence[float], targetVel: Sequence[float], /) -> tuple[int, list[float], list[float], list[float], float]:
+    def rmlMoveToJointPositions(self, joints: Sequence[int], flags: int, currentVel: Sequence[float], currentAccel: Sequence[float], maxVel: Sequence[float], maxAccel: Sequence[float], maxJerk: Sequence[float], targetPos: Sequence[float], targetVel: Sequence[float] | None = ..., direction: Sequence[float] | None = ..., /) -> tuple[int, list[float], list[float], list[float], float]:
         """Moves joints to positions, blocking.
         Deprecated: use sim.moveToConfig.
         joints: handles
@@ -4215,21 +4319,22 @@ class _sim:
         maxJerk: limits
         targetPos: one per joint
         targetVel: nil: at rest
+        direction: of cyclic joints: 1 rising within a turn, -1 falling, 2 and -2 a turn more; 0: as targetPos is
         """
     def rmlMoveToPosition(self, object: int, relativeTo: int, flags: int, currentVel: Sequence[float], currentAccel: Sequence[float], maxVel: Sequence[float], maxAccel: Sequence[float], maxJerk: Sequence[float], targetPosition: Sequence[float], targetQuaternion: Sequence[float], targetVel: Sequence[float], /) -> tuple[int, list[float], list[float], list[float], list[float], float]:
         """Moves an object to a pose, blocking.
         Deprecated: use sim.moveToPose.
         object: handle
-        relativeTo: frame of the target, -1 for the world
+        relativeTo: frame of start and target: sim.handle_world, sim.handle_parent or a handle
         flags: as in sim.ruckigPos
-        currentVel: nil: at rest
-        currentAccel: nil: zero
+        currentVel: ignored
+        currentAccel: ignored
         maxVel: x, y, z and angle
         maxAccel: x, y, z and angle
         maxJerk: x, y, z and angle
         targetPosition: nil: unchanged
         targetQuaternion: nil: unchanged
-        targetVel: nil: at rest
+        targetVel: ignored
         """
     def rmlPos(self, dofs: int, baseCycleTime: float, flags: int, currentPosVelAccel: Sequence[float], maxVelAccelJerk: Sequence[float], selection: Sequence[int], targetPosVel: Sequence[float], /) -> int:
         """Plans a motion to positions.
@@ -4420,6 +4525,11 @@ class _sim:
         name: of the signal
         value: bytes
         """
+    def setCollectionName(self, collectionHandle: int, collectionName: str, /) -> int:
+        """Names a collection, as in old scenes.
+        collectionHandle: the collection
+        collectionName: a legal name that no other collection has
+        """
     def setColorProperty(self, target: int, propertyName: str, propertyState: Sequence[float], options: Mapping[Any, Any] | None = ..., /) -> None:
         """Sets a property; names below `customData.` and `signal.` are created.
         target: object or script, sim.handle_app, sim.handle_scene, sim.handle_self
@@ -4477,8 +4587,8 @@ class _sim:
         filters: from handles (of objects, `sim.handle_app`, `sim.handle_scene`, `sim.handle_sceneobject` for all other objects, ...) to lists of property names; an empty list means all of them. An empty table removes all filters
         """
     def setExplicitHandling(self, objectHandle: int, explicitHandlingFlags: int, /) -> int:
-        """Sets whether a sensor or graph is left out when all are handled.
-        objectHandle: proximity sensor, vision sensor or graph; collision or distance object of an old scene
+        """Sets whether an object is left out when all are handled. The tag of a joint changes nothing else.
+        objectHandle: proximity sensor, vision sensor, graph, joint or path of V-REP; collision or distance object or IK group of an old scene
         explicitHandlingFlags: 1 if so
         """
     def setFloatArrayProperty(self, target: int, propertyName: str, propertyState: Sequence[float], options: Mapping[Any, Any] | None = ..., /) -> None:
@@ -4805,6 +4915,16 @@ class _sim:
         objectHandle: the object
         parameter: the text
         """
+    def setPathPosition(self, pathHandle: int, position: float, /) -> int:
+        """Moves the position on a path of V-REP, and the dummies that move with it.
+        pathHandle: the path
+        position: metres of length; wrapped on closed paths, limited on others
+        """
+    def setPathTargetNominalVelocity(self, pathHandle: int, velocity: float, /) -> int:
+        """The velocity that the position on a path of V-REP shall have.
+        pathHandle: the path
+        velocity: m/s, limited to 1000
+        """
     def setPointCloudOptions(self, pointCloudHandle: int, maxVoxelSize: float, maxPtCntPerVoxel: int, options: int, pointSize: float, /) -> None:
         """Changes how a point cloud keeps and shows its points.
         pointCloudHandle: the point cloud
@@ -4930,10 +5050,10 @@ class _sim:
         orientation: of the projection, Euler angles
         """
     def setSimilarName(self, handle: int, original: str, suffix: str, /) -> None:
-        """Names an object after another one, with a suffix.
+        """Names an object after another one: the old name, with the suffix and the first free number.
         handle: the object
-        original: name of the other
-        suffix: appended unless there already
+        original: name of the other; its `#` and number are kept
+        suffix: appended to the name
         """
     def setSphericalJointMatrix(self, objectHandle: int, matrix: Sequence[float], /) -> None:
         """Turns a spherical joint.
@@ -5076,6 +5196,10 @@ class _sim:
         """Acquires or releases a semaphore shared by all programs on the machine. Acquiring waits until it is free.
         key: its name
         acquire: true to acquire it, false to release it
+        """
+    def test(self, cmd: str, /, *args: Any) -> None:
+        """Tests of the original's developers: there are none here.
+        cmd: any
         """
     def textEditorClose(self, handle: int, /) -> tuple[str, list[int], list[int]]:
         """Closes a text editor.
@@ -6102,6 +6226,615 @@ class _simGeom:
         scaleFactor: positive
         """
 
+class _simIK:
+    handleflag_tipdummy: int
+    objecttype_joint: int
+    objecttype_dummy: int
+    jointmode_passive: int
+    jointmode_ik: int
+    jointtype_revolute: int
+    jointtype_prismatic: int
+    jointtype_spherical: int
+    handle_all: int
+    handle_parent: int
+    handle_world: int
+    constraint_x: int
+    constraint_y: int
+    constraint_z: int
+    constraint_alpha_beta: int
+    constraint_gamma: int
+    constraint_position: int
+    constraint_orientation: int
+    constraint_pose: int
+    method_pseudo_inverse: int
+    method_damped_least_squares: int
+    method_jacobian_transpose: int
+    method_undamped_pseudo_inverse: int
+    result_not_performed: int
+    result_success: int
+    result_fail: int
+    calc_ok: int
+    calc_notperformed: int
+    calc_cannotinvert: int
+    calc_notwithintolerance: int
+    calc_stepstoobig: int
+    calc_limithit: int
+    calc_invalidcallbackdata: int
+    group_enabled: int
+    group_ignoremaxsteps: int
+    group_restoreonbadlintol: int
+    group_restoreonbadangtol: int
+    group_stoponlimithit: int
+    group_avoidlimits: int
+    def addElement(self, environmentHandle: int, ikGroupHandle: int, tipDummyHandle: int, /) -> int:
+        """Adds a tip to a group. Its target is its linked dummy: simIK.setTargetDummy.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        tipDummyHandle: the tip
+        """
+    def addElementFromScene(self, environmentHandle: int, ikGroup: int, baseHandle: int, tipHandle: int, targetHandle: int, constraints: int, /) -> tuple[int, Any, Any]:
+        """Adds a tip of the scene to a group: copies of the tip, of the target and of everything that they are attached to.
+        environmentHandle: the environment
+        ikGroup: the group
+        baseHandle: where the chain begins, -1 for the world
+        tipHandle: the tip
+        targetHandle: the target
+        constraints: simIK.constraint_*
+        """
+    def addIkElementFromScene(self, environmentHandle: int, ikGroup: int, baseHandle: int, tipHandle: int, targetHandle: int, constraints: int, /) -> tuple[int, dict[Any, Any], dict[Any, Any]]:
+        """As simIK.addElementFromScene.
+        environmentHandle: the environment
+        ikGroup: the group
+        baseHandle: where the chain begins, -1 for the world
+        tipHandle: the tip
+        targetHandle: the target
+        constraints: simIK.constraint_*
+        """
+    def applyIkEnvironmentToScene(self, environmentHandle: int, ikGroup: int, applyOnlyWhenSuccessful: bool | None = ..., /) -> tuple[int, int]:
+        """Calculates a group with targets and joints of the scene, and moves the joints of the scene.
+        environmentHandle: the environment
+        ikGroup: a group with elements from the scene
+        applyOnlyWhenSuccessful: whether the joints of the scene stay where the precision is missed
+        """
+    def applySceneToIkEnvironment(self, environmentHandle: int, ikGroup: int, /) -> None:
+        """As simIK.syncFromSim, for one group.
+        environmentHandle: the environment
+        ikGroup: a group with elements from the scene
+        """
+    def computeGroupJacobian(self, environmentHandle: int, ikGroupHandle: int, /) -> tuple[list[float], list[float]]:
+        """Jacobian and errors of a group.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        """
+    def computeJacobian(self, environmentHandle: int, baseObject: int, lastJoint: int, constraints: int, tipMatrix: Sequence[float], targetMatrix: Sequence[float] | None = ..., constrBaseMatrix: Sequence[float] | None = ..., /) -> tuple[list[float], list[float]]:
+        """Jacobian and errors of a chain that belongs to no group.
+        environmentHandle: the environment
+        baseObject: where the chain begins, -1 for the world
+        lastJoint: the joint that moves the tip
+        constraints: simIK.constraint_*: one row each, two for simIK.constraint_alpha_beta
+        tipMatrix: the tip in the world: a pose, or a matrix of 12 numbers
+        targetMatrix: the target in the world; the tip without one
+        constrBaseMatrix: the frame of the constraints in the world; that of the base without one
+        """
+    def createDebugOverlay(self, environmentHandle: int, tipHandle: int, baseHandle: int | None = ..., /) -> int:
+        """Shows a chain in the scene, with drawing objects: lines between joints, and their axes.
+        environmentHandle: the environment
+        tipHandle: the tip
+        baseHandle: where the chain begins, -1 for the world
+        """
+    def createDummy(self, environmentHandle: int, dummyName: str | None = ..., /) -> int:
+        """A new dummy at the origin of the world.
+        environmentHandle: the environment
+        dummyName: its name
+        """
+    def createEnvironment(self, flags: int | None = ..., /) -> int:
+        """A new environment, without objects. It ends with the script.
+        flags: not used
+        """
+    def createGroup(self, environmentHandle: int, ikGroupName: str | None = ..., /) -> int:
+        """A new group without elements.
+        environmentHandle: the environment
+        ikGroupName: its name
+        """
+    def createJoint(self, environmentHandle: int, jointType: int, jointName: str | None = ..., /) -> int:
+        """A new joint at the origin of the world; its axis is z. It belongs to the calculations until its mode is changed.
+        environmentHandle: the environment
+        jointType: simIK.jointtype_*
+        jointName: its name
+        """
+    def debugGroupIfNeeded(self, environmentHandle: int, ikGroup: int, debugFlags: int, /) -> None:
+        """Shows the chains of a group, if flags say so.
+        environmentHandle: the environment
+        ikGroup: the group
+        debugFlags: bit 0: an overlay; bit 1: the Jacobian in the log
+        """
+    def debugJacobianDisplay(self, inData: Mapping[Any, Any], /) -> None:
+        """Logs a Jacobian, row by row with the errors: there is no window for it.
+        inData: jacobian and e
+        """
+    def doesGroupExist(self, environmentHandle: int, ikGroupName: str, /) -> bool:
+        """Whether there is a group with that name.
+        environmentHandle: the environment
+        ikGroupName: the name
+        """
+    def doesObjectExist(self, environmentHandle: int, objectName: str, /) -> bool:
+        """Whether there is an object with that name.
+        environmentHandle: the environment
+        objectName: the name
+        """
+    def duplicateEnvironment(self, environmentHandle: int, /) -> int:
+        """A copy of an environment, with all objects, groups and the connection to the scene. Handles of objects, groups and elements are the same in both.
+        environmentHandle: the environment
+        """
+    def eraseDebugOverlay(self, debugObject: int, /) -> None:
+        """Removes an overlay.
+        debugObject: from simIK.createDebugOverlay
+        """
+    def eraseEnvironment(self, environmentHandle: int, /) -> None:
+        """Removes an environment, and overlays of it.
+        environmentHandle: the environment
+        """
+    def eraseObject(self, environmentHandle: int, objectHandle: int, /) -> None:
+        """Removes an object. Its children stay where they are; elements that need it are removed.
+        environmentHandle: the environment
+        objectHandle: the object
+        """
+    def findConfig(self, environmentHandle: int, ikGroup: int, joints: Sequence[int], thresholdDist: float | None = ..., maxTime: float | None = ..., metric: Sequence[float] | None = ..., callback: Any | None = ..., auxData: Any | None = ..., /) -> list[float]:
+        """A posture that satisfies a group. The joints stay where they are.
+        environmentHandle: the environment
+        ikGroup: the group
+        joints: joints whose positions are wanted
+        thresholdDist: not used: starts are not limited
+        maxTime: seconds, counted as 100000 iterations each
+        metric: not used
+        callback: accepts a posture
+        auxData: for the callback
+        """
+    def findConfigs(self, envHandle: int, ikGroupHandle: int, jointHandles: Sequence[int], params: Mapping[Any, Any] | None = ..., configs: Sequence[Any] | None = ..., /) -> list[Any]:
+        """Postures that satisfy a group, the closest to the present one first. The joints stay where they are.
+        envHandle: the environment
+        ikGroupHandle: the group
+        jointHandles: joints whose positions are wanted
+        params: findMultiple; findAlt (true): with full turns of joints; maxTime (0.2 s, counted as 100000 iterations per second); cMetric: factors of joints for distances; cb(config, auxData) accepts a posture; auxData
+        configs: other postures, which are sorted in
+        """
+    def generatePath(self, environmentHandle: int, ikGroupHandle: int, jointHandles: Sequence[int], tipHandle: int, pathPointCount: int, validationCallback: Callable[..., Any] | str | None = ..., auxData: Any | None = ..., /) -> list[float]:
+        """Postures on the straight line from a tip to its target. The joints stay where they are.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        jointHandles: joints whose positions are wanted
+        tipHandle: the tip
+        pathPointCount: how many postures, both ends among them
+        validationCallback: accepts a posture
+        auxData: for the callback
+        """
+    def getAlternateConfigs(self, environmentHandle: int, jointHandles: Sequence[int], lowLimits: Sequence[float] | None = ..., ranges: Sequence[float] | None = ..., /) -> list[float]:
+        """The present posture, and those with full turns added where joints allow them.
+        environmentHandle: the environment
+        jointHandles: the joints
+        lowLimits: instead of those of the joints
+        ranges: instead of those of the joints
+        """
+    def getConfig(self, environmentHandle: int, jointHandles: Sequence[int], /) -> list[float]:
+        """Positions of joints.
+        environmentHandle: the environment
+        jointHandles: the joints
+        """
+    def getConfigForTipPose(self, environmentHandle: int, ikGroup: int, joints: Sequence[int], thresholdDist: float | None = ..., maxTime: float | None = ..., metric: Sequence[float] | None = ..., callback: Any | None = ..., auxData: Any | None = ..., jointOptions: Sequence[int] | None = ..., lowLimits: Sequence[float] | None = ..., ranges: Sequence[float] | None = ..., /) -> list[float]:
+        """As simIK.findConfig, within other limits.
+        environmentHandle: the environment
+        ikGroup: the group
+        joints: joints whose positions are wanted
+        thresholdDist: not used: starts are not limited
+        maxTime: seconds, counted as 100000 iterations each
+        metric: not used
+        callback: accepts a posture
+        auxData: for the callback
+        jointOptions: not used
+        lowLimits: of the joints
+        ranges: of the joints
+        """
+    def getElementBase(self, environmentHandle: int, ikGroupHandle: int, elementHandle: int, /) -> tuple[int, int]:
+        """Where the chain of an element begins.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        elementHandle: the element; or its tip, with simIK.handleflag_tipdummy
+        """
+    def getElementConstraints(self, environmentHandle: int, ikGroupHandle: int, elementHandle: int, /) -> int:
+        """What a tip has in common with its target.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        elementHandle: the element; or its tip, with simIK.handleflag_tipdummy
+        """
+    def getElementFlags(self, environmentHandle: int, ikGroupHandle: int, elementHandle: int, /) -> int:
+        """Flags of an element.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        elementHandle: the element; or its tip, with simIK.handleflag_tipdummy
+        """
+    def getElementPrecision(self, environmentHandle: int, ikGroupHandle: int, elementHandle: int, /) -> list[float]:
+        """How close a tip has to come to its target.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        elementHandle: the element; or its tip, with simIK.handleflag_tipdummy
+        """
+    def getElementWeights(self, environmentHandle: int, ikGroupHandle: int, elementHandle: int, /) -> list[float]:
+        """How much errors of an element count.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        elementHandle: the element; or its tip, with simIK.handleflag_tipdummy
+        """
+    def getFailureDescription(self, reason: int, /) -> str:
+        """What flags of a calculation mean.
+        reason: simIK.calc_*
+        """
+    def getGroupCalculation(self, environmentHandle: int, ikGroupHandle: int, /) -> tuple[int, float, int]:
+        """How a group is calculated.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        """
+    def getGroupFlags(self, environmentHandle: int, ikGroupHandle: int, /) -> int:
+        """Flags of a group.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        """
+    def getGroupHandle(self, environmentHandle: int, ikGroupName: str, /) -> int:
+        """The group with that name.
+        environmentHandle: the environment
+        ikGroupName: the name
+        """
+    def getGroupJointLimitHits(self, environmentHandle: int, ikGroupHandle: int, /) -> tuple[list[int], list[float]]:
+        """The joints that were stopped at their limits in the last iteration of a group.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        """
+    def getGroupJoints(self, environmentHandle: int, ikGroupHandle: int, /) -> list[int]:
+        """The joints that a group moves, from the bases to the tips.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        """
+    def getGroupTipTargetDistance(self, environmentHandle: int, ikGroup: int, metric: Sequence[float] | None = ..., /) -> float:
+        """How far the tips of a group are from their targets: the sum over its elements.
+        environmentHandle: the environment
+        ikGroup: the group
+        metric: factors of x, y, z and the angle
+        """
+    def getJacobian(self, environmentHandle: int, ikGroupHandle: int, /) -> tuple[list[float], list[int]]:
+        """Jacobian of a group.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        """
+    def getJointDependency(self, environmentHandle: int, jointHandle: int, /) -> tuple[int, float, float]:
+        """What a joint depends on.
+        environmentHandle: the environment
+        jointHandle: the joint
+        """
+    def getJointInterval(self, environmentHandle: int, jointHandle: int, /) -> tuple[bool, list[float]]:
+        """Limits of a joint.
+        environmentHandle: the environment
+        jointHandle: the joint
+        """
+    def getJointLimitMargin(self, environmentHandle: int, jointHandle: int, /) -> float:
+        """Distance to a limit from which simIK.group_avoidlimits pushes a joint away.
+        environmentHandle: the environment
+        jointHandle: the joint
+        """
+    def getJointMatrix(self, environmentHandle: int, jointHandle: int, /) -> list[float]:
+        """The same as a matrix.
+        environmentHandle: the environment
+        jointHandle: the joint
+        """
+    def getJointMaxStepSize(self, environmentHandle: int, jointHandle: int, /) -> float:
+        """Largest change of a joint in one iteration.
+        environmentHandle: the environment
+        jointHandle: the joint
+        """
+    def getJointMode(self, environmentHandle: int, jointHandle: int, /) -> int:
+        """Whether calculations move a joint.
+        environmentHandle: the environment
+        jointHandle: the joint
+        """
+    def getJointPose(self, environmentHandle: int, jointHandle: int, /) -> list[float]:
+        """From the resting to the moving side of a joint.
+        environmentHandle: the environment
+        jointHandle: the joint
+        """
+    def getJointPosition(self, environmentHandle: int, jointHandle: int, /) -> float:
+        """Position of a joint.
+        environmentHandle: the environment
+        jointHandle: the joint
+        """
+    def getJointScrewLead(self, environmentHandle: int, jointHandle: int, /) -> float:
+        """How far a screw goes in one turn.
+        environmentHandle: the environment
+        jointHandle: the joint
+        """
+    def getJointScrewPitch(self, environmentHandle: int, jointHandle: int, /) -> float:
+        """How far a screw goes in one radian.
+        environmentHandle: the environment
+        jointHandle: the joint
+        """
+    def getJointTransformation(self, environmentHandle: int, jointHandle: int, /) -> tuple[list[float], list[float], list[float]]:
+        """The same as position and orientation.
+        environmentHandle: the environment
+        jointHandle: the joint
+        """
+    def getJointType(self, environmentHandle: int, jointHandle: int, /) -> int:
+        """Type of a joint.
+        environmentHandle: the environment
+        jointHandle: the joint
+        """
+    def getJointWeight(self, environmentHandle: int, jointHandle: int, /) -> float:
+        """How much calculations prefer a joint.
+        environmentHandle: the environment
+        jointHandle: the joint
+        """
+    def getManipulability(self, environmentHandle: int, ikGroupHandle: int, /) -> float:
+        """How far a group is from a singular posture: the root of the determinant of J Jt (T. Yoshikawa, *Manipulability of Robotic
+        Mechanisms*, 1985).
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        """
+    def getObjectHandle(self, environmentHandle: int, objectName: str, /) -> int:
+        """The object with that name.
+        environmentHandle: the environment
+        objectName: the name
+        """
+    def getObjectMatrix(self, environmentHandle: int, objectHandle: int, relativeToObjectHandle: int | None = ..., /) -> list[float]:
+        """Pose of an object as a matrix.
+        environmentHandle: the environment
+        objectHandle: the object
+        relativeToObjectHandle: as in simIK.getObjectPose
+        """
+    def getObjectParent(self, environmentHandle: int, objectHandle: int, /) -> int:
+        """What an object is attached to.
+        environmentHandle: the environment
+        objectHandle: the object
+        """
+    def getObjectPose(self, environmentHandle: int, objectHandle: int, relativeToObjectHandle: int | None = ..., /) -> list[float]:
+        """Pose of an object.
+        environmentHandle: the environment
+        objectHandle: the object
+        relativeToObjectHandle: the frame: simIK.handle_world, simIK.handle_parent or an object; of a joint, its moving side
+        """
+    def getObjectTransformation(self, environmentHandle: int, objectHandle: int, relativeToObjectHandle: int | None = ..., /) -> tuple[list[float], list[float], list[float]]:
+        """Position and orientation of an object.
+        environmentHandle: the environment
+        objectHandle: the object
+        relativeToObjectHandle: as in simIK.getObjectPose
+        """
+    def getObjectType(self, environmentHandle: int, objectHandle: int, /) -> int:
+        """What an object is.
+        environmentHandle: the environment
+        objectHandle: the object
+        """
+    def getObjects(self, environmentHandle: int, index: int, /) -> Any:
+        """All objects, one after the other.
+        environmentHandle: the environment
+        index: from 0
+        """
+    def getTargetDummy(self, environmentHandle: int, dummyHandle: int, /) -> int:
+        """The target of a tip, or the tip of a target.
+        environmentHandle: the environment
+        dummyHandle: the dummy
+        """
+    def handleGroup(self, environmentHandle: int, ikGroup: int, options: Mapping[Any, Any] | None = ..., /) -> tuple[int, int, list[float]]:
+        """Moves the joints of a group towards a solution.
+        environmentHandle: the environment
+        ikGroup: the group
+        options: as in simIK.handleGroups
+        """
+    def handleGroups(self, environmentHandle: int, ikGroups: Sequence[int], options: Mapping[Any, Any] | None = ..., /) -> tuple[int, int, list[float]]:
+        """Moves the joints of groups towards a solution.
+        environmentHandle: the environment
+        ikGroups: the groups, by falling priority; the number of iterations is that of the first
+        options: syncWorlds: joints and targets come from the scene, and joints go back to it; allowError: also where the precision is missed; callback(data, auxData), called in each iteration of each group with the matrices jacobian and e, rows, cols, groupIndex and iteration, may return a table with jacobian, e, dq or jacobianPinv; auxData; debug: 1 for an overlay
+        """
+    def handleIkGroup(self, environmentHandle: int, ikGroup: int, options: Mapping[Any, Any] | None = ..., /) -> tuple[int, int, list[float]]:
+        """As simIK.handleGroup.
+        environmentHandle: the environment
+        ikGroup: the group
+        options: as in simIK.handleGroups
+        """
+    def load(self, environmentHandle: int, data: bytes | str, /) -> None:
+        """Replaces everything in an environment by what simIK.save wrote.
+        environmentHandle: the environment
+        data: from simIK.save
+        """
+    def save(self, environmentHandle: int, /) -> bytes:
+        """An environment as bytes, in a format of our own. Dependencies by functions and the connection to the scene are not part of it.
+        environmentHandle: the environment
+        """
+    def setConfig(self, environmentHandle: int, jointHandles: Sequence[int], config: Sequence[float], /) -> None:
+        """Moves joints.
+        environmentHandle: the environment
+        jointHandles: the joints
+        config: rad, m
+        """
+    def setElementBase(self, environmentHandle: int, ikGroupHandle: int, elementHandle: int, baseHandle: int, constraintsBaseHandle: int | None = ..., /) -> None:
+        """Sets where the chain of an element begins.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        elementHandle: the element; or its tip, with simIK.handleflag_tipdummy
+        baseHandle: an object below which the chain begins, -1 for the world
+        constraintsBaseHandle: the frame of the constraints, -1 for the base
+        """
+    def setElementConstraints(self, environmentHandle: int, ikGroupHandle: int, elementHandle: int, constraints: int, /) -> None:
+        """Sets what a tip has in common with its target.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        elementHandle: the element; or its tip, with simIK.handleflag_tipdummy
+        constraints: simIK.constraint_*
+        """
+    def setElementFlags(self, environmentHandle: int, ikGroupHandle: int, elementHandle: int, flags: int, /) -> None:
+        """Sets the flags of an element.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        elementHandle: the element; or its tip, with simIK.handleflag_tipdummy
+        flags: bit 0: it is enabled
+        """
+    def setElementPrecision(self, environmentHandle: int, ikGroupHandle: int, elementHandle: int, precision: Sequence[float], /) -> None:
+        """Sets how close a tip has to come to its target.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        elementHandle: the element; or its tip, with simIK.handleflag_tipdummy
+        precision: metres, radians
+        """
+    def setElementWeights(self, environmentHandle: int, ikGroupHandle: int, elementHandle: int, weights: Sequence[float], /) -> None:
+        """Sets how much errors of an element count.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        elementHandle: the element; or its tip, with simIK.handleflag_tipdummy
+        weights: factors of linear errors, of angular errors, and, if there is a third, of both
+        """
+    def setGroupCalculation(self, environmentHandle: int, ikGroupHandle: int, method: int, damping: float, maxIterations: int, /) -> None:
+        """Sets how a group is calculated.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        method: simIK.method_*
+        damping: of simIK.method_damped_least_squares; a change of less than 0.0001 is ignored
+        maxIterations: at most 100000; at least one is done
+        """
+    def setGroupFlags(self, environmentHandle: int, ikGroupHandle: int, flags: int, /) -> None:
+        """Sets the flags of a group.
+        environmentHandle: the environment
+        ikGroupHandle: the group
+        flags: simIK.group_*
+        """
+    def setJointDependency(self, environmentHandle: int, jointHandle: int, masterJointHandle: int, offset: float | None = ..., mult: float | None = ..., callback: Callable[..., Any] | str | None = ..., /) -> None:
+        """Makes a joint depend on another one: q = offset + mult * q of the master, or what a function says.
+        environmentHandle: the environment
+        jointHandle: the joint
+        masterJointHandle: its master, -1 for none
+        offset: rad, m
+        mult: factor of the master's position
+        callback: float position = callback(int environmentHandle, int jointHandle, float masterPosition); it must not use the environment
+        """
+    def setJointInterval(self, environmentHandle: int, jointHandle: int, cyclic: bool, interval: Sequence[float] | None = ..., /) -> None:
+        """Sets the limits of a joint; its position stays within them.
+        environmentHandle: the environment
+        jointHandle: the joint
+        cyclic: whether it has none; revolute joints only
+        interval: the lower one, and the width between both; as they are if empty
+        """
+    def setJointLimitMargin(self, environmentHandle: int, jointHandle: int, margin: float, /) -> None:
+        """Sets the distance to a limit from which simIK.group_avoidlimits pushes a joint away.
+        environmentHandle: the environment
+        jointHandle: the joint
+        margin: rad, m
+        """
+    def setJointMaxStepSize(self, environmentHandle: int, jointHandle: int, stepSize: float, /) -> None:
+        """Sets the largest change of a joint in one iteration.
+        environmentHandle: the environment
+        jointHandle: the joint
+        stepSize: rad, m
+        """
+    def setJointMode(self, environmentHandle: int, jointHandle: int, jointMode: int, /) -> None:
+        """Sets whether calculations move a joint.
+        environmentHandle: the environment
+        jointHandle: the joint
+        jointMode: simIK.jointmode_passive or simIK.jointmode_ik
+        """
+    def setJointPosition(self, environmentHandle: int, jointHandle: int, position: float, /) -> None:
+        """Moves a joint within its limits, and those that depend on it.
+        environmentHandle: the environment
+        jointHandle: the joint, not spherical
+        position: rad, m
+        """
+    def setJointQuaternion(self, environmentHandle: int, jointHandle: int, quaternion: Sequence[float], /) -> None:
+        """Position of a spherical joint.
+        environmentHandle: the environment
+        jointHandle: the joint
+        quaternion: qx, qy, qz, qw
+        """
+    def setJointScrewLead(self, environmentHandle: int, jointHandle: int, lead: float, /) -> None:
+        """Makes a revolute joint a screw.
+        environmentHandle: the environment
+        jointHandle: the joint; one that is not revolute stays as it is
+        lead: metres per turn; 0 for none
+        """
+    def setJointScrewPitch(self, environmentHandle: int, jointHandle: int, pitch: float, /) -> None:
+        """As simIK.setJointScrewLead, by the radian.
+        environmentHandle: the environment
+        jointHandle: the joint
+        pitch: metres per radian
+        """
+    def setJointWeight(self, environmentHandle: int, jointHandle: int, weight: float, /) -> None:
+        """Sets how much calculations prefer a joint.
+        environmentHandle: the environment
+        jointHandle: the joint
+        weight: 0: it stays where it is
+        """
+    def setObjectMatrix(self, environmentHandle: int, objectHandle: int, matrix: Sequence[float], relativeToObjectHandle: int | None = ..., /) -> None:
+        """Moves an object to where a matrix says.
+        environmentHandle: the environment
+        objectHandle: the object
+        matrix: 3 rows of 4
+        relativeToObjectHandle: as in simIK.getObjectPose
+        """
+    def setObjectParent(self, environmentHandle: int, objectHandle: int, parentObjectHandle: int, keepInPlace: bool | None = ..., /) -> None:
+        """Attaches an object to another one.
+        environmentHandle: the environment
+        objectHandle: the object
+        parentObjectHandle: -1 for the world
+        keepInPlace: whether it stays where it is in the world, or at the same place as seen from its parent
+        """
+    def setObjectPose(self, environmentHandle: int, objectHandle: int, pose: Sequence[float], relativeToObjectHandle: int | None = ..., /) -> None:
+        """Moves an object; its children move along.
+        environmentHandle: the environment
+        objectHandle: the object
+        pose: x, y, z, qx, qy, qz, qw
+        relativeToObjectHandle: as in simIK.getObjectPose
+        """
+    def setObjectTransformation(self, environmentHandle: int, objectHandle: int, position: Sequence[float], eulerOrQuaternion: Sequence[float], relativeToObjectHandle: int | None = ..., /) -> None:
+        """Moves an object to a position and an orientation.
+        environmentHandle: the environment
+        objectHandle: the object
+        position: metres
+        eulerOrQuaternion: alpha, beta, gamma, or qx, qy, qz, qw
+        relativeToObjectHandle: as in simIK.getObjectPose
+        """
+    def setSphericalJointMatrix(self, environmentHandle: int, jointHandle: int, matrix: Sequence[float], /) -> None:
+        """Position of a spherical joint.
+        environmentHandle: the environment
+        jointHandle: the joint
+        matrix: 3 rows of 4; its translation does not count
+        """
+    def setSphericalJointRotation(self, environmentHandle: int, jointHandle: int, eulerOrQuaternion: Sequence[float], /) -> None:
+        """Position of a spherical joint.
+        environmentHandle: the environment
+        jointHandle: the joint
+        eulerOrQuaternion: alpha, beta, gamma, or qx, qy, qz, qw
+        """
+    def setTargetDummy(self, environmentHandle: int, dummyHandle: int, targetDummyHandle: int, /) -> None:
+        """Makes two dummies tip and target of each other. Both lose other partners.
+        environmentHandle: the environment
+        dummyHandle: the tip
+        targetDummyHandle: its target, -1 for none
+        """
+    def solvePath(self, environmentHandle: int, ikGroup: int, ikTarget: int, ikJoints: Sequence[int], simJoints: Sequence[int], ikPath: int, simPath: int, collisionPairs: Sequence[int] | None = ..., opts: Mapping[Any, Any] | None = ..., /) -> list[float]:
+        """Postures with which a target follows a path object.
+        environmentHandle: the environment
+        ikGroup: the group
+        ikTarget: its target
+        ikJoints: joints whose positions are wanted
+        simJoints: the same joints in the scene
+        ikPath: the frame of the path in the environment
+        simPath: the path object
+        collisionPairs: entities of the scene, two by two, that must not collide
+        opts: delta (0.005 m) between postures; errorCallback(text), called instead of raising an error
+        """
+    def syncFromSim(self, environmentHandle: int, ikGroups: Sequence[int], /) -> None:
+        """Brings joints to where they are in the scene, and targets to where they are as seen from their bases.
+        environmentHandle: the environment
+        ikGroups: groups with elements from the scene
+        """
+    def syncToSim(self, environmentHandle: int, ikGroups: Sequence[int], /) -> None:
+        """Moves the joints of the scene to where they are in the environment; those that the physics moves get a target position.
+        environmentHandle: the environment
+        ikGroups: groups with elements from the scene
+        """
+
 class _simIM:
     format: Any
     interp: Any
@@ -6824,7 +7557,7 @@ class _simUI:
         suppressEvents: without effect
         """
     def colorDialog(self, initColor: Sequence[float] | None = ..., title: str | None = ..., showAlphaChannel: bool | None = ..., native: bool | None = ..., /) -> Any:
-        """Asks for a colour. Without a person: none.
+        """Asks for a colour. Without a person at a page of the viewer: none.
         initColor: the colour to begin with: red, green, blue, and maybe opacity, 0 to 1; white without it
         showAlphaChannel: whether opacity can be chosen
         native: without effect
@@ -6852,7 +7585,7 @@ class _simUI:
         suppressEvents: without effect
         """
     def fileDialog(self, type: int, title: str, startPath: str, initName: str, extName: str, ext: str, native: bool | None = ..., /) -> list[str]:
-        """Asks for files. Without a person: none.
+        """Asks for files. Without a person at a page of the viewer: none.
         type: simUI.filedialog_type
         startPath: the folder to begin with
         initName: the name to begin with
@@ -6996,7 +7729,7 @@ class _simUI:
         handle: the window
         """
     def inputDialog(self, initValue: str | None = ..., label: str | None = ..., title: str | None = ..., /) -> Any:
-        """Asks for a text. Without a person: none.
+        """Asks for a text. Without a person at a page of the viewer: none.
         initValue: the text to begin with
         label: what it is
         """
@@ -7024,7 +7757,7 @@ class _simUI:
         handle: the window
         """
     def msgBox(self, type: int, buttons: int, title: str, message: str, /) -> int:
-        """Shows a message and waits for a button. Without a person, the answer is the usual one: ok; no; cancel; cancel. The message goes to the log.
+        """Shows a message and waits for a button. Without a person at a page of the viewer, the answer is the usual one: ok; no; cancel; cancel. The message goes to the log.
         type: simUI.msgbox_type
         buttons: simUI.msgbox_buttons
         """
@@ -8509,6 +9242,20 @@ class _swanilda_config_window:
         """Shows the present values.
         """
 
+class _swanilda_oldmotion:
+    def joints(self, joints: Any | None = ..., targets: Any | None = ..., velocity: Any | None = ..., acceleration: Any | None = ..., angleCoefficient: Any | None = ..., /) -> Any:
+        """sim.moveToJointPositions
+        """
+    def object(self, object: Any | None = ..., target: Any | None = ..., what: Any | None = ..., relativePosition: Any | None = ..., velocity: Any | None = ..., acceleration: Any | None = ..., /) -> Any:
+        """sim.moveToObject
+        """
+    def path(self, object: Any | None = ..., path: Any | None = ..., what: Any | None = ..., start: Any | None = ..., velocity: Any | None = ..., acceleration: Any | None = ..., /) -> Any:
+        """sim.followPath
+        """
+    def pose(self, object: Any | None = ..., relativeTo: Any | None = ..., position: Any | None = ..., angles: Any | None = ..., velocity: Any | None = ..., acceleration: Any | None = ..., distanceBy: Any | None = ..., /) -> Any:
+        """sim.moveToPosition
+        """
+
 class _swanilda_test:
     def allow_script_errors(self, allowed: bool | None = ..., /) -> None: ...
     def answer(self, dialog: Any | None = ..., value: Any | None = ..., /) -> Any: ...
@@ -8805,6 +9552,8 @@ class Requires:
     @overload
     def require(self, name: Literal["simGeom"], script: int | None = None) -> _simGeom: ...
     @overload
+    def require(self, name: Literal["simIK"], script: int | None = None) -> _simIK: ...
+    @overload
     def require(self, name: Literal["simIM"], script: int | None = None) -> _simIM: ...
     @overload
     def require(self, name: Literal["simQHull"], script: int | None = None) -> _simQHull: ...
@@ -8852,6 +9601,8 @@ class Requires:
     def require(self, name: Literal["swanilda.config.schema"], script: int | None = None) -> _swanilda_config_schema: ...
     @overload
     def require(self, name: Literal["swanilda.config.window"], script: int | None = None) -> _swanilda_config_window: ...
+    @overload
+    def require(self, name: Literal["swanilda.oldmotion"], script: int | None = None) -> _swanilda_oldmotion: ...
     @overload
     def require(self, name: Literal["swanilda.test"], script: int | None = None) -> _swanilda_test: ...
     @overload
