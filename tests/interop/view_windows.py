@@ -130,13 +130,14 @@ def models_open_their_settings(browser, sim):
 
 
 def large_tables_have_few_rows(browser):
-    run(browser, "big = simUI.create('<ui title=\"Big\"><table id=\"1\"/></ui>') simUI.setColumnCount(big, 1, 2) simUI.setRowCount(big, 1, 10000) "
+    run(browser, "big = simUI.create('<ui title=\"Big\"><table id=\"1\"/><tree id=\"2\"/></ui>') simUI.setColumnCount(big, 2, 1) simUI.addTreeItem(big, 2, 1, {'leaf'}, 0) simUI.setColumnCount(big, 1, 2) simUI.setRowCount(big, 1, 10000) "
         "simUI.setItem(big, 1, 0, 0, 'first') simUI.setItem(big, 1, 9999, 0, 'last')")
     rows = "[...document.querySelectorAll('[data-window] .ui-table td')].map(cell => cell.textContent)"
     browser.shows(f"{rows}.includes('first')", "the first row")
     same("few rows", browser.evaluate("document.querySelectorAll('[data-window] .ui-table tr').length < 200"), True)
     browser.evaluate("(scroller => scroller.scrollTop = scroller.scrollHeight)(document.querySelector('[data-window] .ui-table'))")
     browser.shows(f"{rows}.includes('last')", "the last row")
+    same("a tree", browser.evaluate("[...document.querySelectorAll('[data-window] [role=treeitem]')].map(item => item.textContent)"), ["leaf"])
 
 
 def views_show_sensors(browser):

@@ -84,8 +84,8 @@ function tree(item, form) {
     const chosen = each.id === item.selected;
     const name = el('button', { type: 'button', class: 'tree-name', 'data-widget': `${item.id}-${each.id}`, onclick: () => form.send({ type: 'select', item: each.id }) }, each.texts.join('  '));
     const members = { role: 'treeitem', 'aria-selected': String(chosen), class: chosen ? 'chosen' : '', ...(inside.length ? { 'aria-expanded': String(!!each.expanded) } : {}) };
-    const fold = inside.length && el('button', { type: 'button', class: 'fold', 'aria-label': each.expanded ? 'Fold' : 'Unfold', onclick: () => form.send({ type: 'expand', item: each.id, expanded: !each.expanded }) }, each.expanded ? '−' : '+');
-    return el('li', members, fold, name, inside.length && each.expanded && el('ul', { role: 'group' }, ...inside.map(row)));
+    const fold = inside.length > 0 && el('button', { type: 'button', class: 'fold', 'aria-label': each.expanded ? 'Fold' : 'Unfold', onclick: () => form.send({ type: 'expand', item: each.id, expanded: !each.expanded }) }, each.expanded ? '−' : '+');
+    return el('li', members, fold, name, inside.length > 0 && each.expanded && el('ul', { role: 'group' }, ...inside.map(row)));
   };
   const head = item.showHeader && item.columnHeaders?.length ? el('div', { class: 'tree-head' }, item.columnHeaders.join('  ')) : null;
   return el('div', { class: 'scrolls' }, head, el('ul', { role: 'tree', 'aria-label': 'Tree' }, ...below(0).map(row)));
