@@ -6,11 +6,12 @@ use geometry::Finite;
 use geometry::pose::interpolate;
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
-    ActiveHooks, CoefficientCombineRule, ColliderBuilder, ColliderHandle, MassProperties, RigidBody, RigidBodyBuilder,
+    CoefficientCombineRule, ColliderBuilder, ColliderHandle, MassProperties, RigidBody, RigidBodyBuilder,
     RigidBodyHandle, RigidBodyType,
 };
 
 use super::colliders;
+use super::contacts::ALL_HOOKS;
 use super::convert::{from_pose, to_matrix, to_pose, to_vector};
 use super::plan::{BodyBuild, BodyPlan, FrictionRule, Surface, is_far};
 use super::world::World;
@@ -156,7 +157,7 @@ impl Body {
                 .restitution(self.surface.restitution)
                 .friction_combine_rule(combine_rule(self.surface.friction_rule))
                 .restitution_combine_rule(CoefficientCombineRule::Multiply)
-                .active_hooks(hooks_for(tag.mask))
+                .active_hooks(ALL_HOOKS)
                 .user_data(tag.pack());
             self.colliders.push(world.colliders.insert_with_parent(collider, self.rigid, &mut world.bodies));
         }
@@ -173,7 +174,6 @@ impl Body {
                 collider.set_friction(surface.friction);
                 collider.set_friction_combine_rule(combine_rule(surface.friction_rule));
                 collider.set_restitution(surface.restitution);
-                collider.set_active_hooks(hooks_for(surface.mask));
                 collider.user_data = tag.pack();
             }
             world.renew_contacts(handle);
@@ -197,11 +197,6 @@ fn combine_rule(rule: FrictionRule) -> CoefficientCombineRule {
         FrictionRule::Product => CoefficientCombineRule::Multiply,
         FrictionRule::Largest => CoefficientCombineRule::Max,
     }
-}
-
-/// The default mask collides with every other one, so only other masks need contact filters.
-fn hooks_for(mask: u16) -> ActiveHooks {
-    if mask == u16::MAX { ActiveHooks::empty() } else { ActiveHooks::FILTER_CONTACT_PAIRS }
 }
 
 fn rigid_body(plan: &BodyPlan, pose: &Pose) -> RigidBody {

@@ -10,7 +10,9 @@ use rapier3d_f64::math::{Pose as EnginePose, Vector};
 use rapier3d_f64::prelude::{ColliderHandle, ContactManifold, ContactManifoldData, ContactPair, RigidBodyHandle};
 
 use super::bodies::Tag;
+use super::contacts::parts_of_impulse;
 use super::convert::from_vector;
+use super::exact_contacts::ExactContacts;
 use super::world::World;
 use crate::scene::Handle;
 
@@ -111,13 +113,14 @@ impl ContactLog {
     }
 
     /// Adds the contacts of the sub-step of `step` seconds the engine has just made.
-    pub(super) fn add_sub_step(&mut self, world: &World, step: f64) {
+    pub(super) fn add_sub_step(&mut self, world: &World, ground: &ExactContacts, step: f64) {
         self.resting.follow(world, step);
         let first = self.awake.touches.len();
         self.awake.step = step;
         if self.resting.is_anybody_awake() {
             self.awake.add_pairs(world, |pair| self.resting.shapes(pair, true));
         }
+        self.awake.add_ground(ground);
         let touches = first..self.awake.touches.len();
         self.sub_steps.push(SubStepContacts { touches, resting: self.resting.contacts.clone() });
     }
@@ -189,12 +192,26 @@ impl Batch {
         }
     }
 
+    /// Adds the contacts that mechanisms solve.
+    fn add_ground(&mut self, ground: &ExactContacts) {
+        for point in ground.points() {
+            let impulse = point.impulse.dot(point.normal);
+            if impulse == 0.0 || !point.impulse.is_finite() {
+                continue;
+            }
+            let friction = point.impulse - point.normal * impulse;
+            let first = self.points.len();
+            self.points.push(TouchPoint { place: point.place(), impulse });
+            self.touches.push(Touch { shapes: point.shapes, normal: point.normal, friction, points: first..first + 1 });
+        }
+    }
+
     fn add_manifold(&mut self, world: &World, manifold: &ContactManifold, shapes: [Handle; 2]) {
         let first = self.touches.len();
         let sides = Sides::new(world, &manifold.data);
         // rapier's normal points from the first shape to the second.
         let normal = -manifold.data.normal;
-        let share = 1.0 / manifold.data.solver_contacts.len() as f64;
+        let share = parts_of_impulse(manifold) / manifold.data.solver_contacts.len() as f64;
         for contact in &manifold.data.solver_contacts {
             let Some(found) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
             let (impulse, tangent) = (found.data.impulse, found.data.warmstart_tangent_world);

@@ -5,14 +5,19 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
-    ActiveHooks, Collider, ColliderSet, ContactManifold, ContactModificationContext, ContactPair, PairFilterContext,
-    PhysicsHooks, SolverFlags,
+    ActiveHooks, ColliderHandle, ColliderSet, ContactManifold, ContactModificationContext, PairFilterContext,
+    PhysicsHooks, RigidBody, SolverFlags,
 };
 
 use super::bodies::Tag;
 use super::convert::from_vector;
 use super::world::World;
 use crate::scene::Handle;
+
+/// What rapier asks the rules about.
+pub(super) const ALL_HOOKS: ActiveHooks = ActiveHooks::FILTER_CONTACT_PAIRS.union(ActiveHooks::MODIFY_SOLVER_CONTACTS);
+/// A body of which a point moves faster, m/s, may touch what the sub-step before did not find near.
+const FAST: f64 = 1.0;
 
 /// The answer of scripts for a pair of shapes that may touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,28 +34,66 @@ pub(crate) enum ContactResponse {
 /// Called once per pair of shapes and sub-step.
 pub(crate) type ContactCallback<'a> = &'a dyn Fn(Handle, Handle) -> ContactResponse;
 
-/// The rules of one sub-step.
-pub(super) struct Rules<'a> {
-    callback: Option<ContactCallback<'a>>,
-    responses: RefCell<BTreeMap<(Handle, Handle), ContactResponse>>,
+/// Two colliders by their indices.
+pub(super) type ColliderPair = (u32, u32);
+
+/// The key of a pair of colliders.
+pub(super) fn pair_of(colliders: [ColliderHandle; 2]) -> ColliderPair {
+    let [first, second] = colliders.map(|collider| collider.into_raw_parts().0);
+    (first, second)
 }
 
-impl<'a> Rules<'a> {
-    pub(super) fn new(callback: Option<ContactCallback<'a>>) -> Self {
-        Self { callback, responses: RefCell::default() }
+/// What scripts have decided about pairs of shapes for a sub-step.
+#[derive(Default)]
+pub(crate) struct Verdicts(BTreeMap<(Handle, Handle), ContactResponse>);
+
+impl Verdicts {
+    /// Asks `callback` about pairs of shapes.
+    pub(crate) fn ask(pairs: Vec<(Handle, Handle)>, callback: ContactCallback<'_>) -> Self {
+        let mut all = BTreeMap::new();
+        for (first, second) in pairs {
+            all.entry((first, second)).or_insert_with(|| callback(first, second));
+        }
+        Self(all)
     }
 
-    fn response(&self, a: Tag, b: Tag) -> ContactResponse {
+    /// Whether there are pairs for which scripts change anything.
+    fn has_special(&self) -> bool {
+        self.0.values().any(|response| *response != ContactResponse::Default)
+    }
+
+    /// How a pair responds: masks first, then scripts.
+    pub(super) fn response(&self, a: Tag, b: Tag) -> ContactResponse {
         if !masks_overlap(a, b) {
             return ContactResponse::NoCollision;
         }
-        let Some(callback) = self.callback else { return ContactResponse::Default };
-        let known = self.responses.borrow().get(&(a.shape, b.shape)).copied();
-        known.unwrap_or_else(|| {
-            let response = callback(a.shape, b.shape);
-            self.responses.borrow_mut().insert((a.shape, b.shape), response);
-            response
-        })
+        self.0.get(&(a.shape, b.shape)).copied().unwrap_or(ContactResponse::Default)
+    }
+}
+
+/// The rules of one sub-step.
+pub(super) struct Rules<'a> {
+    callback: Option<ContactCallback<'a>>,
+    verdicts: RefCell<Verdicts>,
+    /// Pairs that mechanisms solve, rising.
+    apart: &'a [ColliderPair],
+}
+
+impl<'a> Rules<'a> {
+    pub(super) fn new(callback: Option<ContactCallback<'a>>, verdicts: Verdicts, apart: &'a [ColliderPair]) -> Self {
+        Self { callback, verdicts: RefCell::new(verdicts), apart }
+    }
+
+    /// Scripts are asked about pairs that were not known before the sub-step.
+    fn response(&self, a: Tag, b: Tag) -> ContactResponse {
+        if let Some(callback) = self.callback.filter(|_| masks_overlap(a, b)) {
+            let known = self.verdicts.borrow().0.contains_key(&(a.shape, b.shape));
+            if !known {
+                let response = callback(a.shape, b.shape);
+                self.verdicts.borrow_mut().0.insert((a.shape, b.shape), response);
+            }
+        }
+        self.verdicts.borrow().response(a, b)
     }
 }
 
@@ -62,6 +105,9 @@ fn masks_overlap(a: Tag, b: Tag) -> bool {
 
 impl PhysicsHooks for Rules<'_> {
     fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
+        if self.apart.binary_search(&pair_of([context.collider1, context.collider2])).is_ok() {
+            return None;
+        }
         let [a, b] = tags(context.colliders, context.collider1, context.collider2)?;
         (self.response(a, b) != ContactResponse::NoCollision).then(SolverFlags::default)
     }
@@ -76,6 +122,21 @@ impl PhysicsHooks for Rules<'_> {
     }
 }
 
+/// The pairs of shapes that may touch, without those whose masks do not allow it.
+pub(super) fn pairs_near(world: &World) -> Vec<(Handle, Handle)> {
+    let moves = |collider: ColliderHandle| {
+        let parent = world.colliders.get(collider).and_then(|collider| collider.parent());
+        parent.and_then(|body| world.bodies.get(body)).is_some_and(|rigid| rigid.is_dynamic())
+    };
+    let pairs = world.narrow_phase.contact_pairs().map(|pair| [pair.collider1, pair.collider2]);
+    pairs
+        .filter(|pair| pair.iter().any(|&collider| moves(collider)))
+        .filter_map(|[first, second]| tags(&world.colliders, first, second))
+        .filter(|[a, b]| a.shape != b.shape && masks_overlap(*a, *b))
+        .map(|[a, b]| (a.shape, b.shape))
+        .collect()
+}
+
 /// The tags of two colliders.
 pub(super) fn tags(
     colliders: &ColliderSet,
@@ -85,32 +146,56 @@ pub(super) fn tags(
     Some([Tag::unpack(colliders.get(first)?.user_data), Tag::unpack(colliders.get(second)?.user_data)])
 }
 
-/// Filters all pairs, or only those with masks of their own. With filters, rapier recomputes resting contacts in every sub-step.
-pub(super) fn filter_all_pairs(world: &mut World, all: bool) {
-    let hooks = |collider: &Collider| match (all, Tag::unpack(collider.user_data).mask != u16::MAX) {
-        (true, _) => ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS,
-        (false, true) => ActiveHooks::FILTER_CONTACT_PAIRS,
-        (false, false) => ActiveHooks::empty(),
+/// Sets for which colliders rapier asks the rules: those in pairs that mechanisms solve or that do not just collide, and those so fast that
+/// they may touch within the sub-step in which a pair is found. rapier computes resting contacts anew where it has to ask, so that it
+/// shall not for others; whether scripts look on changes nothing.
+pub(super) fn set_hooks(world: &mut World, verdicts: &Verdicts, apart: &[ColliderPair]) {
+    let asked = asked_about(world, verdicts, apart);
+    let awake = world.awake().filter_map(|body| world.bodies.get(body)).flat_map(|rigid| rigid.colliders());
+    let others = asked.iter().filter_map(|&index| Some(world.colliders.get_unknown_gen(index)?.1));
+    let hooks = |handle: ColliderHandle| {
+        let collider = world.colliders.get(handle)?;
+        let rigid = world.bodies.get(collider.parent()?).filter(|rigid| rigid.is_dynamic())?;
+        let is_asked = asked.contains(&handle.into_raw_parts().0) || is_fast(rigid);
+        let hooks = if is_asked { ALL_HOOKS } else { ActiveHooks::empty() };
+        (collider.active_hooks() != hooks).then_some((handle, hooks))
     };
-    let others = world.colliders.iter().filter(|(_, collider)| collider.active_hooks() != hooks(collider));
-    for handle in others.map(|(handle, _)| handle).collect::<Vec<_>>() {
-        if let Some(collider) = world.colliders.get_mut(handle) {
-            let hooks = hooks(collider);
-            collider.set_active_hooks(hooks);
+    let changes: Vec<_> = awake.copied().chain(others).filter_map(hooks).collect();
+    for (handle, hooks) in changes {
+        let Some(collider) = world.colliders.get_mut(handle) else { continue };
+        collider.set_active_hooks(hooks);
+        // A sleeper may lose what it lies on.
+        if let Some(rigid) = collider.parent().and_then(|body| world.bodies.get_mut(body)) {
+            rigid.wake_up(true);
         }
     }
 }
 
-/// The shapes that touch something, or nearly do.
-pub(super) fn shapes_near(world: &World) -> BTreeSet<Handle> {
-    let close =
-        |pair: &&ContactPair| pair.solver_manifolds().iter().any(|manifold| !manifold.data.solver_contacts.is_empty());
-    let pairs = world.narrow_phase.contact_pairs().filter(close);
-    pairs
-        .filter_map(|pair| tags(&world.colliders, pair.collider1, pair.collider2))
-        .flatten()
-        .map(|tag| tag.shape)
-        .collect()
+/// The colliders in pairs that do not just collide, by index.
+fn asked_about(world: &World, verdicts: &Verdicts, apart: &[ColliderPair]) -> BTreeSet<u32> {
+    let mut asked: BTreeSet<u32> = apart.iter().flat_map(|&(first, second)| [first, second]).collect();
+    if !world.has_masks && !verdicts.has_special() {
+        return asked;
+    }
+    for pair in world.narrow_phase.contact_pairs() {
+        let colliders = [pair.collider1, pair.collider2];
+        let Some([a, b]) = tags(&world.colliders, colliders[0], colliders[1]) else { continue };
+        if verdicts.response(a, b) != ContactResponse::Default {
+            asked.extend(colliders.map(|collider| collider.into_raw_parts().0));
+        }
+    }
+    asked
+}
+
+/// Notes whether shapes have masks of their own.
+pub(super) fn note_masks(world: &mut World) {
+    world.has_masks = world.colliders.iter().any(|(_, collider)| Tag::unpack(collider.user_data).mask != u16::MAX);
+}
+
+/// Whether a body may reach something that is farther away than contacts are prepared.
+fn is_fast(rigid: &RigidBody) -> bool {
+    let reach = rigid.mass_properties().max_extent();
+    rigid.linvel().length() + rigid.angvel().length() * reach > FAST
 }
 
 /// An impulse between two shapes, world axes: what the second does to the first.
@@ -120,7 +205,7 @@ pub(super) struct Push {
     pub impulse: [f64; 3],
 }
 
-/// Warm-start impulses of the next sub-step: those of the contacts of the previous one, for shapes that matter.
+/// The impulses of the contacts of the previous sub-step, for shapes that matter: those expected in the next one.
 pub(super) fn expected(world: &World, matters: impl Fn(Handle) -> bool) -> Vec<Push> {
     let mut pushes = Vec::new();
     for pair in world.narrow_phase.contact_pairs() {
@@ -137,15 +222,28 @@ pub(super) fn expected(world: &World, matters: impl Fn(Handle) -> bool) -> Vec<P
 /// One push per point along the normal; friction acts at the middle of the points, as one.
 fn expect(world: &World, manifold: &ContactManifold, shapes: [Handle; 2], pushes: &mut Vec<Push>) {
     let (mut middle, mut friction) = (Vector::ZERO, Vector::ZERO);
-    let count = manifold.data.solver_contacts.len() as f64;
+    let share = 1.0 / manifold.data.solver_contacts.len() as f64;
     for contact in &manifold.data.solver_contacts {
         let Some(point) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
         let (a, b) = manifold.data.solver_contact_world_points(contact, &world.bodies);
         let place = (a + b) * 0.5;
-        let impulse = manifold.data.normal * -point.data.warmstart_impulse;
+        let impulse = manifold.data.normal * -point.data.impulse;
         pushes.push(Push { shapes, point: from_vector(place), impulse: from_vector(impulse) });
-        middle += place / count;
-        friction += point.data.warmstart_tangent_world / count;
+        middle += place * share;
+        friction += point.data.warmstart_tangent_world * share;
     }
+    let friction = friction * parts_of_impulse(manifold);
     pushes.push(Push { shapes, point: from_vector(middle), impulse: from_vector(friction) });
+}
+
+/// How many times the impulse of the last part of a sub-step the contacts exerted in all of it. rapier knows both of the normal impulses,
+/// but only the last one of friction.
+pub(super) fn parts_of_impulse(manifold: &ContactManifold) -> f64 {
+    let (mut all, mut last) = (0.0, 0.0);
+    for contact in &manifold.data.solver_contacts {
+        let Some(point) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
+        all += point.data.impulse;
+        last += point.data.warmstart_impulse;
+    }
+    if last > 0.0 { all / last } else { 1.0 }
 }

@@ -52,6 +52,8 @@ pub(super) struct Link {
     solution: Option<JointLoad>,
     /// Whether rapier holds the link as well.
     shared: bool,
+    /// Parts in which rapier makes the sub-step.
+    pub parts: usize,
     /// Effort of the motor on the parent in each sub-step of this call.
     pub efforts: Vec<f64>,
     /// Load of a force sensor in each sub-step of this call.
@@ -134,6 +136,7 @@ impl Link {
             stops: None,
             solution: None,
             shared: true,
+            parts: 1,
             efforts: Vec::new(),
             loads: Vec::new(),
             rows: None,
@@ -233,10 +236,12 @@ impl Link {
         let axis = self.axis().filter(|_| self.shared && self.drive.is_some());
         let impulse = axis.map_or(0.0, |axis| joint.data.motors[axis as usize].impulse);
         // Values that overflowed are not read at all.
-        self.efforts.push((impulse / step - solution.motor).finite().unwrap_or(0.0));
+        // rapier remembers the impulses of the last part.
+        let part = step / self.parts as f64;
+        self.efforts.push((impulse / part - solution.motor).finite().unwrap_or(0.0));
         if let Some(residual) = self.rows.take() {
             let impulses = if self.shared { joint.impulses } else { Default::default() };
-            let (force, torque) = residual.load(&impulses, step);
+            let (force, torque) = residual.load(&impulses, part);
             let load =
                 |of: [f64; 3], at: usize| [0, 1, 2].map(|i| (of[i] - solution.rows[at + i]).finite().unwrap_or(0.0));
             self.loads.push((load(force, 0), load(torque, 3)));

@@ -1,44 +1,55 @@
 //! Bodies linked by joints, between rapier and the crate that solves them.
 //!
-//! Before each sub-step the forces of all links are found by [`articulation`], for the velocities bodies would have after gravity,
-//! scripts' forces and the contacts of the sub-step before, and applied to the bodies. rapier then finds its joints satisfied, and its
-//! iterations only answer what contacts change. Links that hang together by bodies that move are a mechanism, a system of its own: what
-//! one does costs the others nothing.
+//! Before each sub-step the forces of all links and of the contacts of linked bodies are found by [`articulation`], for the velocities bodies
+//! would have after gravity and scripts' forces, and applied to the bodies. Links that hang together by bodies that move are a mechanism, a
+//! system of its own: what one does costs the others nothing. Where mechanisms touch each other rapier solves contacts and joints; the
+//! mechanisms then start from the contact impulses of the sub-step before, so that rapier only answers what changes.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use articulation::{BodyMotion, BodyProperties, BodyState, JointProperties, JointState, Mechanism, spatial};
 use geometry::{Finite, partition};
 use nalgebra::Vector6;
-use rapier3d_f64::prelude::{RigidBody, RigidBodyHandle};
+use rapier3d_f64::prelude::{ColliderHandle, RigidBody, RigidBodyHandle};
 
 use super::bodies::{Bodies, Body};
 use super::contacts;
+use super::contacts::Verdicts;
 use super::convert::{from_pose, from_vector, to_pose, to_vector};
+use super::exact_contacts::ExactContacts;
 use super::links::{Link, Links};
 use super::plan::LinkPlan;
 use super::world::World;
 use crate::scene::Handle;
 use crate::scene::joint::JointSolver;
 
-/// Iterations of rapier's solver over linked bodies that touch something, beside the usual ones: what a contact changes has to find its
-/// way along the chain.
-const SHARED_ITERATIONS: usize = 48;
+/// Iterations of rapier's solver over linked bodies in each part of a sub-step, beside the usual ones: what a contact changes has to find
+/// its way along the chain.
+const SHARED_ITERATIONS: usize = 10;
+/// The same where bodies touch nothing, and the sub-step is not divided.
+const UNDIVIDED_ITERATIONS: usize = 50;
 
 /// The mechanisms of a scene.
 #[derive(Default)]
 pub(super) struct Mechanisms {
     all: Vec<Linked>,
+    /// Bodies and links that are left to rapier.
+    of_rapier: Vec<(Vec<LinkedShape>, Vec<Handle>)>,
     /// The mechanism of a body that moves, and its index there.
     places: BTreeMap<Handle, (usize, usize)>,
+    contacts: ExactContacts,
 }
 
 /// A mechanism with what it stands for in the scene and in rapier.
 struct Linked {
     mechanism: Mechanism,
     bodies: Vec<LinkedShape>,
+    /// Free bodies that touch the mechanism.
+    guests: Vec<LinkedShape>,
     /// In the order of the mechanism's joints.
     links: Vec<Handle>,
+    /// Whether rapier solves the links as well.
+    shared: bool,
 }
 
 /// A body of a mechanism.
@@ -69,7 +80,8 @@ impl Mechanisms {
         self.all.iter().for_each(|linked| linked.enable_engine_gyration(true, world));
         let builders = builders(links, order, bodies);
         let (of_rapier, exact): (Vec<Builder>, Vec<Builder>) = builders.into_iter().partition(Builder::is_for_rapier);
-        of_rapier.iter().for_each(|builder| share(&builder.shapes, &builder.links, true, links, world));
+        self.of_rapier = of_rapier.into_iter().map(|builder| (builder.shapes, builder.links)).collect();
+        self.of_rapier.iter().for_each(|(_, handles)| share(handles, true, links, world));
         self.all = exact.into_iter().map(Builder::build).collect();
         self.all.iter().for_each(|linked| linked.enable_engine_gyration(false, world));
         self.places = BTreeMap::new();
@@ -79,28 +91,67 @@ impl Mechanisms {
         }
     }
 
+    /// Notes in how many parts rapier makes the next sub-step for linked bodies.
+    pub(super) fn note_parts(&self, links: &mut Links, world: &mut World) {
+        for (bodies, handles) in &self.of_rapier {
+            divide(bodies, handles, true, links, world);
+        }
+        for linked in &self.all {
+            divide(&linked.bodies, &linked.links, linked.shared, links, world);
+        }
+    }
+
     pub(super) fn is_empty(&self) -> bool {
         self.all.is_empty()
     }
 
-    /// Finds the forces for a sub-step of `step` seconds, and applies them to bodies and links.
-    pub(super) fn apply_forces(&mut self, links: &mut Links, world: &mut World, gravity: [f64; 3], step: f64) {
+    /// Finds the forces for a sub-step of `step` seconds, and applies them to bodies and links. `verdicts`: about contacts.
+    pub(super) fn apply_forces(
+        &mut self,
+        links: &mut Links,
+        bodies: &Bodies,
+        world: &mut World,
+        gravity: [f64; 3],
+        step: f64,
+        verdicts: &Verdicts,
+    ) {
+        self.contacts.clear();
+        let mut alone = Vec::with_capacity(self.all.len());
+        for (number, linked) in self.all.iter_mut().enumerate() {
+            let colliders = linked.colliders(bodies);
+            let place = (number, linked.bodies.len());
+            let guests = self.contacts.find(world, &self.places, verdicts, step, place, colliders);
+            alone.push(guests.is_some());
+            linked.receive(guests.unwrap_or_default(), bodies);
+        }
         let begun: Vec<bool> =
             self.all.iter_mut().map(|linked| linked.begin(links, world, gravity, step).is_some()).collect();
-        self.add_contact_impulses(world);
-        let near = contacts::shapes_near(world);
-        for (linked, begun) in self.all.iter_mut().zip(begun) {
-            let solved = begun && linked.mechanism.solve();
-            share(&linked.bodies, &linked.links, !solved || linked.touches(&near), links, world);
+        self.add_contact_impulses(world, &alone);
+        for (number, linked) in self.all.iter_mut().enumerate() {
+            linked.mechanism.set_contacts(&self.contacts.of(number));
+            let solved = begun[number] && linked.mechanism.solve();
+            if solved {
+                self.contacts.store(number, linked.mechanism.contact_impulses());
+            } else {
+                self.contacts.leave(number);
+            }
+            linked.shared = !solved || !alone[number];
+            share(&linked.links, linked.shared, links, world);
             if solved {
                 linked.apply_forces(links, world);
             }
         }
     }
 
+    /// The contacts that mechanisms solve.
+    pub(super) fn contacts(&mut self) -> &mut ExactContacts {
+        &mut self.contacts
+    }
+
     /// Adds the impulses that contacts are expected to exert: those rapier starts from.
-    fn add_contact_impulses(&mut self, world: &World) {
-        for push in contacts::expected(world, |shape| self.places.contains_key(&shape)) {
+    fn add_contact_impulses(&mut self, world: &World, alone: &[bool]) {
+        let is_shared = |shape| self.places.get(&shape).is_some_and(|place| !alone[place.0]);
+        for push in contacts::expected(world, is_shared) {
             for (shape, sign) in [(push.shapes[0], 1.0), (push.shapes[1], -1.0)] {
                 if let Some(&(number, body)) = self.places.get(&shape) {
                     self.all[number].mechanism.add_impulse(body, push.impulse.map(|x| x * sign), push.point);
@@ -162,7 +213,13 @@ impl Builder {
     }
 
     fn build(self) -> Linked {
-        Linked { mechanism: Mechanism::new(self.bodies, self.joints), bodies: self.shapes, links: self.links }
+        Linked {
+            mechanism: Mechanism::new(self.bodies, self.joints),
+            bodies: self.shapes,
+            guests: Vec::new(),
+            links: self.links,
+            shared: false,
+        }
     }
 }
 
@@ -175,14 +232,8 @@ fn properties(body: &Body) -> BodyProperties {
     }
 }
 
-/// Lets rapier hold the links as well, or not: where nothing touches the mechanism there is nothing to add.
-fn share(bodies: &[LinkedShape], handles: &[Handle], with_engine: bool, links: &mut Links, world: &mut World) {
-    let iterations = if with_engine { SHARED_ITERATIONS } else { 0 };
-    for body in bodies.iter().filter(|body| body.is_dynamic) {
-        if let Some(rigid) = world.bodies.get_mut(body.rigid) {
-            rigid.set_additional_pgs_iterations(iterations);
-        }
-    }
+/// Lets rapier hold the links as well, or not: where the mechanism solves its contacts there is nothing to add.
+fn share(handles: &[Handle], with_engine: bool, links: &mut Links, world: &mut World) {
     for handle in handles {
         if let Some(link) = links.get_mut(handle) {
             link.share(with_engine, world);
@@ -190,10 +241,49 @@ fn share(bodies: &[LinkedShape], handles: &[Handle], with_engine: bool, links: &
     }
 }
 
+/// Notes in how many parts rapier makes the next sub-step for linked bodies, and lets it iterate accordingly if it holds the links.
+fn divide(bodies: &[LinkedShape], handles: &[Handle], with_engine: bool, links: &mut Links, world: &mut World) {
+    let moving = || bodies.iter().filter(|body| body.is_dynamic);
+    let parts = moving().map(|body| world.parts_of(body.rigid)).max().unwrap_or(1);
+    for handle in handles {
+        if let Some(link) = links.get_mut(handle) {
+            link.parts = parts;
+        }
+    }
+    let iterations = match (with_engine, parts) {
+        (false, _) => 0,
+        (true, 1) => UNDIVIDED_ITERATIONS,
+        (true, _) => SHARED_ITERATIONS,
+    };
+    for body in moving() {
+        let differs = |rigid: &RigidBody| rigid.additional_pgs_iterations() != iterations;
+        if world.bodies.get(body.rigid).is_some_and(differs)
+            && let Some(rigid) = world.bodies.get_mut(body.rigid)
+        {
+            rigid.set_additional_pgs_iterations(iterations);
+        }
+    }
+}
+
 impl Linked {
-    /// Whether one of these shapes is a body of the mechanism that moves.
-    fn touches(&self, near: &BTreeSet<Handle>) -> bool {
-        self.bodies.iter().any(|body| body.is_dynamic && near.contains(&body.shape))
+    /// The colliders of the bodies that move.
+    fn colliders(&self, bodies: &Bodies) -> Vec<ColliderHandle> {
+        let moving = self.bodies.iter().filter(|body| body.is_dynamic);
+        moving.filter_map(|body| bodies.get(body.shape)).flat_map(|body| body.colliders.iter().copied()).collect()
+    }
+
+    /// Takes free bodies in for a sub-step.
+    fn receive(&mut self, guests: Vec<Handle>, bodies: &Bodies) {
+        let guests: Vec<(Handle, &Body)> =
+            guests.into_iter().filter_map(|shape| Some((shape, bodies.get(shape)?))).collect();
+        self.mechanism.set_guests(guests.iter().map(|(_, body)| properties(body)));
+        let guest = |(shape, body): (Handle, &Body)| LinkedShape {
+            shape,
+            rigid: body.rigid,
+            is_dynamic: true,
+            external: Vector6::zeros(),
+        };
+        self.guests = guests.into_iter().map(guest).collect();
     }
 
     /// Whether rapier applies the gyroscopic torque; to linked bodies the mechanism does, since rapier would apply it to what the links
@@ -209,7 +299,7 @@ impl Linked {
     /// Reads where bodies and links are, and what acts on them; None when rapier lacks one.
     fn begin(&mut self, links: &Links, world: &World, gravity: [f64; 3], step: f64) -> Option<()> {
         let mut states = Vec::with_capacity(self.bodies.len());
-        for body in &mut self.bodies {
+        for body in self.bodies.iter_mut().chain(&mut self.guests) {
             let state = body_state(world.bodies.get(body.rigid)?, body.is_dynamic, step);
             body.external = state.force;
             states.push(state);
@@ -226,7 +316,7 @@ impl Linked {
                 link.set_solution(&load, world);
             }
         }
-        for (body, load) in self.bodies.iter().zip(self.mechanism.body_loads()) {
+        for (body, load) in self.bodies.iter().chain(&self.guests).zip(self.mechanism.body_loads()) {
             if let (Some(load), Some(rigid)) = (load, world.bodies.get_mut(body.rigid)) {
                 rigid.add_force(to_vector(linear(&load)), true);
                 rigid.add_torque(to_vector(angular(&load)), true);
@@ -235,7 +325,7 @@ impl Linked {
     }
 
     fn correct_positions(&mut self, links: &Links, world: &mut World) {
-        self.bodies.iter().for_each(|body| body.remove_forces_of_links(world));
+        self.bodies.iter().chain(&self.guests).for_each(|body| body.remove_forces_of_links(world));
         let motions: Option<Vec<BodyMotion>> =
             self.bodies.iter().map(|body| world.bodies.get(body.rigid).map(motion)).collect();
         let turned: Option<Vec<f64>> =

@@ -8,7 +8,7 @@
 //!
 //! - `plan`: the bodies and constraints that the scene needs; compared with those that exist, so that only changes reach the engine.
 //! - `bodies`, `colliders`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`.
-//! - `contacts`: collision filters; `motors`: the control law.
+//! - `contacts`: collision filters; `exact_contacts`: what mechanisms touch; `motors`: the control law.
 //! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
 //!
 //! Free bodies at rest fall asleep, which no reading shows. No state outlives the run: the same scene produces the same bytes.
@@ -18,6 +18,7 @@ mod colliders;
 mod contact_log;
 mod contacts;
 mod convert;
+mod exact_contacts;
 mod frozen;
 mod links;
 mod load;
@@ -36,7 +37,8 @@ use rapier3d_f64::math::Vector;
 use bodies::Bodies;
 pub(crate) use contact_log::Contact;
 use contact_log::ContactLog;
-pub(crate) use contacts::{ContactCallback, ContactResponse};
+use contacts::ColliderPair;
+pub(crate) use contacts::{ContactCallback, ContactResponse, Verdicts};
 use frozen::Frozen;
 use links::Links;
 use mechanisms::Mechanisms;
@@ -76,8 +78,6 @@ pub(crate) struct Dynamics {
     /// State of the scene for which the plan was made.
     known: Option<Mark>,
     call: Option<Call>,
-    /// Whether every pair that may touch is filtered, not only those with masks of their own.
-    filters_all: bool,
 }
 
 /// A dynamics call in progress.
@@ -109,8 +109,6 @@ pub(crate) struct JointRequest {
 /// Involvement of scripts in a sub-step.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Attention {
-    /// Scripts decide about contacts.
-    pub contact_callbacks: bool,
     /// Scripts run before, during or after the sub-step, so that they may read and change the scene.
     pub watched: bool,
 }
@@ -122,12 +120,16 @@ pub(crate) struct SubStep {
     step: f64,
     /// Whether scripts can read the scene before the next sub-step.
     seen: bool,
+    verdicts: Verdicts,
+    /// The pairs of colliders that mechanisms solve.
+    apart: Vec<ColliderPair>,
 }
 
 impl SubStep {
     /// Advances the engine; `callback` decides about pairs of shapes that may touch.
     pub(crate) fn run(&mut self, callback: Option<ContactCallback<'_>>) {
-        self.world.step(self.step, self.gravity, &contacts::Rules::new(callback));
+        let rules = contacts::Rules::new(callback, std::mem::take(&mut self.verdicts), &self.apart);
+        self.world.step(self.step, self.gravity, &rules);
     }
 }
 
@@ -181,8 +183,8 @@ impl Dynamics {
         links::move_with_joints(&self.links, &plan.links, &self.bodies, world, scene);
         links::apply_plan(&mut self.links, plan.links, &self.bodies, world, scene);
         links::clear_resets(&self.links, scene);
-        contacts::filter_all_pairs(world, self.filters_all);
-        let_sleep(&self.bodies, &self.links, world, self.filters_all);
+        contacts::note_masks(world);
+        let_sleep(&self.bodies, &self.links, world);
         self.contacts.forget_resting();
         self.mechanisms.rebuild(&mut self.links, &scene.all_breadth_first(), &self.bodies, world);
         // Changes made here need no new plan.
@@ -226,15 +228,21 @@ impl Dynamics {
         }
     }
 
-    /// Prepares sub-step number `sub_step` (from 1): forces of scripts, gravity.
-    pub(crate) fn start_sub_step(&mut self, scene: &Scene, sub_step: u32, attention: Attention) -> Option<SubStep> {
+    /// The pairs of shapes that may touch in the next sub-step, as far as they are known.
+    pub(crate) fn pairs_near(&self) -> Vec<(Handle, Handle)> {
+        self.world.as_ref().map(contacts::pairs_near).unwrap_or_default()
+    }
+
+    /// Prepares sub-step number `sub_step` (from 1): forces of scripts, gravity. `verdicts`: what scripts decided about contacts.
+    pub(crate) fn start_sub_step(
+        &mut self,
+        scene: &Scene,
+        sub_step: u32,
+        attention: Attention,
+        verdicts: Verdicts,
+    ) -> Option<SubStep> {
         let mut world = self.world.take()?;
         let call = self.call?;
-        if self.filters_all != attention.contact_callbacks {
-            self.filters_all = attention.contact_callbacks;
-            contacts::filter_all_pairs(&mut world, self.filters_all);
-            let_sleep(&self.bodies, &self.links, &mut world, self.filters_all);
-        }
         // Nobody else can have changed the forces since the first sub-step.
         if sub_step == 1 || attention.watched {
             self.bodies.apply_forces(&mut world, scene);
@@ -245,10 +253,15 @@ impl Dynamics {
         let gravity = scene.settings().dynamics.gravity.map(f64::from);
         let gravity = if gravity.iter().all(|x| x.is_finite()) { gravity } else { [0.0; 3] };
         if !self.mechanisms.is_empty() {
-            self.mechanisms.apply_forces(&mut self.links, &mut world, gravity, call.step);
+            let (links, bodies) = (&mut self.links, &self.bodies);
+            self.mechanisms.apply_forces(links, bodies, &mut world, gravity, call.step, &verdicts);
         }
+        let apart = self.mechanisms.contacts().pairs();
+        contacts::set_hooks(&mut world, &verdicts, &apart);
+        world.divide_touching();
+        self.mechanisms.note_parts(&mut self.links, &mut world);
         let seen = attention.watched || sub_step == call.sub_steps;
-        Some(SubStep { world, gravity: convert::to_vector(gravity), step: call.step, seen })
+        Some(SubStep { world, gravity: convert::to_vector(gravity), step: call.step, seen, verdicts, apart })
     }
 
     /// Whether the engine holds this shape, joint or force sensor.
@@ -268,10 +281,10 @@ impl Dynamics {
     }
 }
 
-/// Bodies with links stay awake, and all do while scripts decide about contacts, since they are called in every sub-step.
-fn let_sleep(bodies: &Bodies, links: &Links, world: &mut World, asks: bool) {
+/// Bodies with links stay awake.
+fn let_sleep(bodies: &Bodies, links: &Links, world: &mut World) {
     let linked: BTreeSet<Handle> = links.values().flat_map(|link| [link.plan.first, link.plan.second]).collect();
-    bodies.let_sleep(world, |shape| asks || linked.contains(&shape));
+    bodies.let_sleep(world, |shape| linked.contains(&shape));
 }
 
 /// Where the master of a joint is; one that nothing in the physics hangs on stands where the scene has it.

@@ -43,7 +43,7 @@ impl Dynamics {
             }
         }
         let stopped = if seen || world.has_invalid_bodies() { self.report_bodies(&world, scene) } else { Vec::new() };
-        self.contacts.add_sub_step(&world, step);
+        self.contacts.add_sub_step(&world, self.mechanisms.contacts(), step);
         self.world = Some(world);
         self.stop_bodies(&stopped, scene);
     }

@@ -116,6 +116,18 @@ impl Matrix {
         true
     }
 
+    /// Solves the lower triangular system of the factor for six right-hand sides at once; None stands for zeros.
+    pub(crate) fn carry(&self, pattern: &Pattern, x: &mut [Option<Block>]) {
+        for column in 0..pattern.columns.len() {
+            let Some(mut solved) = x[column] else { continue };
+            self.diagonal[column].solve_lower_triangular_unchecked_mut(&mut solved);
+            x[column] = Some(solved);
+            for &(row, place) in &pattern.columns[column] {
+                *x[row].get_or_insert_with(Block::zeros) -= self.below[place] * solved;
+            }
+        }
+    }
+
     /// Solves the system whose factor this is; `x` is the right-hand side first, the solution then.
     pub(crate) fn solve(&self, pattern: &Pattern, x: &mut [Segment]) {
         for column in 0..pattern.columns.len() {

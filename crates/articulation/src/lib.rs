@@ -8,7 +8,7 @@
 //! | in | out |
 //! |---|---|
 //! | once: mass, centre of mass, inertia of bodies ([`BodyProperties`]); kind, bodies and frames of joints ([`JointProperties`]) | a [`Mechanism`] |
-//! | before a step: poses, velocities, external forces ([`BodyState`]); motors, limits, positions ([`JointState`]); gravity; expected contact impulses | forces on bodies ([`Mechanism::body_loads`]), forces in joints ([`Mechanism::joint_loads`]) |
+//! | before a step: poses, velocities, external forces ([`BodyState`]); motors, limits, positions ([`JointState`]); gravity; contacts ([`Contact`]), or their expected impulses | forces on bodies ([`Mechanism::body_loads`]), forces in joints ([`Mechanism::joint_loads`]) |
 //! | after the step: poses and velocities ([`BodyMotion`]) | corrected poses and velocities ([`Mechanism::correct_positions`]) |
 //!
 //! # Units and frames
@@ -27,17 +27,21 @@
 //! 3. A motor beyond its largest force becomes a known force (saturated), a limit that would pull becomes inactive, one that is reached
 //!    active; the system is then solved again, at most eight times: an active-set method without guarantee of the optimum, which in
 //!    practice ends after one or two solutions since it begins with the set of the step before.
-//! 4. Light bodies under heavy tension get additional inertia, so that explicit integration stays stable (S. Andrews, M. Teichmann and
+//! 4. Contacts push, and rub within the friction cone. Their impulses are found by projected Gauss-Seidel sweeps over the response of the contacts
+//!    with all joints holding, which follows from the factor; then the joints are solved again. Free bodies that touch the mechanism take part as
+//!    guests.
+//! 5. Light bodies under heavy tension get additional inertia, so that explicit integration stays stable (S. Andrews, M. Teichmann and
 //!    P. Kry, *Geometric stiffness for real-time constrained multibody dynamics*, 2017).
-//! 5. After the step, gaps of the joints are closed by moving the bodies along the rows with the same factor, and velocities are changed
+//! 6. After the step, gaps of the joints are closed by moving the bodies along the rows with the same factor, and velocities are changed
 //!    by the displacement over the step: a SHAKE step (J.-P. Ryckaert, G. Ciccotti and H. Berendsen, 1977), which keeps the
 //!    energy over long times. Bodies that turn far about a joint in a step (rotors) have their rotation composed of the turn about the axis and
 //!    the turn of the axis.
 //!
 //! # Limits
 //!
-//! Joints are revolute (with a pitch: screws), prismatic, spherical or fixed. Contacts enter as expected impulses only: where a mechanism touches
-//! something, the engine should have its own joints active as well. [`Mechanism::solve`] returns false where numbers leave the range of
+//! Joints are revolute (with a pitch: screws), prismatic, spherical or fixed. Where a mechanism touches
+//! another one, contacts enter as expected impulses only, and the engine should have its own joints active as well. The response of contacts to
+//! each other is a dense matrix: some dozens of points are the limit. [`Mechanism::solve`] returns false where numbers leave the range of
 //! floating point; nothing panics on any state. Fill-in makes loops cost more: a grid of `n` loops is superlinear.
 //!
 //! # Determinism
@@ -71,6 +75,7 @@
 //! ```
 
 mod block_cholesky;
+mod contact;
 mod fast_rotor;
 mod free_axis;
 mod geometric_stiffness;
@@ -81,6 +86,7 @@ mod position_correction;
 
 use nalgebra::{Vector3, Vector6};
 
+pub use contact::Contact;
 pub use joint::{JointKind, JointLoad, JointProperties, JointState, Motor};
 pub use linked_body::{BodyMotion, BodyProperties, BodyState};
 pub use mechanism::Mechanism;

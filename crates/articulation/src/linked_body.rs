@@ -66,10 +66,13 @@ pub(crate) struct LinkedBody {
     pub inverse_mass_matrix: Matrix6<f64>,
     /// Velocity before all impulses, gravity included, and with them.
     free_velocity: Vector6<f64>,
+    present_velocity: Vector6<f64>,
     pub velocity: Vector6<f64>,
     /// Impulses of external forces, contacts and the gyroscopic torque.
     pub external_impulse: Vector6<f64>,
     pub geometric_stiffness: GeometricStiffness,
+    /// A free body that touches the mechanism: the engine applies its gyroscopic torque.
+    pub is_guest: bool,
     /// The displacement by the position correction.
     pub correction: Vector6<f64>,
     /// Angular impulse of the gyroscopic torque.
@@ -93,13 +96,20 @@ impl LinkedBody {
             com: Vector3::zeros(),
             inverse_mass_matrix: Matrix6::zeros(),
             free_velocity: Vector6::zeros(),
+            present_velocity: Vector6::zeros(),
             velocity: Vector6::zeros(),
             external_impulse: Vector6::zeros(),
             geometric_stiffness: GeometricStiffness::default(),
+            is_guest: false,
             correction: Vector6::zeros(),
             gyroscopic_impulse: Vector3::zeros(),
             rotor: None,
         }
+    }
+
+    /// A free body that touches the mechanism.
+    pub(crate) fn guest(properties: BodyProperties) -> Self {
+        Self { is_guest: true, ..Self::new(properties) }
     }
 
     pub(crate) fn is_dynamic(&self) -> bool {
@@ -127,6 +137,7 @@ impl LinkedBody {
 
     /// Predicts the velocity at the end of the step without joints, and collects the other impulses.
     pub(crate) fn predict(&mut self, state: &BodyState, gravity: Vector3<f64>, step: f64) {
+        self.present_velocity = state.motion.velocity;
         if !self.is_dynamic() {
             self.free_velocity = state.target.map_or_else(Vector6::zeros, |target| self.velocity_to(&target, step));
             return;
@@ -147,9 +158,14 @@ impl LinkedBody {
         spatial(shift, turn) / step
     }
 
-    /// The velocity with all impulses but those of joints.
+    /// The velocity with all impulses but those of joints and contacts.
     pub(crate) fn reset_velocity(&mut self) {
         self.velocity = self.free_velocity + self.inverse_mass_matrix * self.external_impulse;
+    }
+
+    /// The velocity before the step.
+    pub(crate) fn present_velocity(&self) -> Vector6<f64> {
+        self.present_velocity
     }
 
     /// Inertia along the axes of the world.
@@ -182,6 +198,9 @@ impl LinkedBody {
     /// The impulse that gives the body of an engine, which applies external forces by itself and knows no added inertia, the
     /// velocity that `of_joints` gives this one.
     pub(crate) fn engine_impulse(&self, of_joints: &Vector6<f64>) -> Vector6<f64> {
+        if self.is_guest {
+            return *of_joints;
+        }
         let angular = of_joints.fixed_rows::<3>(3) + self.gyroscopic_impulse;
         spatial(of_joints.fixed_rows::<3>(0).into_owned(), self.without_added_inertia(angular))
     }

@@ -6,6 +6,7 @@
 use nalgebra::{Vector3, Vector6};
 
 use crate::block_cholesky::{Matrix, Pattern, Segment};
+use crate::contact::Contacts;
 use crate::joint::{Joint, JointLoad, JointProperties, JointState};
 use crate::linked_body::{BodyProperties, BodyState, LinkedBody};
 use crate::spatial;
@@ -26,6 +27,9 @@ pub struct Mechanism {
     couplings: Vec<Coupling>,
     pub(crate) pattern: Pattern,
     pub(crate) matrix: Matrix,
+    pub(crate) contacts: Contacts,
+    /// Number of bodies that joints link; guests come after them.
+    linked: usize,
     /// Length of the step, seconds.
     pub(crate) step: f64,
 }
@@ -50,18 +54,35 @@ impl Mechanism {
         let joints: Vec<Joint> = joints.into_iter().map(Joint::new).collect();
         let couplings = couplings(&bodies, &joints);
         let pattern = Pattern::new(joints.len(), couplings.iter().map(|coupling| (coupling.row.0, coupling.column.0)));
-        Self { bodies, joints, couplings, pattern, matrix: Matrix::default(), step: 0.0 }
+        let linked = bodies.len();
+        Self {
+            bodies,
+            joints,
+            couplings,
+            linked,
+            pattern,
+            matrix: Matrix::default(),
+            contacts: Contacts::default(),
+            step: 0.0,
+        }
     }
 
     /// Whether joints form loops. A tree has as many joints as bodies that move, at most.
     pub fn has_loops(&self) -> bool {
-        self.joints.len() > self.bodies.iter().filter(|body| body.is_dynamic()).count()
+        self.joints.len() > self.bodies[..self.linked].iter().filter(|body| body.is_dynamic()).count()
     }
 
-    /// Begins a step of `step` seconds: where bodies and joints are, and what acts on them. `gravity` in m/s2, world axes. Bodies and joints
+    /// Sets the guests of the next step: free bodies that touch the mechanism, which come after its own bodies.
+    pub fn set_guests(&mut self, guests: impl IntoIterator<Item = BodyProperties>) {
+        self.bodies.truncate(self.linked);
+        self.bodies.extend(guests.into_iter().map(LinkedBody::guest));
+    }
+
+    /// Begins a step of `step` seconds: where bodies and joints are, and what acts on them. `gravity` in m/s2, world axes. Bodies (guests last) and joints
     /// are in the order of [`Mechanism::new`].
     pub fn begin(&mut self, bodies: &[BodyState], joints: &[JointState], gravity: [f64; 3], step: f64) {
         self.step = step;
+        self.set_contacts(&[]);
         for (body, state) in self.bodies.iter_mut().zip(bodies) {
             body.set_pose(state.motion.pose);
             body.predict(state, gravity.into(), step);
@@ -90,6 +111,12 @@ impl Mechanism {
                 return false;
             }
             self.find_impulses();
+            if self.has_contacts() {
+                self.find_contact_response();
+                if self.find_contact_impulses() {
+                    self.find_impulses();
+                }
+            }
             let mut changed = iteration + 1 < ITERATIONS && self.stabilize_again();
             for joint in &mut self.joints {
                 changed |= joint.update_active_set(&self.bodies, self.step);
@@ -111,6 +138,7 @@ impl Mechanism {
                 impulses[joint.body(side)] += joint.jacobians[side].transpose() * total;
             }
         }
+        self.add_contact_impulses(&mut impulses);
         let load =
             |(body, impulse): (&LinkedBody, _)| body.is_dynamic().then(|| body.engine_impulse(&impulse) / self.step);
         self.bodies.iter().zip(impulses).map(load).collect()
@@ -141,6 +169,13 @@ impl Mechanism {
     /// Solves for the impulses and changes the velocities by them.
     fn find_impulses(&mut self) {
         self.bodies.iter_mut().for_each(LinkedBody::reset_velocity);
+        if self.has_contacts() {
+            let mut impulses = vec![Vector6::zeros(); self.bodies.len()];
+            self.add_contact_impulses(&mut impulses);
+            for (body, impulse) in self.bodies.iter_mut().zip(impulses) {
+                body.velocity += body.inverse_mass_matrix * impulse;
+            }
+        }
         for joint in &self.joints {
             joint.apply_impulse(&mut self.bodies, &joint.saturated_impulse());
         }
@@ -257,5 +292,43 @@ mod tests {
         assert!(corrected[0].is_none() && corrected[1..].iter().all(Option::is_some));
         let errors = mechanism.joints.iter().map(|joint| joint.position_error(&mechanism.bodies, 0.0).amax());
         assert!(errors.fold(0.0, f64::max) < 1e-9);
+    }
+
+    /// A chain of rods with its tip on an obstacle that supports it from below.
+    fn supported(friction: f64, velocity: [f64; 3]) -> Mechanism {
+        let (mut mechanism, bodies) = chain(3);
+        let joint = JointState { position: 0.0, velocity: 0.0, motor: None, limits: None };
+        mechanism.begin(&bodies, &[joint; 3], GRAVITY, STEP);
+        let contact = crate::Contact {
+            bodies: [Some(3), None],
+            point: [1.5, 0.0, 0.0],
+            normal: [0.0, 0.0, 1.0],
+            distance: 0.0,
+            friction,
+            restitution: 0.0,
+            velocity,
+            impulse: [0.0; 3],
+        };
+        mechanism.set_contacts(&[contact]);
+        assert!(mechanism.solve());
+        mechanism
+    }
+
+    #[test]
+    fn a_contact_stops_what_stands_on_it() {
+        let mechanism = supported(0.0, [0.0; 3]);
+        let impulse = mechanism.contact_impulses().next().expect("one contact");
+        let tip = mechanism.bodies[3].velocity;
+        // The tip is half a rod before the centre of its rod, which turns about y.
+        assert!((tip[2] - 0.25 * tip[4]).abs() < 1e-6, "{tip}");
+        assert!(impulse[2] > 0.0 && impulse[0].abs() < 1e-12);
+    }
+
+    #[test]
+    fn friction_is_limited_and_opposes_the_slip() {
+        let mechanism = supported(0.5, [0.0, 10.0, 0.0]);
+        let impulse = mechanism.contact_impulses().next().expect("one contact");
+        assert!((impulse[0].hypot(impulse[1]) - 0.5 * impulse[2]).abs() < 1e-9 * impulse[2]);
+        assert!(impulse[1] > 0.0 && impulse[0].abs() < 0.1 * impulse[1]);
     }
 }

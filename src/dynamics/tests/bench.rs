@@ -58,13 +58,21 @@ impl Bench {
     }
 
     pub(super) fn run(&mut self, steps: usize) {
+        self.run_asking(steps, None);
+    }
+
+    /// Steps with a script that decides about contacts.
+    pub(super) fn run_asking(&mut self, steps: usize, callback: Option<ContactCallback<'_>>) {
         for _ in 0..steps {
             let Some(call) = self.dynamics.begin(&mut self.scene, STEP).expect("not busy") else { continue };
             for number in 1..=call.sub_steps {
                 self.dynamics.prepare(&self.scene, number);
-                let mut sub_step =
-                    self.dynamics.start_sub_step(&self.scene, number, Attention::default()).expect("there is a world");
-                sub_step.run(None);
+                let verdicts =
+                    callback.map_or_else(Verdicts::default, |asked| Verdicts::ask(self.dynamics.pairs_near(), asked));
+                let attention = Attention { watched: callback.is_some() };
+                let started = self.dynamics.start_sub_step(&self.scene, number, attention, verdicts);
+                let mut sub_step = started.expect("there is a world");
+                sub_step.run(callback);
                 self.dynamics.finish_sub_step(sub_step, &mut self.scene);
             }
             self.dynamics.end(&mut self.scene);

@@ -2,6 +2,7 @@
 
 mod bench;
 mod chains;
+mod contacts;
 mod joints;
 mod loops;
 mod sleep;

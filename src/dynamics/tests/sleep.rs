@@ -212,24 +212,27 @@ fn a_link_wakes_and_keeps_awake() {
 }
 
 #[test]
-fn contact_callbacks_wake_bodies() {
+fn contact_callbacks_wake_bodies_whose_contacts_they_change() {
     let mut sleeper = Sleeper::new();
     let calls = std::cell::Cell::new(0);
     let callback = |_, _| {
         calls.set(calls.get() + 1);
         ContactResponse::NoCollision
     };
-    let call = sleeper.bench.dynamics.begin(&mut sleeper.bench.scene, STEP).expect("not busy").expect("a body");
-    for number in 1..=call.sub_steps {
-        sleeper.bench.dynamics.prepare(&sleeper.bench.scene, number);
-        let attention = Attention { contact_callbacks: true, watched: true };
-        let mut sub_step =
-            sleeper.bench.dynamics.start_sub_step(&sleeper.bench.scene, number, attention).expect("a world");
-        sub_step.run(Some(&callback));
-        sleeper.bench.dynamics.finish_sub_step(sub_step, &mut sleeper.bench.scene);
-    }
-    sleeper.bench.dynamics.end(&mut sleeper.bench.scene);
+    sleeper.bench.run_asking(1, Some(&callback));
     assert!(calls.get() >= 10 && sleeper.at()[2] < 0.045, "{} {}", calls.get(), sleeper.at()[2]);
+}
+
+#[test]
+fn bodies_sleep_while_contact_callbacks_look_on() {
+    let mut sleeper = Sleeper::new();
+    let calls = std::cell::Cell::new(0);
+    let callback = |_, _| {
+        calls.set(calls.get() + 1);
+        ContactResponse::Default
+    };
+    sleeper.bench.run_asking(1, Some(&callback));
+    assert!(sleeper.sleeps() && calls.get() >= 10, "{}", calls.get());
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::{Attention, Call, ContactResponse, Dynamics, JointRequest, Trigger};
+use crate::dynamics::{Attention, Call, ContactResponse, Dynamics, JointRequest, Trigger, Verdicts};
 use crate::scene::joint::Joint;
 use crate::scene::parameters::engine::Engine;
 use crate::scene::{Data, Handle, Scene};
@@ -92,13 +92,13 @@ impl Sim {
     /// One sub-step. Nothing is borrowed while the engine works, because scripts may filter contacts. `driven`: scripts drive joints.
     fn run_sub_step(self: &Rc<Self>, number: u32, driven: bool) {
         let contact_callbacks = self.scripts.may_respond_to_any(&CONTACT);
-        let attention = Attention {
-            contact_callbacks,
-            watched: driven || contact_callbacks || self.scripts.may_respond_to_any(&DYN),
-        };
-        let started = self.with_dynamics(|dynamics, scene| dynamics.start_sub_step(scene, number, attention));
-        let Some(mut sub_step) = started.flatten() else { return };
+        let attention = Attention { watched: driven || contact_callbacks || self.scripts.may_respond_to_any(&DYN) };
         let filter = |first: Handle, second: Handle| self.contact_callback(first, second);
+        let pairs = |dynamics: &mut Dynamics, _: &mut Scene| dynamics.pairs_near();
+        let near = if contact_callbacks { self.with_dynamics(pairs).unwrap_or_default() } else { Vec::new() };
+        let verdicts = Verdicts::ask(near, &filter);
+        let started = self.with_dynamics(|dynamics, scene| dynamics.start_sub_step(scene, number, attention, verdicts));
+        let Some(mut sub_step) = started.flatten() else { return };
         sub_step.run(contact_callbacks.then_some(&filter));
         let stopped = self.with_dynamics(|dynamics, scene| {
             dynamics.finish_sub_step(sub_step, scene);

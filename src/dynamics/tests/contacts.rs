@@ -1,0 +1,97 @@
+//! Contacts: scripts that look on, mechanisms on the ground and with guests, speeds.
+
+use super::*;
+
+/// A tower that does not stand exactly upright, and a box that is thrown at it.
+fn tower() -> (Bench, Vec<Handle>) {
+    let mut bench = Bench::new();
+    bench.shape([10.0, 10.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
+    let at = |i: i32| [0.01 * f64::from(i % 2), 0.0, 0.05 + 0.1 * f64::from(i)];
+    let mut boxes: Vec<Handle> = (0..10).map(|i| bench.shape([0.1; 3], at(i), 1.0, true, true)).collect();
+    let thrown = bench.shape([0.1; 3], [-3.0, 0.02, 0.7], 1.0, true, true);
+    let change = |object: &mut crate::scene::Object| {
+        object.shape_mut()?.dynamics.initial_velocity.linear = [6.0, 0.0, 0.5];
+        Ok(())
+    };
+    bench.scene.try_modify(thrown, Field::Dynamics, change).expect("a shape");
+    boxes.push(thrown);
+    (bench, boxes)
+}
+
+#[test]
+fn a_callback_that_decides_nothing_changes_no_bit() {
+    let (mut alone, boxes) = tower();
+    let (mut observed, _) = tower();
+    let calls = std::cell::Cell::new(0);
+    let callback = |_, _| {
+        calls.set(calls.get() + 1);
+        ContactResponse::Default
+    };
+    alone.run(40);
+    observed.run_asking(40, Some(&callback));
+    for &handle in &boxes {
+        let [a, b] = [&alone, &observed].map(|bench| bench.scene.world_pose(handle).expect("exists"));
+        assert_eq!(format!("{a:?}"), format!("{b:?}"));
+    }
+    assert!(calls.get() > 4000, "{}", calls.get());
+}
+
+/// A trunk of `mass` on a foot of 0.1 kg, tied by a force sensor.
+fn on_a_light_foot(bench: &mut Bench, mass: f64, z: f64) -> (Handle, Handle) {
+    let trunk = bench.shape([0.2, 0.2, 0.6], [0.0, 0.0, z + 0.4], mass, true, false);
+    let sensor = Kind::ForceSensor(Box::<ForceSensor>::default());
+    let sensor = bench.object(sensor, Pose::translation(0.0, 0.0, z + 0.1), trunk);
+    let foot = bench.shape([0.2, 0.1, 0.1], [0.0, 0.0, z + 0.05], 0.1, true, true);
+    bench.hang(foot, sensor);
+    (foot, sensor)
+}
+
+#[test]
+fn a_light_foot_bears_a_heavy_trunk_and_its_contacts_are_logged() {
+    let mut bench = Bench::new();
+    bench.shape([10.0, 10.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
+    let (foot, sensor) = on_a_light_foot(&mut bench, 100.0, 0.0);
+    bench.run(40);
+    near(bench.height(foot), 0.05, 1e-6);
+    let force: f64 = bench.dynamics.contacts().map(|contact| contact.seen_from(foot).force[2]).sum();
+    near(force / 10.0, 100.1 * 9.81, 0.01);
+    let object = bench.scene.object(sensor).expect("exists");
+    let (force, _) = object.force_sensor().expect("a sensor").filtered.expect("data");
+    near(force[2].abs(), 100.0 * 9.81, 0.01);
+}
+
+#[test]
+fn a_guest_bears_a_mechanism_and_its_other_contacts() {
+    let mut bench = Bench::new();
+    bench.shape([10.0, 10.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
+    let below = bench.shape([0.3, 0.3, 0.1], [0.0, 0.0, 0.05], 0.5, true, true);
+    let (foot, _) = on_a_light_foot(&mut bench, 100.0, 0.1);
+    bench.run(40);
+    near(bench.height(below), 0.05, 1e-4);
+    near(bench.height(foot), 0.15, 1e-4);
+    let force: f64 = bench.dynamics.contacts().map(|contact| contact.seen_from(below).force[2]).sum();
+    near(force / 10.0, 0.5 * 9.81, 0.01);
+}
+
+#[test]
+fn a_script_takes_the_ground_from_a_mechanism() {
+    let mut bench = Bench::new();
+    bench.shape([10.0, 10.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
+    let (foot, _) = on_a_light_foot(&mut bench, 10.0, 0.0);
+    bench.run(10);
+    bench.run_asking(10, Some(&|_, _| ContactResponse::NoCollision));
+    near(bench.height(foot), 0.05 - 9.81 * 0.5 * 0.5 / 2.0, 0.03);
+}
+
+#[test]
+fn two_mechanisms_push_each_other() {
+    let mut bench = Bench::new();
+    bench.shape([10.0, 10.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
+    let (lower, _) = on_a_light_foot(&mut bench, 10.0, 0.0);
+    let table = bench.shape([0.3, 0.3, 0.1], [0.0, 0.0, 0.75], 1.0, true, true);
+    let sensor = bench.object(Kind::ForceSensor(Box::default()), Pose::translation(0.0, 0.0, 0.75), table);
+    let weight = bench.ghost([0.0, 0.0, 0.9], true);
+    bench.hang(weight, sensor);
+    bench.run(20);
+    assert!(bench.height(lower).is_finite() && bench.height(table).is_finite());
+}
