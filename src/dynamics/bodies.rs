@@ -11,10 +11,9 @@ use rapier3d_f64::prelude::{
 };
 
 use super::colliders;
-use super::contacts::ALL_HOOKS;
 use super::convert::{from_pose, to_matrix, to_pose, to_vector};
 use super::plan::{BodyBuild, BodyPlan, FrictionRule, Surface, is_far};
-use super::world::World;
+use super::world::{ALL_HOOKS, World};
 use crate::scene::{Field, Handle, Pose, Scene};
 
 /// A static body that moved less than this between two calls has not moved: metres and radians.

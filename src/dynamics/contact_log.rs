@@ -10,10 +10,9 @@ use rapier3d_f64::math::{Pose as EnginePose, Vector};
 use rapier3d_f64::prelude::{ColliderHandle, ContactManifold, ContactManifoldData, ContactPair, RigidBodyHandle};
 
 use super::bodies::Tag;
-use super::contacts::parts_of_impulse;
 use super::convert::from_vector;
 use super::exact_contacts::ExactContacts;
-use super::world::World;
+use super::world::{World, parts_of_impulse};
 use crate::scene::Handle;
 
 /// A point where two shapes touched in one sub-step. World axes.

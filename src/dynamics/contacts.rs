@@ -11,11 +11,9 @@ use rapier3d_f64::prelude::{
 
 use super::bodies::Tag;
 use super::convert::from_vector;
-use super::world::World;
+use super::world::{ALL_HOOKS, World, parts_of_impulse};
 use crate::scene::Handle;
 
-/// What rapier asks the rules about.
-pub(super) const ALL_HOOKS: ActiveHooks = ActiveHooks::FILTER_CONTACT_PAIRS.union(ActiveHooks::MODIFY_SOLVER_CONTACTS);
 /// A body of which a point moves faster, m/s, may touch what the sub-step before did not find near.
 const FAST: f64 = 1.0;
 
@@ -234,16 +232,4 @@ fn expect(world: &World, manifold: &ContactManifold, shapes: [Handle; 2], pushes
     }
     let friction = friction * parts_of_impulse(manifold);
     pushes.push(Push { shapes, point: from_vector(middle), impulse: from_vector(friction) });
-}
-
-/// How many times the impulse of the last part of a sub-step the contacts exerted in all of it. rapier knows both of the normal impulses,
-/// but only the last one of friction.
-pub(super) fn parts_of_impulse(manifold: &ContactManifold) -> f64 {
-    let (mut all, mut last) = (0.0, 0.0);
-    for contact in &manifold.data.solver_contacts {
-        let Some(point) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
-        all += point.data.impulse;
-        last += point.data.warmstart_impulse;
-    }
-    if last > 0.0 { all / last } else { 1.0 }
 }

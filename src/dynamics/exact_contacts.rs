@@ -79,6 +79,7 @@ struct Search<'a> {
     mechanism: usize,
     /// Number of bodies of the mechanism, before its guests.
     linked: usize,
+    bases: BTreeMap<Handle, usize>,
     guests: Vec<Handle>,
     /// Colliders still to be looked at.
     queue: Vec<ColliderHandle>,
@@ -87,9 +88,30 @@ struct Search<'a> {
 }
 
 /// What is at one side of a pair.
+#[derive(Clone, Copy)]
 enum Side {
     Obstacle,
     Body(usize),
+}
+
+impl Side {
+    fn body(self) -> Option<usize> {
+        match self {
+            Self::Obstacle => None,
+            Self::Body(index) => Some(index),
+        }
+    }
+}
+
+/// The mechanism that is to solve its contacts.
+pub(super) struct Touching {
+    pub mechanism: usize,
+    /// Number of its bodies; guests come after them.
+    pub linked: usize,
+    /// The colliders of those that move.
+    pub colliders: Vec<ColliderHandle>,
+    /// Index of those that do not.
+    pub bases: BTreeMap<Handle, usize>,
 }
 
 impl ExactContacts {
@@ -108,10 +130,9 @@ impl ExactContacts {
         places: &BTreeMap<Handle, (usize, usize)>,
         verdicts: &Verdicts,
         step: f64,
-        mechanism: (usize, usize),
-        colliders: Vec<ColliderHandle>,
+        touching: Touching,
     ) -> Option<Vec<Handle>> {
-        let (mechanism, linked) = mechanism;
+        let Touching { mechanism, linked, colliders, bases } = touching;
         let mut search = Search {
             world,
             places,
@@ -119,6 +140,7 @@ impl ExactContacts {
             step,
             mechanism,
             linked,
+            bases,
             guests: Vec::new(),
             queue: colliders,
             seen: BTreeSet::new(),
@@ -201,16 +223,13 @@ impl Search<'_> {
         if !pair.touches {
             return Some(());
         }
-        let sides = [self.side(first, a)?, self.side(second, b)?];
-        let bodies = sides.map(|side| match side {
-            Side::Obstacle => None,
-            Side::Body(index) => Some(index),
-        });
+        let bodies = [self.side(first, a)?, self.side(second, b)?].map(Side::body);
+        let base = [a, b].into_iter().find_map(|tag| self.bases.get(&tag.shape).copied());
         let mut points = pair.points(key, first, second);
         for point in &mut points {
             point.mechanism = self.mechanism;
             point.shapes = [a.shape, b.shape];
-            point.contact.bodies = bodies;
+            (point.contact.bodies, point.contact.base) = (bodies, base);
             (point.contact.friction, point.contact.restitution) = (surface.friction, surface.restitution);
             point.contact.velocity = from_vector(self.obstacle_velocity([first, second], point.place()));
         }
@@ -320,6 +339,7 @@ impl Point {
     ) -> Self {
         let contact = Contact {
             bodies: [None; 2],
+            base: None,
             point: from_vector(place),
             normal: from_vector(normal),
             distance: found.dist,

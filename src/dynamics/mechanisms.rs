@@ -10,13 +10,13 @@ use std::collections::BTreeMap;
 use articulation::{BodyMotion, BodyProperties, BodyState, JointProperties, JointState, Mechanism, spatial};
 use geometry::{Finite, partition};
 use nalgebra::Vector6;
-use rapier3d_f64::prelude::{ColliderHandle, RigidBody, RigidBodyHandle};
+use rapier3d_f64::prelude::{RigidBody, RigidBodyHandle};
 
 use super::bodies::{Bodies, Body};
 use super::contacts;
 use super::contacts::Verdicts;
 use super::convert::{from_pose, from_vector, to_pose, to_vector};
-use super::exact_contacts::ExactContacts;
+use super::exact_contacts::{ExactContacts, Touching};
 use super::links::{Link, Links};
 use super::plan::LinkPlan;
 use super::world::World;
@@ -118,9 +118,8 @@ impl Mechanisms {
         self.contacts.clear();
         let mut alone = Vec::with_capacity(self.all.len());
         for (number, linked) in self.all.iter_mut().enumerate() {
-            let colliders = linked.colliders(bodies);
-            let place = (number, linked.bodies.len());
-            let guests = self.contacts.find(world, &self.places, verdicts, step, place, colliders);
+            let touching = linked.touching(number, bodies);
+            let guests = self.contacts.find(world, &self.places, verdicts, step, touching);
             alone.push(guests.is_some());
             linked.receive(guests.unwrap_or_default(), bodies);
         }
@@ -266,10 +265,14 @@ fn divide(bodies: &[LinkedShape], handles: &[Handle], with_engine: bool, links: 
 }
 
 impl Linked {
-    /// The colliders of the bodies that move.
-    fn colliders(&self, bodies: &Bodies) -> Vec<ColliderHandle> {
+    /// What the search for contacts has to know of the mechanism.
+    fn touching(&self, mechanism: usize, bodies: &Bodies) -> Touching {
         let moving = self.bodies.iter().filter(|body| body.is_dynamic);
-        moving.filter_map(|body| bodies.get(body.shape)).flat_map(|body| body.colliders.iter().copied()).collect()
+        let colliders =
+            moving.filter_map(|body| bodies.get(body.shape)).flat_map(|body| body.colliders.iter().copied());
+        let resting = self.bodies.iter().enumerate().filter(|(_, body)| !body.is_dynamic);
+        let bases = resting.map(|(index, body)| (body.shape, index)).collect();
+        Touching { mechanism, linked: self.bodies.len(), colliders: colliders.collect(), bases }
     }
 
     /// Takes free bodies in for a sub-step.

@@ -5,9 +5,9 @@
 
 use rapier3d_f64::math::{Rotation, Vector};
 use rapier3d_f64::prelude::{
-    BroadPhaseBvh, CCDSolver, ColliderHandle, ColliderSet, FrictionModel, ImpulseJointSet, IntegrationParameters,
-    IslandManager, MultibodyJointSet, NarrowPhase, PhysicsHooks, PhysicsPipeline, RigidBody, RigidBodyHandle,
-    RigidBodySet, SoftBodySet, SpringCoefficients,
+    ActiveHooks, BroadPhaseBvh, CCDSolver, ColliderHandle, ColliderSet, ContactManifold, FrictionModel,
+    ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, NarrowPhase, PhysicsHooks,
+    PhysicsPipeline, RigidBody, RigidBodyHandle, RigidBodySet, SoftBodySet, SpringCoefficients,
 };
 
 /// Parts of a sub-step in which bodies in contact are solved.
@@ -22,6 +22,9 @@ const SLOP: f64 = 2e-4;
 pub(super) const PREDICTION: f64 = 0.01;
 /// Bodies that move less against each other keep their contact points, metres: more, and wheels roll on corners.
 const SAME_CONTACT: f64 = 0.005;
+
+/// What rapier asks the rules about.
+pub(super) const ALL_HOOKS: ActiveHooks = ActiveHooks::FILTER_CONTACT_PAIRS.union(ActiveHooks::MODIFY_SOLVER_CONTACTS);
 
 /// Turns in a sub-step that rapier makes exactly enough, radians: a thirty-thousandth is missing.
 const EXACT_TURN: f64 = 0.02;
@@ -187,6 +190,18 @@ fn complete_turn(rigid: &mut RigidBody, step: f64) {
     pose.translation = com + missing * (pose.translation - com);
     pose.rotation = missing * pose.rotation;
     rigid.set_position(pose, false);
+}
+
+/// How many times the impulse of the last part of a sub-step the contacts exerted in all of it. rapier knows both of the normal impulses,
+/// but only the last one of friction.
+pub(super) fn parts_of_impulse(manifold: &ContactManifold) -> f64 {
+    let (mut all, mut last) = (0.0, 0.0);
+    for contact in &manifold.data.solver_contacts {
+        let Some(point) = manifold.points.get(contact.contact_indices()[0] as usize) else { continue };
+        all += point.data.impulse;
+        last += point.data.warmstart_impulse;
+    }
+    if last > 0.0 { all / last } else { 1.0 }
 }
 
 fn parts(rigid: &RigidBody) -> usize {

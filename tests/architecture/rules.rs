@@ -176,10 +176,11 @@ const DYNAMICS: Rooms = &[
     ("colliders", &["convert", "plan"]),
     ("bodies", &["colliders", "convert", "plan", "world"]),
     ("contacts", &["bodies", "convert", "world"]),
-    ("contact_log", &["bodies", "convert", "world"]),
+    ("exact_contacts", &["bodies", "contacts", "convert", "world"]),
+    ("contact_log", &["bodies", "convert", "exact_contacts", "world"]),
     ("load", &["convert", "plan", "world"]),
     ("links", &["bodies", "convert", "load", "motors", "plan", "world"]),
-    ("mechanisms", &["bodies", "contacts", "convert", "links", "plan", "world"]),
+    ("mechanisms", &["bodies", "contacts", "convert", "exact_contacts", "links", "plan", "world"]),
     ("report", &["bodies", "convert", "links", "load", "plan", "world"]),
 ];
 

@@ -3,11 +3,13 @@
 //!
 //! A foot answers an impulse with all that stands on it. The response of the touching bodies with all joints holding is found from the
 //! factor of the system of the joints, `R = M^-1 - (L^-1 J M^-1)^T (L^-1 J M^-1)`, of which only the part between a touching body and the
-//! root of the tree is computed. In the space of the contacts, `G = N R N^T`, impulses are then found by projected Gauss-Seidel sweeps until
-//! they do not change any more: normal impulses push, tangential ones lie in the friction cone (M. Jean, *The non-smooth contact dynamics
-//! method*, 1999).
+//! root of the tree is computed. Impulses are then found by projected Gauss-Seidel sweeps over the contacts, which change the velocities of the
+//! touching bodies by `R`, until they do not change any more: normal impulses push, tangential ones lie in the friction cone (M. Jean, *The
+//! non-smooth contact dynamics method*, 1999).
+//!
+//! Neighbours at a joint that overlap where the joint lets neither of them escape do not push each other.
 
-use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Matrix6x3, SMatrix, Vector3, Vector6};
 
 use crate::block_cholesky::Block;
 use crate::linked_body::LinkedBody;
@@ -18,6 +20,8 @@ use crate::mechanism::Mechanism;
 pub struct Contact {
     /// Indices of the bodies; None for obstacles, which no force moves.
     pub bodies: [Option<usize>; 2],
+    /// Index of the obstacle if it is a body of the mechanism that does not move.
+    pub base: Option<usize>,
     /// World.
     pub point: [f64; 3],
     /// Unit vector from the second body to the first, world.
@@ -36,12 +40,15 @@ pub struct Contact {
 
 /// The part of an overlap that is undone in a step.
 const RECOVERY: f64 = 0.2;
-/// Bodies are pushed out of obstacles no faster, m/s.
-const FASTEST_RECOVERY: f64 = 1.0;
+/// Bodies are pushed out of each other no faster, m/s: they keep that velocity.
+const FASTEST_RECOVERY: f64 = 0.2;
+/// Neighbours at a joint push each other if its motion separates them at this part of its speed at least.
+const SEPARATING: f64 = 1e-3;
 /// Slower impacts do not rebound, m/s.
 const REBOUND: f64 = 0.05;
-/// Compliance of a contact as a part of its own response: shares the load between points where it is not determined.
-const COMPLIANCE: f64 = 1e-5;
+/// Compliance of a contact as a part of the response of its bodies without joints: shares the load between points where it is not determined,
+/// and bounds it where joints do not let bodies escape that overlap.
+const COMPLIANCE: f64 = 5e-6;
 /// Largest number of sweeps.
 const SWEEPS: usize = 200;
 /// Impulses that change by less than this part of the largest one are found.
@@ -57,6 +64,8 @@ struct Row {
     /// The least normal velocity, and the tangential velocities of the obstacle.
     target: Vector3<f64>,
     friction: f64,
+    /// Normal velocity per impulse.
+    compliance: f64,
 }
 
 /// A body at a contact.
@@ -72,14 +81,16 @@ struct Side {
 #[derive(Default)]
 pub(crate) struct Contacts {
     rows: Vec<Row>,
-    /// The touching bodies.
+    /// The touching bodies: their places.
     bodies: Vec<usize>,
     /// For each of them: its response to the joints next to it, carried along the factor. By column.
     carried: Vec<Vec<Option<Block>>>,
-    /// Response of contacts to contacts, row by row.
-    response: Vec<Matrix3<f64>>,
-    /// Change of the velocities in the last sweep.
-    velocities: Vec<Vector3<f64>>,
+    /// Velocities of the touching bodies.
+    velocities: Vec<Vector6<f64>>,
+    /// Their changes by an impulse along the axes of a contact, contact by contact.
+    changes: Vec<Matrix6x3<f64>>,
+    /// Response of every contact to itself.
+    own: Vec<Matrix3<f64>>,
 }
 
 impl Row {
@@ -97,8 +108,10 @@ impl Row {
             Some(Side { body, place: place_of(places, body), jacobian })
         });
         let impulse = axes * Vector3::from(contact.impulse);
-        let mut row = Self { sides, axes, impulse, target: Vector3::zeros(), friction: contact.friction };
+        let mut row =
+            Self { sides, axes, impulse, target: Vector3::zeros(), friction: contact.friction, compliance: 0.0 };
         row.target = row.target(contact, bodies, step);
+        row.compliance = COMPLIANCE * row.free_response(bodies);
         row
     }
 
@@ -112,6 +125,15 @@ impl Row {
         target
     }
 
+    /// Normal velocity per normal impulse if there were no joints.
+    fn free_response(&self, bodies: &[LinkedBody]) -> f64 {
+        let of_side = |side: &Side| {
+            let normal = side.jacobian.row(0).transpose();
+            normal.dot(&(bodies[side.body].inverse_mass_matrix * normal))
+        };
+        self.sides.iter().flatten().map(of_side).sum()
+    }
+
     /// Velocity of the first body relative to the second along the axes.
     fn velocity(&self, of_body: impl Fn(usize) -> Vector6<f64>) -> Vector3<f64> {
         self.sides.iter().flatten().map(|side| side.jacobian * of_body(side.body)).sum()
@@ -119,7 +141,7 @@ impl Row {
 
     /// Tangential impulses within what friction transmits.
     fn within_cone(&self, first: f64, second: f64) -> (f64, f64) {
-        let (largest, length) = (self.friction * self.impulse[0], first.hypot(second));
+        let (largest, length) = (self.friction * self.impulse[0], (first * first + second * second).sqrt());
         let scale = if length > largest { largest / length } else { 1.0 };
         (first * scale, second * scale)
     }
@@ -143,11 +165,15 @@ fn tangents(normal: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
 impl Mechanism {
     /// Sets the contacts for the step that has begun; [`solve`](Self::solve) finds their impulses.
     pub fn set_contacts(&mut self, contacts: &[Contact]) {
+        let possible: Vec<bool> = contacts.iter().map(|contact| self.can_separate(contact)).collect();
         let Self { bodies, contacts: system, step, .. } = self;
         let Contacts { rows, bodies: places, .. } = system;
         places.clear();
         rows.clear();
-        rows.extend(contacts.iter().map(|contact| Row::new(contact, places, bodies, *step)));
+        for (contact, possible) in contacts.iter().zip(possible) {
+            let contact = if possible { *contact } else { Contact { bodies: [None; 2], ..*contact } };
+            rows.push(Row::new(&contact, places, bodies, *step));
+        }
     }
 
     /// The impulses of the contacts on their first bodies in the order of [`set_contacts`](Self::set_contacts), N s, world.
@@ -193,18 +219,17 @@ impl Mechanism {
             }
         }
         self.contacts.carried = carried;
-        self.contacts.update_response(&bodies);
+        self.contacts.update_changes(&bodies);
     }
 
     /// Finds the impulses of the contacts, the joints having been solved for those assumed so far; true when they changed.
     pub(crate) fn find_contact_impulses(&mut self) -> bool {
-        let bodies = &self.bodies;
-        let velocity = |row: &Row| row.velocity(|body| bodies[body].velocity) - row.target;
-        let velocities = self.contacts.rows.iter().map(velocity).collect();
-        self.contacts.velocities = velocities;
+        let Self { bodies, contacts, .. } = self;
+        contacts.velocities.clear();
+        contacts.velocities.extend(contacts.bodies.iter().map(|&body| bodies[body].velocity));
         let mut changed = false;
         for _ in 0..SWEEPS {
-            let (change, largest) = self.contacts.sweep();
+            let (change, largest) = contacts.sweep();
             changed |= change > 0.0;
             if change <= FOUND * largest {
                 break;
@@ -212,22 +237,34 @@ impl Mechanism {
         }
         changed
     }
+
+    /// Whether the bodies of a contact can be separated: those of a joint only where its motion does so.
+    fn can_separate(&self, contact: &Contact) -> bool {
+        let (normal, point) = (Vector3::from(contact.normal), Vector3::from(contact.point));
+        let is_end = |body: usize| match contact.bodies {
+            [Some(first), Some(second)] => body == first || body == second,
+            [Some(only), None] | [None, Some(only)] => body == only || contact.base == Some(body),
+            [None, None] => false,
+        };
+        let mut joints = self.joints.iter().filter(|joint| joint.properties.bodies.into_iter().all(is_end));
+        joints.all(|joint| joint.separation(&point, &normal) > SEPARATING)
+    }
 }
 
 impl Contacts {
-    fn update_response(&mut self, bodies: &[Matrix6<f64>]) {
-        let count = self.bodies.len();
-        self.response.clear();
-        let mut of_places = vec![Jacobian::zeros(); count];
-        for row in &self.rows {
-            for (place, of_place) in of_places.iter_mut().enumerate() {
-                let response = |side: &Side| side.jacobian * bodies[side.place * count + place];
-                *of_place = row.sides.iter().flatten().map(response).sum();
+    /// `bodies`: the response of touching bodies to each other.
+    fn update_changes(&mut self, bodies: &[Matrix6<f64>]) {
+        let Self { rows, bodies: touching, changes, own, .. } = self;
+        let count = touching.len();
+        changes.clear();
+        own.clear();
+        for row in rows.iter() {
+            for place in 0..count {
+                let change = |side: &Side| bodies[place * count + side.place] * side.jacobian.transpose();
+                changes.push(row.sides.iter().flatten().map(change).sum());
             }
-            for column in &self.rows {
-                let of_side = |side: &Side| of_places[side.place] * side.jacobian.transpose();
-                self.response.push(column.sides.iter().flatten().map(of_side).sum());
-            }
+            let of_row = &changes[changes.len() - count..];
+            own.push(row.sides.iter().flatten().map(|side| side.jacobian * of_row[side.place]).sum());
         }
     }
 
@@ -235,50 +272,59 @@ impl Contacts {
     fn sweep(&mut self) -> (f64, f64) {
         let (mut change, mut largest) = (0.0, 0.0);
         for index in 0..self.rows.len() {
-            let by_normal = self.push(index);
-            let by_friction = self.rub(index);
-            change = f64::max(change, by_normal.max(by_friction));
+            let changes = self.push(index).max(self.rub(index));
+            change = f64::max(change, changes);
             largest = f64::max(largest, self.rows[index].impulse[0].abs());
         }
         (change, largest)
     }
 
+    /// What the velocity of a contact lacks, along its axes.
+    fn slip(&self, index: usize) -> Vector3<f64> {
+        let row = &self.rows[index];
+        let velocity: Vector3<f64> =
+            row.sides.iter().flatten().map(|side| side.jacobian * self.velocities[side.place]).sum();
+        velocity - row.target
+    }
+
+    /// Changes the impulse of a contact.
+    fn apply(&mut self, index: usize, change: &Vector3<f64>) {
+        self.rows[index].impulse += change;
+        let count = self.velocities.len();
+        let changes = &self.changes[index * count..(index + 1) * count];
+        for (velocity, of_body) in self.velocities.iter_mut().zip(changes) {
+            *velocity += of_body * change;
+        }
+    }
+
     /// Lets a contact push; returns the change of its impulse.
     fn push(&mut self, index: usize) -> f64 {
-        let count = self.rows.len();
-        let response = self.response[index * count + index][(0, 0)];
-        let row = &mut self.rows[index];
-        let missing = self.velocities[index][0] + COMPLIANCE * response * row.impulse[0];
-        let impulse = (row.impulse[0] - missing / (response * (1.0 + COMPLIANCE))).max(0.0);
-        let change = impulse - row.impulse[0];
+        let (before, compliance) = (self.rows[index].impulse[0], self.rows[index].compliance);
+        let missing = self.slip(index)[0] + compliance * before;
+        let change = (before - missing / (self.own[index][(0, 0)] + compliance)).max(0.0) - before;
         if change == 0.0 || !change.is_finite() {
             return 0.0;
         }
-        row.impulse[0] = impulse;
-        for (other, velocity) in self.velocities.iter_mut().enumerate() {
-            *velocity += self.response[other * count + index].column(0) * change;
-        }
+        self.apply(index, &Vector3::new(change, 0.0, 0.0));
         change.abs()
     }
 
     /// Lets the friction of a contact slow down its tangential velocity; returns the change of its impulse.
     fn rub(&mut self, index: usize) -> f64 {
-        let count = self.rows.len();
-        let own = &self.response[index * count + index];
+        let own = &self.own[index];
         // The same for all directions, so that friction opposes the motion.
-        let response = own[(1, 1)].max(own[(2, 2)]) + own[(1, 2)].abs();
-        let (row, velocity) = (&mut self.rows[index], self.velocities[index]);
-        let free = [1, 2].map(|axis| row.impulse[axis] - velocity[axis] / (response * (1.0 + COMPLIANCE)));
-        let (first, second) = row.within_cone(free[0], free[1]);
-        let change = [first - row.impulse[1], second - row.impulse[2]];
-        if change == [0.0; 2] || !change.iter().all(|x| x.is_finite()) {
+        let response = own[(1, 1)].max(own[(2, 2)]) + own[(1, 2)].abs() + self.rows[index].compliance;
+        let (row, slip) = (&self.rows[index], self.slip(index));
+        if row.impulse == Vector3::zeros() {
             return 0.0;
         }
-        (row.impulse[1], row.impulse[2]) = (first, second);
-        for (other, velocity) in self.velocities.iter_mut().enumerate() {
-            let of_other = &self.response[other * count + index];
-            *velocity += of_other.column(1) * change[0] + of_other.column(2) * change[1];
+        let free = [1, 2].map(|axis| row.impulse[axis] - slip[axis] / response);
+        let (first, second) = row.within_cone(free[0], free[1]);
+        let change = Vector3::new(0.0, first - row.impulse[1], second - row.impulse[2]);
+        if change == Vector3::zeros() || !change.iter().all(|x| x.is_finite()) {
+            return 0.0;
         }
-        change[0].abs().max(change[1].abs())
+        self.apply(index, &change);
+        change.amax()
     }
 }

@@ -251,6 +251,23 @@ impl Joint {
         changed
     }
 
+    /// How fast the motion of the joint separates its bodies at a point along a normal, as a part of the speed of the point.
+    pub(crate) fn separation(&self, point: &Vector3<f64>, normal: &Vector3<f64>) -> f64 {
+        let rows = self.jacobians[1].fixed_rows::<3>(0);
+        let axis = |row: usize| rows.row(row).fixed_columns::<3>(0).transpose();
+        let lever = point - self.point;
+        let along = |velocity: Vector3<f64>| {
+            let speed = velocity.norm();
+            if speed > 0.0 { velocity.dot(normal).abs() / speed } else { 0.0 }
+        };
+        match self.properties.kind {
+            JointKind::Revolute => along(self.jacobians[1].row(5).fixed_columns::<3>(3).transpose().cross(&lever)),
+            JointKind::Prismatic => along(axis(2)),
+            JointKind::Spherical => along(lever.cross(normal).cross(&lever)),
+            JointKind::Fixed => 0.0,
+        }
+    }
+
     /// Whether the joint holds a point of one body to a point of the other.
     pub(crate) fn holds_point(&self) -> bool {
         self.locked[..3].iter().all(|&locked| locked)
