@@ -74,6 +74,56 @@ impl Pattern {
 pub(crate) struct Matrix {
     pub diagonal: Vec<Block>,
     pub below: Vec<Block>,
+    /// Of the factor: one over the diagonals of its diagonal blocks.
+    reciprocals: Vec<[f64; 6]>,
+}
+
+/// The lower Cholesky factor of a block and one over its diagonal; None when it is not positive definite. What is above the diagonal is left.
+#[allow(clippy::needless_range_loop, reason = "loops of fixed length become straight code, iterators do not")]
+fn factor_of(block: &Block) -> Option<(Block, [f64; 6])> {
+    let (mut factor, mut reciprocals) = (*block, [0.0; 6]);
+    let columns = &mut factor.data.0;
+    for column in 0..6 {
+        for before in 0..column {
+            let share = columns[before][column];
+            for row in column..6 {
+                columns[column][row] -= columns[before][row] * share;
+            }
+        }
+        let pivot = columns[column][column];
+        if pivot <= 0.0 || !pivot.is_finite() {
+            return None;
+        }
+        let root = pivot.sqrt();
+        reciprocals[column] = 1.0 / root;
+        columns[column][column] = root;
+        for row in column + 1..6 {
+            columns[column][row] *= reciprocals[column];
+        }
+    }
+    Some((factor, reciprocals))
+}
+
+/// Solves `factor x = x` in place.
+#[allow(clippy::needless_range_loop, reason = "loops of fixed length become straight code, iterators do not")]
+fn solve_lower(factor: &Block, reciprocals: &[f64; 6], x: &mut [f64; 6]) {
+    for column in 0..6 {
+        x[column] *= reciprocals[column];
+        for row in column + 1..6 {
+            x[row] -= factor.data.0[column][row] * x[column];
+        }
+    }
+}
+
+/// Solves `factor^T x = x` in place.
+#[allow(clippy::needless_range_loop, reason = "loops of fixed length become straight code, iterators do not")]
+fn solve_upper(factor: &Block, reciprocals: &[f64; 6], x: &mut [f64; 6]) {
+    for column in (0..6).rev() {
+        for row in column + 1..6 {
+            x[column] -= factor.data.0[column][row] * x[row];
+        }
+        x[column] *= reciprocals[column];
+    }
 }
 
 impl Matrix {
@@ -96,13 +146,14 @@ impl Matrix {
 
     /// Replaces the matrix by its lower Cholesky factor; false when it is not positive definite.
     pub(crate) fn factorize(&mut self, pattern: &Pattern) -> bool {
+        self.reciprocals.clear();
         for column in 0..pattern.columns.len() {
-            let Some(factor) = self.diagonal[column].cholesky() else { return false };
-            let factor = factor.unpack();
+            let Some((factor, reciprocals)) = factor_of(&self.diagonal[column]) else { return false };
             self.diagonal[column] = factor;
+            self.reciprocals.push(reciprocals);
             for &(_, place) in &pattern.columns[column] {
                 let mut transposed = self.below[place].transpose();
-                factor.solve_lower_triangular_unchecked_mut(&mut transposed);
+                transposed.data.0.iter_mut().for_each(|x| solve_lower(&factor, &reciprocals, x));
                 self.below[place] = transposed.transpose();
             }
             for &(target, left, right) in &pattern.updates[column] {
@@ -120,7 +171,8 @@ impl Matrix {
     pub(crate) fn carry(&self, pattern: &Pattern, x: &mut [Option<Block>]) {
         for column in 0..pattern.columns.len() {
             let Some(mut solved) = x[column] else { continue };
-            self.diagonal[column].solve_lower_triangular_unchecked_mut(&mut solved);
+            let (factor, reciprocals) = (&self.diagonal[column], &self.reciprocals[column]);
+            solved.data.0.iter_mut().for_each(|x| solve_lower(factor, reciprocals, x));
             x[column] = Some(solved);
             for &(row, place) in &pattern.columns[column] {
                 *x[row].get_or_insert_with(Block::zeros) -= self.below[place] * solved;
@@ -131,7 +183,7 @@ impl Matrix {
     /// Solves the system whose factor this is; `x` is the right-hand side first, the solution then.
     pub(crate) fn solve(&self, pattern: &Pattern, x: &mut [Segment]) {
         for column in 0..pattern.columns.len() {
-            self.diagonal[column].solve_lower_triangular_unchecked_mut(&mut x[column]);
+            solve_lower(&self.diagonal[column], &self.reciprocals[column], &mut x[column].data.0[0]);
             for &(row, place) in &pattern.columns[column] {
                 let known = self.below[place] * x[column];
                 x[row] -= known;
@@ -142,7 +194,7 @@ impl Matrix {
                 let known = self.below[place].transpose() * x[row];
                 x[column] -= known;
             }
-            self.diagonal[column].tr_solve_lower_triangular_mut(&mut x[column]);
+            solve_upper(&self.diagonal[column], &self.reciprocals[column], &mut x[column].data.0[0]);
         }
     }
 }
