@@ -295,6 +295,8 @@ impl Pair {
     /// Finds the points for where the shapes are; whether there are any.
     fn update(&mut self, first: &Collider, second: &Collider) -> bool {
         let apart = first.position().inv_mul(second.position());
+        // parry would keep points that moved by less than a millimetre: behind a wheel that begins to roll they drive it on.
+        self.manifolds.iter_mut().for_each(Manifold::mark_shapes_deformed);
         let dispatcher: &dyn PersistentQueryDispatcher<(), [f64; 3]> = &DefaultQueryDispatcher;
         let shapes = (first.shape(), second.shape());
         let found = dispatcher.contact_manifolds(
