@@ -28,6 +28,6 @@ local rolling, sliding = cart(0, 1), cart(3, 0)
 bench.run(function()
     bench.untilTime(3)
     local free = sim.getObjectOrientation(sliding)[3]
-    bench.check('yaw of one with casters without friction after 3 s, rad', free, -1.16, 0.05)
-    bench.check('yaw of one with rolling casters, rad', sim.getObjectOrientation(rolling)[3], free, 0.05)
+    bench.check('yaw of one with casters without friction after 3 s, rad', free, -1.15, 0.15)
+    bench.check('yaw of one with rolling casters, rad', sim.getObjectOrientation(rolling)[3], free, 0.1)
 end)
