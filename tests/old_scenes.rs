@@ -1,10 +1,12 @@
-//! What only old scenes contain: custom user interfaces of V-REP.
+//! What only old scenes contain: custom user interfaces of V-REP, groups of inverse kinematics.
 
 use std::path::Path;
 
+use swanilda::scene::joint::{Joint, JointMode, JointType};
 use swanilda::scene::object::dummy::Dummy;
 use swanilda::scene::tree::button_interfaces::{Button, ButtonInput, ButtonInterface};
-use swanilda::scene::{Data, Handle, Kind};
+use swanilda::scene::tree::ik_groups::{IkElement, IkGroup};
+use swanilda::scene::{Data, Handle, Kind, Pose, Scene};
 use swanilda::{Options, SceneFile, ScriptKind, Simulator};
 
 /// Runs a customization script, which must not fail.
@@ -180,4 +182,87 @@ fn what_persons_do_reaches_scripts_in_the_next_step() {
     sim.iterate();
     let seen = sim.call_api("sim.getStringSignal", &[Data::text("seen")]).expect("a signal");
     assert_eq!(seen, [Data::text("1:280:0 3:18:250 1:24:0")]);
+}
+
+/// Two links of half a metre in the plane, in a group that is handled explicitly or not; tip and target.
+fn arm(scene: &mut Scene, mode: JointMode, explicit: bool) -> [Handle; 2] {
+    let mut parent = None;
+    for (x, position) in [(0.0, 0.3), (0.5, 0.6)] {
+        let joint = Joint { position, ..Joint::new(JointType::Revolute, mode) };
+        let joint = scene.add("joint", Kind::Joint(Box::new(joint))).expect("there is room");
+        scene.set_parent(joint, parent, false).expect("both exist");
+        scene.set_local_pose(joint, Pose::translation(x, 0.0, 0.0)).expect("it is a place");
+        parent = Some(joint);
+    }
+    let mut dummy = || scene.add("dummy", Kind::Dummy(Dummy::new(0.01))).expect("there is room");
+    let [tip, target] = [dummy(), dummy()];
+    scene.set_parent(tip, parent, false).expect("both exist");
+    scene.set_local_pose(tip, Pose::translation(0.5, 0.0, 0.0)).expect("it is a place");
+    scene.set_local_pose(target, Pose::translation(0.8, 0.5, 0.0)).expect("it is a place");
+    scene.link_dummies(tip, Some(target)).expect("both are dummies");
+    let element = IkElement {
+        tip,
+        base: None,
+        constraint_base: None,
+        precisions: [0.001, 0.0005],
+        weights: [1.0; 2],
+        constraints: 3,
+        flags: 0,
+    };
+    scene.ik_groups_mut().add(IkGroup {
+        name: "reach".into(),
+        persistent_uid: String::new(),
+        explicit,
+        method: 0,
+        flags: 0,
+        performed_after: -1,
+        max_iterations: 10,
+        damping: 0.1,
+        elements: vec![element],
+    });
+    [tip, target]
+}
+
+fn distance(sim: &Simulator, ends: [Handle; 2]) -> f64 {
+    let scene = sim.scene();
+    let [a, b] = ends.map(|end| scene.world_pose(end).expect("it exists").translation.vector);
+    (a - b).norm()
+}
+
+#[test]
+fn groups_of_inverse_kinematics_move_their_joints_in_each_step() {
+    let mut sim = Simulator::new(Options::default());
+    let ends = arm(&mut sim.scene_mut(), JointMode::InverseKinematics, false);
+    assert!(distance(&sim, ends) > 0.01);
+    sim.step(2);
+    assert!(distance(&sim, ends) < 0.0005);
+    sim.scene_mut().set_local_pose(ends[1], Pose::translation(0.5, 0.6, 0.0)).expect("it is a place");
+    sim.step(2);
+    assert!(distance(&sim, ends) < 0.0005);
+    // Out of reach: the arm points there.
+    sim.scene_mut().set_local_pose(ends[1], Pose::translation(0.0, 2.0, 0.0)).expect("it is a place");
+    sim.step(20);
+    assert_eq!(sim.errors(), 0);
+    sim.scene_mut().remove(&[ends[1]]).expect("it exists");
+    sim.step(2);
+    assert_eq!(sim.errors(), 0);
+}
+
+#[test]
+fn explicit_groups_and_other_joints_wait() {
+    let mut sim = Simulator::new(Options::default());
+    let ends = arm(&mut sim.scene_mut(), JointMode::InverseKinematics, true);
+    let others = arm(&mut sim.scene_mut(), JointMode::Kinematic, false);
+    let before = [ends, others].map(|ends| distance(&sim, ends));
+    sim.step(2);
+    assert_eq!([ends, others].map(|ends| distance(&sim, ends)), before);
+    run(
+        &mut sim,
+        "local group = simGetIkGroupHandle('reach')
+        assert(simHandleIkGroup(group) == 1)
+        assert(simHandleIkGroup(sim_handle_all) == 1)
+        assert(not pcall(simHandleIkGroup, simGetIkGroupHandle('reach0')))",
+    );
+    assert!(distance(&sim, ends) < 0.0005);
+    assert_eq!(distance(&sim, others), before[1]);
 }

@@ -28,7 +28,7 @@ function sysCall_actuation()
     tellScripts(ACTUATION)
     handleJointMotion()
     handlePath(NOT_EXPLICIT, getTimeStep())
-    handleDynamics(getTimeStep())
+    handleDynamics(getTimeStep(), NOT_EXPLICIT)
 end
 
 function sysCall_sensing()

@@ -1,7 +1,9 @@
 //! Kinematic chains of the scene as environments of `kinematics`, and joints moved back.
 //!
 //! Objects are copied once, from the tips and targets down to the world; later only positions of joints and poses of targets pass, as
-//! seen from the bases.
+//! seen from the bases. The groups of old scenes are copied anew each time: `groups.rs`.
+
+pub(crate) mod groups;
 
 use std::collections::BTreeMap;
 

@@ -163,11 +163,15 @@ fn call_group(cx: &mut Cx, group: Group, call_type: i64, arguments: &Rest) -> Re
 /// Advances the physics. For the main script or a simulation script.
 ///
 /// @param deltaTime seconds
+/// @param ikGroups sim.handle_all_except_explicit: first computes the groups of inverse kinematics of old scenes that are not handled explicitly
 /// @return passes number of sub-steps
 #[api("sim.handleDynamics")]
-fn handle_dynamics(cx: &mut Cx, delta_time: f64) -> Result<i64> {
+fn handle_dynamics(cx: &mut Cx, delta_time: f64, #[default(0)] ik_groups: Number) -> Result<i64> {
     if !matches!(cx.script().script_type, ScriptType::Main | ScriptType::Simulation) {
         return Err(ApiError::MainOrSimulationScriptOnly);
+    }
+    if ik_groups.0 == special::ALL_EXCEPT_EXPLICIT && cx.scene().ik_groups().iter().next().is_some() {
+        crate::api::old::ik_groups::handle_ik_groups(cx, false)?;
     }
     cx.handle_dynamics(delta_time)
 }

@@ -1,5 +1,4 @@
-//! The groups of inverse kinematics of scenes from before 4.2: kept for their names and for files. They are not computed: module simIK is
-//! for that.
+//! The groups of inverse kinematics of scenes from before 4.2. Files contain them; `crate::ik` solves them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
