@@ -2090,8 +2090,9 @@ function sim.handleDistance(distanceHandle) end
 
 --- Advances the physics. For the main script or a simulation script.
 ---@param deltaTime number seconds
+---@param ikGroups? integer sim.handle_all_except_explicit: first computes the groups of inverse kinematics of old scenes that are not handled explicitly
 ---@return integer passes number of sub-steps
-function sim.handleDynamics(deltaTime) end
+function sim.handleDynamics(deltaTime, ikGroups) end
 
 --- Calls a callback of all simulation scripts, then of all customization scripts. For the main script.
 ---@param callType integer sim.syscb_*
@@ -2107,10 +2108,11 @@ function sim.handleExtCalls() end
 ---@param simulationTime number of the values
 function sim.handleGraph(objectHandle, simulationTime) end
 
---- Handles groups of inverse kinematics of old scenes, which are not computed.
+--- Computes groups of inverse kinematics of old scenes, and moves their joints. The usual main script does it for those that are not
+--- tagged for explicit handling.
 ---@deprecated the simIK functionality
 ---@param ikGroupHandle integer a group that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
----@return integer result 0: none was computed
+---@return integer result how many were computed; of a single one 0 if it was not performed, 1 if it succeeded, 2 if it failed
 function sim.handleIkGroup(ikGroupHandle) end
 
 --- Does nothing: kinematic joints move by sim.handleJointMotion.

@@ -3701,9 +3701,10 @@ class _sim:
         Deprecated: use sim.checkDistance.
         distanceHandle: a distance object that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
         """
-    def handleDynamics(self, deltaTime: float, /) -> int:
+    def handleDynamics(self, deltaTime: float, ikGroups: int | None = ..., /) -> int:
         """Advances the physics. For the main script or a simulation script.
         deltaTime: seconds
+        ikGroups: sim.handle_all_except_explicit: first computes the groups of inverse kinematics of old scenes that are not handled explicitly
         """
     def handleEmbeddedScripts(self, callType: int, /, *args: Any) -> int:
         """Calls a callback of all simulation scripts, then of all customization scripts. For the main script.
@@ -3718,7 +3719,8 @@ class _sim:
         simulationTime: of the values
         """
     def handleIkGroup(self, ikGroupHandle: int, /) -> int:
-        """Handles groups of inverse kinematics of old scenes, which are not computed.
+        """Computes groups of inverse kinematics of old scenes, and moves their joints. The usual main script does it for those that are not
+        tagged for explicit handling.
         Deprecated: use the simIK functionality.
         ikGroupHandle: a group that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
         """
