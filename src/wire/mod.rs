@@ -2,6 +2,7 @@
 
 pub mod cbor;
 pub mod cbor_head;
+pub mod marshal;
 pub(crate) mod mime;
 pub mod number_buffer;
 pub mod pack;
