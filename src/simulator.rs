@@ -25,6 +25,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use crate::format::scene_file::SceneFile;
+use crate::format::script_file;
 use crate::io::ZmqServer;
 use crate::modules;
 use crate::scene::object::script_object::{ScriptObject, ScriptType};
@@ -204,7 +205,7 @@ impl Simulator {
         modules::sim_zmq::has_sockets(&self.sim.modules.states)
     }
 
-    /// Adds a script. Customization scripts, add-ons and the sandbox start at once; a simulation script starts with the simulation.
+    /// Adds a script in Lua, or in Python if its first line is `#python`. Customization scripts, add-ons and the sandbox start at once; a simulation script starts with the simulation.
     ///
     /// `name` is shown for add-ons and for the sandbox chunk; script objects are called `Script`.
     ///
@@ -214,7 +215,7 @@ impl Simulator {
         self.add_script_of_file(kind, name, code, None)
     }
 
-    /// The same for the text of a file: the log names it in errors.
+    /// The same for the text of a file: the log names it in errors. One whose name ends in `.py` is in Python.
     ///
     /// # Errors
     /// As `add_script`.
@@ -225,18 +226,27 @@ impl Simulator {
         code: &[u8],
         file: Option<&Path>,
     ) -> Result<ScriptRef, Error> {
+        let language = script_file::language(file, code);
         let file = file.map(|file| file.display().to_string());
         match kind {
-            ScriptKind::Customization => self.add_object_script(ScriptType::Customization, code, file),
-            ScriptKind::Simulation => self.add_object_script(ScriptType::Simulation, code, file),
+            ScriptKind::Customization => self.add_object_script(ScriptType::Customization, language, code, file),
+            ScriptKind::Simulation => self.add_object_script(ScriptType::Simulation, language, code, file),
             ScriptKind::AddOn => {
-                let script = self
-                    .sim
-                    .scripts
-                    .add_detached(ScriptType::AddOn, Detached::of_text(&format!("{name}@addOnScript"), code));
+                let detached = Detached::of_text(&format!("{name}@addOnScript"), code);
+                let detached = Detached { language: language.into(), ..detached };
+                let script = self.sim.scripts.add_detached(ScriptType::AddOn, detached);
                 script.file.replace(file);
                 self.sim.start_detached(&script);
                 Ok(ScriptRef(script))
+            }
+            ScriptKind::Sandbox if language != "lua" => {
+                let sandbox = self.the(ScriptType::Sandbox);
+                self.sim.reset(&sandbox.0);
+                sandbox.0.detached.borrow_mut().language = language.into();
+                sandbox.0.detached.borrow_mut().code = code.to_vec();
+                sandbox.0.file.replace(file);
+                self.sim.deliver(&sandbox.0, SysCall::Init, &[]);
+                Ok(sandbox)
             }
             ScriptKind::Sandbox => {
                 let sandbox = self.the(ScriptType::Sandbox);
@@ -245,6 +255,7 @@ impl Simulator {
             }
             ScriptKind::Main => {
                 let main = self.the(ScriptType::Main);
+                main.0.detached.borrow_mut().language = language.into();
                 main.0.detached.borrow_mut().code = code.to_vec();
                 main.0.file.replace(file);
                 Ok(main)
@@ -255,10 +266,11 @@ impl Simulator {
     fn add_object_script(
         &mut self,
         script_type: ScriptType,
+        language: &str,
         code: &[u8],
         file: Option<String>,
     ) -> Result<ScriptRef, Error> {
-        let object = ScriptObject::new(script_type, code.to_vec(), "lua", false);
+        let object = ScriptObject::new(script_type, code.to_vec(), language, false);
         let handle =
             self.sim.scene.borrow_mut().add("Script", Kind::Script(Box::new(object))).map_err(ApiError::from)?;
         let script = self.sim.script(handle.raw()).ok_or(ApiError::NoSuchScript)?;

@@ -67,6 +67,7 @@ const INNER: &[&str] = &[
     "swanilda/paths/dialog",
     "swanilda/paths/points",
     "swanilda/paths/sampling",
+    "swanilda/python",
     "swanilda/quaternion",
     "swanilda/settings_window",
     "swanilda/test/recordings",

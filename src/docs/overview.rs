@@ -59,7 +59,7 @@ fn table() -> String {
     total("all current functions of `sim`", Age::Current);
     total("all deprecated ones", Age::Deprecated);
     out + &plugins_row()
-        + "| scripts in Python inside scenes | | | they do not run; [programs in Python](docs/REMOTE_API.md) do |\n"
+        + "| scripts in Python inside scenes | all callbacks, threads, calls in both directions | [differences](docs/DIFFERENCES.md#scripts-in-python) | |\n"
 }
 
 /// The current functions of some categories.

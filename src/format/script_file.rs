@@ -1,4 +1,4 @@
-//! Which files are Lua scripts: name and content decide together, so that nothing else is run as Lua by mistake.
+//! Which files are scripts, and of which language: name and content decide together, so that nothing else is run by mistake.
 //!
 //! Scenes and models are recognised by their content alone ([`super::scene_file::is_scene`]); this is about the rest.
 
@@ -11,17 +11,13 @@ pub enum NotAScript {
     Empty,
     #[error("it is not a scene or model of CoppeliaSim, whatever its name says")]
     NotAScene,
-    #[error(
-        "it is a Python program, and scenes are scripted in Lua; Python programs control a simulator through the remote API (swanilda serve, docs/REMOTE_API.md)"
-    )]
-    Python,
     #[error("robots described in {0} cannot be imported yet (docs/PLUGINS.md)")]
     Robot(&'static str),
     #[error("it holds a mesh, and no scene")]
     Mesh,
     #[error("it is a part of an unpacked scene: name the folder instead")]
     PartOfFolder,
-    #[error("it is neither a Lua script nor a scene or model of CoppeliaSim")]
+    #[error("it is neither a script in Lua or Python nor a scene or model of CoppeliaSim")]
     Binary,
 }
 
@@ -38,11 +34,11 @@ pub fn check_no_robot(path: &Path) -> Result<(), NotAScript> {
 /// Checks a file that is not a scene or model.
 ///
 /// # Errors
-/// When its name or its content says that it is no Lua script.
+/// When its name or its content says that it is no script.
 pub fn check(path: &Path, content: &[u8]) -> Result<(), NotAScript> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
     let ends_with = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
-    if name.ends_with(".lua") {
+    if ends_with(&[".lua", ".py"]) {
         return Ok(());
     }
     if content.is_empty() {
@@ -50,9 +46,6 @@ pub fn check(path: &Path, content: &[u8]) -> Result<(), NotAScript> {
     }
     if ends_with(&[".ttt", ".ttm", ".xml"]) {
         return Err(NotAScript::NotAScene);
-    }
-    if ends_with(&[".py", ".pyw"]) {
-        return Err(NotAScript::Python);
     }
     check_no_robot(path)?;
     if ends_with(&[".obj", ".stl", ".dae", ".ply", ".gltf", ".glb"]) {
@@ -65,6 +58,18 @@ pub fn check(path: &Path, content: &[u8]) -> Result<(), NotAScript> {
         return Err(NotAScript::Binary);
     }
     Ok(())
+}
+
+/// The language of a script: that of its file's name, else what its first line says.
+pub(crate) fn language(path: Option<&Path>, text: &[u8]) -> &'static str {
+    let extension = path.and_then(Path::extension).map(|extension| extension.to_string_lossy().to_lowercase());
+    let first_line = text.split(|&byte| byte == b'\n').next().unwrap_or_default();
+    match extension.as_deref() {
+        Some("py") => "python",
+        Some("lua") => "lua",
+        _ if first_line.trim_ascii() == b"#python" => "python",
+        _ => "lua",
+    }
 }
 
 /// Descriptions of robots, by the endings of their files.
@@ -82,11 +87,10 @@ mod tests {
     fn names_of_other_kinds_are_no_scripts() {
         assert_eq!(refusal("r.ttt", b"print(1)"), Some(NotAScript::NotAScene));
         assert_eq!(refusal("a/R.TTM", b"\x8f\x00"), Some(NotAScript::NotAScene));
-        assert_eq!(refusal("x.py", b"print(1)"), Some(NotAScript::Python));
         assert_eq!(refusal("x.urdf", b"<robot/>"), Some(NotAScript::Robot("URDF")));
         assert_eq!(refusal("x.stl", b"solid x"), Some(NotAScript::Mesh));
         assert_eq!(refusal("x/scene.json", b"{}"), Some(NotAScript::PartOfFolder));
-        for name in ["x.ttt", "x.urdf", "x.py", "x"] {
+        for name in ["x.ttt", "x.urdf", "x"] {
             assert_eq!(refusal(name, b""), Some(NotAScript::Empty), "{name}");
         }
     }
@@ -97,6 +101,20 @@ mod tests {
         assert_eq!(refusal("scene.txt", "print('ü')".as_bytes()), None);
         assert_eq!(refusal("scene", b"\x1bLua\x54\x00"), Some(NotAScript::Binary));
         assert_eq!(refusal("scene", b"\xff\xfe"), Some(NotAScript::Binary));
+    }
+
+    #[test]
+    fn a_language_is_in_the_name_or_in_the_first_line() {
+        for (name, text, expected) in [
+            ("a/x.py", &b""[..], "python"),
+            ("x.PY", b"print(1)", "python"),
+            ("x.lua", b"#python\n", "lua"),
+            ("x.txt", b"#python \r\nprint(1)", "python"),
+            ("x", b"-- python", "lua"),
+            ("", b"#python", "python"),
+        ] {
+            assert_eq!(language(Some(Path::new(name)).filter(|_| !name.is_empty()), text), expected, "{name}");
+        }
     }
 
     #[test]

@@ -2,6 +2,11 @@
 
 mod event_loop;
 mod file_lock;
+#[cfg(unix)]
+mod peer_process;
+#[cfg(not(unix))]
+#[path = "peer_process_elsewhere.rs"]
+mod peer_process;
 mod process;
 mod serial;
 pub(crate) mod signals;
@@ -16,6 +21,7 @@ pub(crate) use event_loop::EventLoop;
 pub(crate) use file_lock::FileLock;
 #[cfg(unix)]
 pub(crate) use file_lock::lock_file;
+pub(crate) use peer_process::{PeerError, PeerProcess};
 pub(crate) use process::{Process, ProcessError, Program};
 pub(crate) use serial::SerialPort;
 pub(crate) use simx_server::SimxServer;

@@ -35,6 +35,7 @@ pub(crate) static ALL: &[&Module] = &[
     &mime::MODULE,
     &cbor::CBOR,
     &cbor::CBOR_HEADS,
+    &remote::PYTHON,
     &remote::VISUALIZATION,
     &remote::WS,
     &remote::ZMQ,

@@ -13,11 +13,15 @@ use super::{ALL, ApiFn, Cx, Module, Result, functions, sim_ws};
 use crate::io::{Incoming, ZmqServer};
 use crate::script::{Bytes, FILES, States, Text};
 
-pub(super) static ZMQ: Module = Module { inner: &[FUNCTIONS, NAMES], ..Module::new("remote.zmq") };
+pub(super) static ZMQ: Module = Module { inner: &[FUNCTIONS, TYPES, NAMES], ..Module::new("remote.zmq") };
+/// What the library of scripts in Python needs.
+pub(super) static PYTHON: Module = Module { inner: &[TYPES, NAMES], ..Module::new("swanilda.python") };
 pub(super) static WS: Module = Module { inner: &[sim_ws::REMOTE, NAMES], ..Module::new("remote.ws") };
 pub(super) static VISUALIZATION: Module = Module { inner: &[sim_ws::STREAM], ..Module::new("remote.visualization") };
 
-const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, others, returns];
+const FUNCTIONS: &[ApiFn] = functions![receive, reply, closed, others];
+/// Types of results.
+const TYPES: &[ApiFn] = functions![returns];
 /// Functions that every remote API needs.
 const NAMES: &[ApiFn] = functions![members];
 

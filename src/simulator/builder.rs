@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::{NativeLanguage, NativeScripts, Simulator};
 use crate::modules;
 use crate::permissions::Permissions;
-use crate::script::{Console, Languages, LuaLanguage, Options, Silent, Sim, UserModule};
+use crate::script::{Console, Languages, LuaLanguage, Options, PythonLanguage, Silent, Sim, UserModule};
 
 /// Collects what a [`Simulator`] is made of; see [`Simulator::builder`].
 #[must_use = "nothing is made before `build`"]
@@ -78,8 +78,10 @@ impl Builder {
     /// A simulator with an empty scene.
     pub fn build(self) -> Simulator {
         let native_scripts = Rc::<NativeScripts>::default();
+        let lua = LuaLanguage::new(self.modules);
         let languages = Languages::new(vec![
-            Box::new(LuaLanguage::new(self.modules)),
+            Box::new(lua.clone()),
+            Box::new(PythonLanguage::new(lua)),
             Box::new(NativeLanguage(Rc::clone(&native_scripts))),
         ]);
         let sim = Sim::new(self.options, modules::registry(), self.console, languages);

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::case::{Outcome, Status, TestCase};
 use super::excerpt::Excerpt;
 use super::report;
-use crate::script::coverage::{CountedText, LineCounts};
+use crate::script::coverage::{CountedText, Function, LineCounts};
 use crate::script::test_bench::ConsoleLine;
 
 /// How often the process is looked at.
@@ -86,11 +86,17 @@ fn outcome(text: &str, test: &Arc<TestCase>) -> Option<Outcome> {
 /// The line that a child prints: that of the JSON report, with the counts of lines.
 pub(super) fn printed(outcome: &Outcome, counts: &LineCounts) -> String {
     let mut value = report::json::test_value(outcome);
-    let texts = counts.texts.iter().map(|(text, counts)| match text {
-        CountedText::File(file) => json!({"file": file.to_string_lossy(), "counts": counts}),
-        CountedText::Script { scene, path, text } => {
-            json!({"scene": scene, "path": path, "text": latin1(text), "counts": counts})
+    let texts = counts.texts.iter().map(|(text, lines)| {
+        let mut value = match text {
+            CountedText::File(file) => json!({"file": file.to_string_lossy(), "counts": lines}),
+            CountedText::Script { scene, path, text } => {
+                json!({"scene": scene, "path": path, "text": latin1(text), "counts": lines})
+            }
+        };
+        if let Some(functions) = counts.functions.get(text) {
+            value["functions"] = functions.iter().map(|f| json!([f.line, f.name, f.lines])).collect();
         }
+        value
     });
     value["lineCounts"] = texts.collect();
     value.to_string() + "\n"
@@ -107,9 +113,21 @@ fn line_counts(value: &Value) -> LineCounts {
             }
         };
         let counts: Vec<u64> = list(&value["counts"]).filter_map(Value::as_u64).collect();
+        if value["functions"].is_array() {
+            all.functions.insert(text.clone(), list(&value["functions"]).map(function).collect());
+        }
         all.add(text, &counts);
     }
     all
+}
+
+fn function(value: &Value) -> Function {
+    let line = |value: &Value| value.as_u64().unwrap_or_default() as u32;
+    Function {
+        line: line(&value[0]),
+        name: value[1].as_str().map(str::to_owned),
+        lines: list(&value[2]).map(line).collect(),
+    }
 }
 
 /// Bytes as characters, one each: JSON holds no others, and a script need not be UTF-8.
@@ -151,12 +169,16 @@ mod tests {
         let mut counts = LineCounts::default();
         counts.add(CountedText::File("lib/a.lua".into()), &[1, 0, 7]);
         let text = b"-- \xff\xc3\xa4\nx = 1".as_slice().into();
-        counts.add(CountedText::Script { scene: "s.ttt".into(), path: "/Arm".into(), text }, &[0, 2]);
+        let script = CountedText::Script { scene: "s.ttt".into(), path: "/Arm".into(), text };
+        counts.add(script.clone(), &[0, 2]);
+        let inner = Function { line: 1, lines: vec![2], name: Some("f".into()) };
+        counts.functions.insert(script, vec![Function { line: 0, lines: vec![1], name: None }, inner]);
         let test = Arc::new(TestCase::of_file(Path::new("a_test.lua")));
         let passed = Outcome::new(Arc::clone(&test), Status::Passed, "");
         let printed = printed(&passed, &counts);
         assert_eq!(printed.lines().count(), 1);
         let read = outcome(&printed, &test).expect("the line of a test");
         assert_eq!((read.status, read.line_counts.texts), (Status::Passed, counts.texts));
+        assert_eq!(read.line_counts.functions, counts.functions);
     }
 }

@@ -219,6 +219,10 @@ const SCRIPT: Rooms = &[
     ("lua", &["lifecycle", "runtime"]),
     ("lua_runtime", &["binding", "calls", "coverage", "lifecycle", "log", "lua", "runtime", "sim"]),
     (
+        "python_runtime",
+        &["binding", "calls", "coverage", "error", "lifecycle", "log", "lua", "lua_runtime", "runtime", "sim", "step"],
+    ),
+    (
         "binding",
         &[
             "calls",
@@ -270,7 +274,7 @@ const SCRIPT: Rooms = &[
 ];
 
 /// The rooms of `script` that know Lua; the others only know that scripts have a language.
-pub const LUA_ROOMS: &[&str] = &["binding", "lua", "lua_runtime"];
+pub const LUA_ROOMS: &[&str] = &["binding", "lua", "lua_runtime", "python_runtime"];
 
 /// What belongs to Lua: names that code in the other rooms must not use.
 pub const LUA_NAMES: &[&str] =

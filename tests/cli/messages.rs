@@ -20,17 +20,14 @@ fn files_of_other_kinds_are_not_run_as_lua() {
     let noise: Vec<u8> = (0..3000u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
     for (name, content, reason) in [
         ("r.ttt", &noise[..], "not a scene or model of CoppeliaSim"),
-        ("r", &noise, "neither a Lua script nor a scene"),
+        ("r", &noise, "neither a script in Lua or Python nor a scene"),
         ("empty.ttt", b"", "the file is empty"),
         ("empty.urdf", b"", "the file is empty"),
-        ("empty.py", b"", "the file is empty"),
-        ("robot.py", b"print(1)", "docs/REMOTE_API.md"),
         ("robot.urdf", b"<?xml version='1.0'?><robot name='a'/>", "URDF cannot be imported yet"),
     ] {
         let said = said_about("run", name, content);
         assert!(said.contains(reason) && said.contains(name), "{name}: {said}");
     }
-    assert!(said_about("doctor", "robot.py", b"print(1)").contains("Python"));
 }
 
 fn run(args: &[&str]) -> Output {

@@ -156,10 +156,11 @@ fn unpacked(cx: &Cx, name: &str) -> Result<SceneFile> {
     }
 }
 
-/// A scene of CoppeliaSim is known by its bytes, a Lua scene by its name.
+/// A scene of CoppeliaSim is known by its bytes, one that is a script by its name.
 fn scene_source(cx: &Cx, name: &str, bytes: Vec<u8>, folder: Option<&Path>) -> Result<SceneSource> {
     match Path::new(name).extension().and_then(|extension| extension.to_str()) {
-        Some("lua") => Ok(SceneSource::Script(bytes)),
+        Some("lua") => Ok(SceneSource::Script { code: bytes, python_file: None }),
+        Some("py") => Ok(SceneSource::Script { code: bytes, python_file: Some(absolute(name)) }),
         _ => Ok(SceneSource::File(Box::new(scene_file(cx, name, &bytes, folder)?))),
     }
 }

@@ -101,7 +101,8 @@ impl Setup {
     }
 
     fn up_to_date(&self, source: Source) -> Source {
-        if self.compat { Source { code: scene_file::with_compat(source.code), ..source } } else { source }
+        let is_lua = script_file::language(Some(&source.path), &source.code) == "lua";
+        if self.compat && is_lua { Source { code: scene_file::with_compat(source.code), ..source } } else { source }
     }
 
     /// The named parameter of the command line.

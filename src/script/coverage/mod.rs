@@ -51,12 +51,15 @@ pub type Counts = Vec<u64>;
 #[derive(Debug, Clone, Default)]
 pub struct LineCounts {
     pub texts: BTreeMap<CountedText, Counts>,
+    /// The functions of texts whose language says so while they run; those of Lua are found when they are reported.
+    pub functions: BTreeMap<CountedText, Vec<Function>>,
 }
 
 impl LineCounts {
     /// Adds the counts of another simulator or state.
     pub fn merge(&mut self, other: Self) {
         other.texts.into_iter().for_each(|(text, counts)| self.add(text, &counts));
+        self.functions.extend(other.functions);
     }
 
     pub(crate) fn add(&mut self, text: CountedText, counts: &[u64]) {

@@ -16,7 +16,11 @@ pub(crate) enum SceneSource {
     /// The default scene.
     Default,
     /// The text of a customization script of the default scene.
-    Script(Vec<u8>),
+    Script {
+        code: Vec<u8>,
+        /// The file of a text in Python, whose errors name it and whose imports are beside it.
+        python_file: Option<String>,
+    },
     /// A scene of CoppeliaSim.
     File(Box<SceneFile>),
 }
@@ -53,9 +57,9 @@ impl Sim {
     pub(crate) fn fill_scene(self: &Rc<Self>, source: SceneSource) -> ApiResult<()> {
         match source {
             SceneSource::Default => self.scene.borrow_mut().add_default_objects()?,
-            SceneSource::Script(code) => {
+            SceneSource::Script { code, python_file } => {
                 self.scene.borrow_mut().add_default_objects()?;
-                self.add_scene_script(code)?;
+                self.add_scene_script(code, python_file)?;
             }
             SceneSource::File(file) => {
                 self.load_file(*file, true)?;
@@ -94,6 +98,7 @@ impl Sim {
                 if let Some(main) = self.scripts.detached(ScriptType::Main) {
                     let mut main = main.detached.borrow_mut();
                     main.code.clone_from(&script.code);
+                    main.language.clone_from(&script.language);
                     main.source.clone_from(&script.source);
                 }
             }
@@ -115,6 +120,7 @@ impl Sim {
         if let Some(main) = self.scripts.detached(ScriptType::Main) {
             let mut main = main.detached.borrow_mut();
             main.code = self.modules.registry.main_script().as_bytes().to_vec();
+            main.language.clear();
             main.source = None;
         }
         self.app.borrow_mut().closed_scenes += 1;
@@ -131,10 +137,12 @@ impl Sim {
         Ok(())
     }
 
-    fn add_scene_script(self: &Rc<Self>, code: Vec<u8>) -> ApiResult<()> {
-        let script = ScriptObject::new(ScriptType::Customization, code, "lua", false);
+    fn add_scene_script(self: &Rc<Self>, code: Vec<u8>, python_file: Option<String>) -> ApiResult<()> {
+        let language = if python_file.is_some() { "python" } else { "lua" };
+        let script = ScriptObject::new(ScriptType::Customization, code, language, false);
         let handle = self.scene.borrow_mut().add("Script", Kind::Script(Box::new(script)))?;
         let script = self.script(handle.raw()).ok_or(ApiError::NoSuchScript)?;
+        script.file.replace(python_file);
         self.init_script(&script);
         Ok(())
     }

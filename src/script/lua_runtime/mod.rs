@@ -33,6 +33,7 @@ const YIELD_ERRORS: [&str; 2] =
     ["attempt to yield across a C-call boundary", "attempt to yield from outside a coroutine"];
 
 /// The language Lua.
+#[derive(Clone)]
 pub(crate) struct LuaLanguage {
     user_modules: Rc<[UserModule]>,
 }
@@ -42,6 +43,11 @@ impl LuaLanguage {
     pub(crate) fn new(user_modules: Vec<UserModule>) -> Self {
         Self { user_modules: user_modules.into() }
     }
+
+    /// An interpreter that is a part of another one.
+    pub(in crate::script) fn interpreter(&self, env: &Rc<Env>) -> LuaInterpreter {
+        LuaInterpreter { state: State::new(Rc::clone(env)), user_modules: Rc::clone(&self.user_modules) }
+    }
 }
 
 impl Language for LuaLanguage {
@@ -50,13 +56,13 @@ impl Language for LuaLanguage {
     }
 
     fn create(&self, env: Rc<Env>) -> Rc<Runtime> {
-        let state = State::new(Rc::clone(&env));
-        Runtime::new(env, LuaInterpreter { state, user_modules: Rc::clone(&self.user_modules) })
+        let interpreter = self.interpreter(&env);
+        Runtime::new(env, interpreter)
     }
 }
 
 /// A Lua state of its own for one script.
-struct LuaInterpreter {
+pub(in crate::script) struct LuaInterpreter {
     state: State,
     user_modules: Rc<[UserModule]>,
 }
@@ -64,6 +70,13 @@ struct LuaInterpreter {
 impl LuaInterpreter {
     fn stack(&self) -> Stack<'_> {
         self.state.stack()
+    }
+
+    /// Sets a global to what `push` pushes.
+    pub(in crate::script) fn set_global(&self, name: &str, push: impl FnOnce(Stack<'_>)) {
+        let stack = self.stack();
+        push(stack);
+        stack.set_global(name);
     }
 
     fn sim(&self) -> Result<Rc<Sim>, ScriptError> {

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 pub use record::Record;
 
-use crate::script::coverage::{CountedText, LineCounts};
+use crate::script::coverage::{CountedText, Function, LineCounts};
 use crate::script::executable;
 use place::Places;
 
@@ -39,15 +39,19 @@ impl Coverage {
     pub fn of(report: &Path, tests: &[PathBuf], counts: LineCounts) -> Self {
         let mut coverage = Self::default();
         let mut places = Places::new(report, tests);
+        let mut functions = counts.functions;
         for (text, counts) in counts.texts {
-            coverage.add(&mut places, &text, &counts);
+            let functions = functions.remove(&text);
+            coverage.add(&mut places, &text, &counts, functions);
         }
         coverage
     }
 
-    fn add(&mut self, places: &mut Places, text: &CountedText, counts: &[u64]) {
+    /// Adds a text; None for the functions of one in Lua.
+    fn add(&mut self, places: &mut Places, text: &CountedText, counts: &[u64], functions: Option<Vec<Function>>) {
         let Some(place) = places.of(text) else { return };
-        let Some(functions) = executable(&place.text).filter(|functions| !functions.is_empty()) else { return };
+        let functions = functions.or_else(|| executable(&place.text));
+        let Some(functions) = functions.filter(|functions| !functions.is_empty()) else { return };
         let record = self.records.entry(place.path.clone()).or_insert_with(|| Record::new(functions));
         record.add(counts);
         if place.is_copy {

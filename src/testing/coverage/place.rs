@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
+use crate::format::script_file::language;
 use crate::script::coverage::{CountedText, read_text};
 
 /// The folder beside the report with copies of scripts that have no file.
@@ -46,30 +47,31 @@ impl Places {
         }
     }
 
-    /// The script of a scene in Lua is the scene's file itself.
+    /// The script of a scene that is a script is the scene's file itself.
     fn of_script(&mut self, scene: &str, path: &str, text: &[u8]) -> Place {
         let file = below(Path::new(scene));
         if let Some(file) = &file
-            && scene.ends_with(".lua")
+            && (scene.ends_with(".lua") || scene.ends_with(".py"))
             && read_text(file).is_some_and(|code| code == text)
         {
             return Place { path: file.clone(), text: text.to_vec(), is_copy: false };
         }
         let scene = file.or_else(|| Path::new(scene).file_name().map(PathBuf::from));
         let folder = self.copies.join(scene.unwrap_or_else(|| UNTITLED.into()));
-        let path = self.name_for(&folder.join(file_name(path)), text);
+        let extension = language(None, text).replace("python", "py");
+        let path = self.name_for(&folder.join(file_name(path)), &extension, text);
         Place { path, text: text.to_vec(), is_copy: true }
     }
 
     /// Two texts of one name, as when a test changes a script, get a number.
-    fn name_for(&mut self, stem: &Path, text: &[u8]) -> PathBuf {
+    fn name_for(&mut self, stem: &Path, extension: &str, text: &[u8]) -> PathBuf {
         let texts = self.taken.entry(stem.to_owned()).or_default();
         let number = texts.iter().position(|known| known == text).unwrap_or_else(|| {
             texts.push(text.to_vec());
             texts.len() - 1
         });
         let mut name = stem.as_os_str().to_owned();
-        name.push(if number == 0 { ".lua".into() } else { format!("~{}.lua", number + 1) });
+        name.push(if number == 0 { format!(".{extension}") } else { format!("~{}.{extension}", number + 1) });
         name.into()
     }
 }

@@ -13,15 +13,32 @@ function _swanilda_test_wrapper(number, ...) return wrappers[number](...) end
 
 function Script:call(name, ...) return sim.callScriptFunction(name, self.handle, ...) end
 
+local function isPython(script)
+    return sim.getStringProperty(script.handle, 'language', {noError = true}) == 'python'
+end
+
 function Script:run(code)
+    -- From the last @ on a string is the name of a language.
+    if isPython(self) then code = code .. '@python' end
     local results = table.pack(sim.executeScriptString(code, self.handle))
     if results[1] ~= 0 then error(("script %d: %s"):format(self.handle, tostring(results[2])), 2) end
     return table.unpack(results, 2, results.n)
 end
 
-function Script:get(expression) return self:run('return ' .. expression) end
+function Script:get(expression) return self:run(isPython(self) and expression or 'return ' .. expression) end
+
+local SET_IN_PYTHON = [[
+def _swanilda_test_set(value):
+    scope = globals()
+    scope['_swanilda_test_value'] = value
+    exec('%s = _swanilda_test_value', scope)
+]]
 
 function Script:set(name, value)
+    if isPython(self) then
+        self:run(SET_IN_PYTHON:format(name))
+        return self:call('_swanilda_test_set', value)
+    end
     self:run('function _swanilda_test_set(value) ' .. name .. ' = value end')
     self:call('_swanilda_test_set', value)
 end
@@ -35,11 +52,31 @@ local WRAP = [[
     %s = function(...) return sim.callScriptFunction('_swanilda_test_wrapper', test, number, ...) end
 ]]
 
+local WRAP_IN_PYTHON = [[
+def _swanilda_test_call(number, *args):
+    return _swanilda_test_originals[number](*args)
+
+def _swanilda_test_wrapped(number, test, original):
+    globals().setdefault('_swanilda_test_originals', {})[number] = original
+    def wrapper(*args):
+        results = require('sim').callScriptFunction('_swanilda_test_wrapper', test, number, *args)
+        return list(results) if isinstance(results, tuple) else results
+    return wrapper
+
+%s = _swanilda_test_wrapped(%d, %d, %s)
+]]
+
+-- The code that puts a wrapper in place of a function.
+local function wrapping(script, number, name)
+    if isPython(script) then return WRAP_IN_PYTHON:format(name, number, sim_script_handle, name) end
+    return WRAP:format(number, sim_script_handle, name, name)
+end
+
 function Script:wrap(name, fn)
     local number = #wrappers + 1
     local function call(...) return self:call('_swanilda_test_call', number, ...) end
     wrappers[number] = function(...) return fn(call, ...) end
-    self:run(WRAP:format(number, sim_script_handle, name, name))
+    self:run(wrapping(self, number, name))
     self.wrapped[name] = number
 end
 

@@ -1,0 +1,100 @@
+//! Which Python runs a script, and the start of its process.
+
+use std::path::{Path, PathBuf};
+
+use crate::io::PeerProcess;
+use crate::permissions::Denied;
+use crate::scene::Data;
+use crate::script::lifecycle::instance::Script;
+use crate::script::sim::Sim;
+use crate::wire::marshal::Encoder;
+
+/// The first code of a process.
+const GUARDIAN: &str = include_str!("child/guardian.py");
+/// The modules of a process, in the order of their dependencies.
+const MODULES: [(&str, &str); 5] = [
+    ("swanilda_link", include_str!("child/swanilda_link.py")),
+    ("swanilda_api", include_str!("child/swanilda_api.py")),
+    ("swanilda_trace", include_str!("child/swanilda_trace.py")),
+    ("swanilda_coverage", include_str!("child/swanilda_coverage.py")),
+    ("swanilda_script", include_str!("child/swanilda_script.py")),
+];
+
+/// Where virtual environments have their Python.
+const VIRTUAL_ENVIRONMENTS: [&str; 2] = [".venv/bin/python", "venv/bin/python"];
+
+/// Why there is no process.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum LaunchError {
+    #[error("a script in Python can do what a program can: {0}")]
+    Denied(#[from] Denied),
+    #[error(
+        "The Python interpreter could not be called. It is currently set as: '{program}' ({reason}). Install Python 3.9 or newer, for \
+         instance by 'apt install python3', or set another interpreter with -D python=PATH."
+    )]
+    NotStarted { program: String, reason: std::io::Error },
+}
+
+/// The Python of a simulator: what the script says, the named parameter `python`, a virtual environment beside the scene, or what the
+/// system has. It may have arguments, separated by blanks.
+pub(super) fn interpreter(sim: &Sim, script: &Script, chosen: Option<String>) -> String {
+    let named = || {
+        let app = sim.app.borrow();
+        app.named_params.get("python").map(|value| String::from_utf8_lossy(value).into_owned())
+    };
+    let chosen = chosen.filter(|program| !program.trim().is_empty());
+    let chosen = chosen.or_else(|| named().filter(|program| !program.trim().is_empty()));
+    chosen.unwrap_or_else(|| default_interpreter(&scene_folders(sim, script)))
+}
+
+/// The Python of a virtual environment in one of the folders, or that of the system.
+pub(super) fn default_interpreter(folders: &[PathBuf]) -> String {
+    environment_beside(folders).unwrap_or_else(|| "python3".into())
+}
+
+/// The Python of a virtual environment in one of the folders.
+fn environment_beside(folders: &[PathBuf]) -> Option<String> {
+    let candidates = folders.iter().flat_map(|folder| VIRTUAL_ENVIRONMENTS.map(|python| folder.join(python)));
+    candidates.filter(|python| python.is_file()).find_map(|python| python.to_str().map(str::to_owned))
+}
+
+/// The folders of the script's file and of the scene, then those in which scripts find their modules.
+pub(super) fn scene_folders(sim: &Sim, script: &Script) -> Vec<PathBuf> {
+    let files = [script.file.borrow().clone().unwrap_or_default(), sim.scene_path()];
+    let folder = |file: &String| Some(Path::new(file).parent()?.to_owned());
+    let folders = files.iter().filter_map(folder).filter(|folder| folder != Path::new(""));
+    let mut all: Vec<PathBuf> = Vec::new();
+    for folder in folders.chain(sim.options.package_dirs.iter().cloned()) {
+        let folder = std::path::absolute(&folder).unwrap_or(folder);
+        if !all.contains(&folder) {
+            all.push(folder);
+        }
+    }
+    all
+}
+
+/// Starts a process without a script.
+///
+/// # Errors
+/// When programs must not be started, or there is no such interpreter.
+pub(super) fn start(sim: &Sim, interpreter: &str) -> Result<PeerProcess, LaunchError> {
+    sim.options.permissions.check_run(interpreter)?;
+    let path = Path::new(interpreter);
+    let mut words = interpreter.split_whitespace();
+    // A path may contain blanks.
+    let program = if path.is_file() { interpreter } else { words.next().unwrap_or(interpreter) };
+    let mut args: Vec<&str> = if path.is_file() { Vec::new() } else { words.collect() };
+    args.extend(["-c", GUARDIAN]);
+    let failed = |reason| LaunchError::NotStarted { program: interpreter.to_owned(), reason };
+    let mut process = PeerProcess::start(program, &args, None).map_err(failed)?;
+    // One that has ended already is noticed when it is to load the script.
+    let _ = process.send(&modules());
+    Ok(process)
+}
+
+fn modules() -> Vec<u8> {
+    let mut message = Encoder::default();
+    let modules = MODULES.map(|(name, text)| Data::Array(vec![Data::text(name), Data::text(text)]));
+    message.list(&modules);
+    message.into_bytes()
+}

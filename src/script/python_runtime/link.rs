@@ -1,0 +1,207 @@
+//! The connection of a script to its process: whose turn it is, and what waits for it.
+
+use std::cell::{Cell, RefCell};
+use std::collections::VecDeque;
+use std::process::ExitStatus;
+use std::time::Duration;
+
+use super::message::Message;
+use crate::io::{PeerError, PeerProcess};
+use crate::scene::Data;
+use crate::script::calls::callback::SysCall;
+use crate::script::error::ApiError;
+use crate::script::lifecycle::env::Env;
+use crate::script::log::console::Stream;
+use crate::script::log::verbosity;
+use crate::script::runtime::ScriptError;
+use crate::script::step::wall_clock;
+
+/// How often a wait looks whether the program is to end.
+const TICK: Duration = Duration::from_millis(20);
+/// A script that calls without end is looked at after so many messages.
+const LOOK_AFTER: u64 = 4096;
+/// Bytes that a script may print in one call.
+const MAX_PRINTED: usize = 64 << 20;
+/// A process whose connection is closed has this time to end.
+const END_LIMIT: Duration = Duration::from_millis(500);
+/// Callbacks that wait for a busy thread.
+const MAX_QUEUED: usize = 1000;
+
+/// The connection; a state of the script.
+#[derive(Default)]
+pub(super) struct Link {
+    process: RefCell<Option<PeerProcess>>,
+    /// The thread of the script is running: the process has the turn, and nobody waits for it.
+    pub busy: Cell<bool>,
+    /// What the running thread has said, and nobody has looked at.
+    pub early: RefCell<Option<Message>>,
+    /// Callbacks to run when the running thread speaks.
+    queued: RefCell<VecDeque<(SysCall, Vec<Data>)>>,
+    pub thread_started: Cell<bool>,
+    /// The thread has spoken or was answered since the simulator last waited for it in vain.
+    pub thread_active: Cell<bool>,
+    received: Cell<u64>,
+    /// The error of the thread, for the hook that resumed it.
+    pub failure: RefCell<Option<ScriptError>>,
+}
+
+impl Link {
+    pub(super) fn open(&self, process: PeerProcess) {
+        self.process.replace(Some(process));
+    }
+
+    pub(super) fn is_open(&self) -> bool {
+        self.process.borrow().is_some()
+    }
+
+    /// Ends the process, which may write its files before.
+    pub(super) fn close(&self) {
+        drop(self.process.take());
+    }
+
+    /// Ends the process, which has no more time.
+    pub(super) fn kill(&self) {
+        if let Some(mut process) = self.process.take() {
+            process.kill();
+        }
+    }
+
+    pub(super) fn queue(&self, call: SysCall, args: &[Data]) {
+        let mut queued = self.queued.borrow_mut();
+        if queued.len() < MAX_QUEUED {
+            queued.push_back((call, args.to_vec()));
+        }
+    }
+
+    pub(super) fn next_queued(&self) -> Option<(SysCall, Vec<Data>)> {
+        self.queued.borrow_mut().pop_front()
+    }
+
+    /// Sends a message.
+    ///
+    /// # Errors
+    /// When the process has ended.
+    pub(super) fn send(&self, message: &[u8]) -> Result<(), ScriptError> {
+        let sent = match &mut *self.process.borrow_mut() {
+            Some(process) => process.send(message),
+            None => Err(PeerError::Closed),
+        };
+        sent.map_err(|error| self.ended(&error))
+    }
+
+    /// The next message that is no output; None when there is none within `limit`. Output is shown.
+    ///
+    /// # Errors
+    /// When the process has ended, or the program is to end.
+    pub(super) fn receive(&self, env: &Env, limit: Option<Duration>) -> Result<Option<Message>, ScriptError> {
+        let mut printed = 0;
+        let mut begun = None;
+        self.received.set(self.received.get() + 1);
+        if self.received.get().is_multiple_of(LOOK_AFTER) {
+            self.check_interruption(env)?;
+        }
+        loop {
+            let wait = limit.map_or(TICK, |limit| limit.min(TICK));
+            if let Some(message) = self.next_message(wait)? {
+                let Some(message) = self.show(env, message, &mut printed)? else { continue };
+                self.show_rest(env);
+                return Ok(Some(message));
+            }
+            let begun = *begun.get_or_insert_with(wall_clock::now);
+            if limit.is_some_and(|limit| begun.elapsed() + wait >= limit) {
+                return Ok(None);
+            }
+            self.check_interruption(env)?;
+        }
+    }
+
+    fn next_message(&self, limit: Duration) -> Result<Option<Message>, ScriptError> {
+        let received = match &mut *self.process.borrow_mut() {
+            Some(process) => process.receive(limit),
+            None => Err(PeerError::Closed),
+        };
+        let Some(bytes) = received.map_err(|error| self.ended(&error))? else { return Ok(None) };
+        let message = Message::decode(&bytes).map_err(|error| {
+            self.kill();
+            ScriptError::new(format!("the Python process of this script sent what cannot be read: {error}"))
+        })?;
+        Ok(Some(message))
+    }
+
+    /// Shows output; another message comes back.
+    fn show(&self, env: &Env, message: Message, printed: &mut usize) -> Result<Option<Message>, ScriptError> {
+        let Some(sim) = env.sim.upgrade() else { return Ok(Some(message)) };
+        let (Message::Print(text) | Message::Write(_, text)) = &message else { return Ok(Some(message)) };
+        *printed = printed.saturating_add(text.len() + 1);
+        if *printed > MAX_PRINTED {
+            self.kill();
+            return Err(ScriptError::new("the Python process of this script wrote more than 64 MiB in one call."));
+        }
+        let time = sim.clock.time();
+        match &message {
+            Message::Write(stream, text) => {
+                let stream = if *stream == 2 { Stream::Error } else { Stream::Output };
+                sim.log.write(text, stream, time);
+            }
+            _ => sim.log.print(text, time, env.script.id, || env.script.log_name(&sim.scene.borrow())),
+        }
+        self.check_interruption(env)?;
+        Ok(None)
+    }
+
+    /// Logs what the process and programs it started wrote past the script's own output.
+    fn show_rest(&self, env: &Env) {
+        let (text, lost) = self.process.borrow().as_ref().map(PeerProcess::take_output).unwrap_or_default();
+        if text.is_empty() {
+            return;
+        }
+        let text = String::from_utf8_lossy(&text);
+        text.lines().for_each(|line| env.log(verbosity::SCRIPT_INFOS, line));
+        if lost > 0 {
+            env.log(verbosity::SCRIPT_WARNINGS, &format!("{lost} more bytes of output, which came too fast."));
+        }
+    }
+
+    fn check_interruption(&self, env: &Env) -> Result<(), ScriptError> {
+        let interruption = env.interruption(|| "in a script in Python".into());
+        let is_interrupted = || env.sim.upgrade().is_some_and(|sim| sim.is_interrupted());
+        match interruption {
+            Some(text) => {
+                self.kill();
+                Err(ScriptError::new(text))
+            }
+            None if is_interrupted() => {
+                self.kill();
+                Err(ApiError::Interrupted.into())
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Why the process is not there any more.
+    fn ended(&self, error: &PeerError) -> ScriptError {
+        let Some(mut process) = self.process.take() else {
+            return ScriptError::new("the Python process of this script has ended.");
+        };
+        let status = process.wait_for_end(END_LIMIT);
+        let reason = match (error, status) {
+            (_, Some(status)) => exit_text(status),
+            (PeerError::Closed, None) => "it closed its connection".to_owned(),
+            (error, None) => error.to_string(),
+        };
+        // Only a process that has ended says no more.
+        let output = if status.is_some() { process.last_output() } else { process.take_output().0 };
+        let output = String::from_utf8_lossy(&output);
+        let text = format!("the Python process of this script has ended: {reason}.\n{}", output.trim_end());
+        ScriptError::new(text.trim_end())
+    }
+}
+
+/// How a process ended; its guardian reports a signal as shells do.
+fn exit_text(status: ExitStatus) -> String {
+    match status.code() {
+        Some(code) if code > 128 => format!("signal {}", code - 128),
+        Some(code) => format!("exit status {code}"),
+        None => "it was killed".into(),
+    }
+}
