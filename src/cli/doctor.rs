@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use super::{refuse, say};
+use super::{python_uses, refuse, say};
 use crate::docs::{self, Support, Use};
 use crate::format::{scene_file, script_file};
 use crate::permissions::read_bounded;
@@ -13,12 +13,12 @@ use crate::permissions::read_bounded;
 const NOT_ALL_WORKS: u8 = 1;
 
 /// File name endings to look for in folders.
-const ENDINGS: [&str; 5] = [".lua", ".ttt", ".ttm", ".simscene.xml", ".simmodel.xml"];
+const ENDINGS: [&str; 6] = [".lua", ".py", ".ttt", ".ttm", ".simscene.xml", ".simmodel.xml"];
 
 /// Report which API calls in scripts and scenes are supported, approximated or missing
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Lua files, CoppeliaSim scenes and models, or folders of them
+    /// Scripts in Lua and Python, CoppeliaSim scenes and models, or folders of them
     #[arg(required = true)]
     paths: Vec<PathBuf>,
     /// Check Lua files as converted by --compat
@@ -96,18 +96,19 @@ impl Report {
         if scene_file::is_scene(&bytes) && script_file::check_no_robot(path).is_ok() {
             let file = super::files::scene(path)?;
             for script in file.scripts() {
-                self.add(format!("{name}: {}", script.name), &script.language, &script.code);
+                self.add(format!("{name}: {}", script.name), path, &script.language, &script.code);
             }
         } else {
             script_file::check(path, &bytes).map_err(|reason| unreadable(reason.to_string()))?;
-            let code = if compat { scene_file::with_compat(bytes) } else { bytes };
-            self.add(name, "lua", &code);
+            let language = script_file::language(Some(path), &bytes);
+            let code = if compat && language == "lua" { scene_file::with_compat(bytes) } else { bytes };
+            self.add(name, path, language, &code);
         }
         Ok(())
     }
 
-    fn add(&mut self, name: String, language: &str, code: &[u8]) {
-        let uses = if language == "lua" { docs::uses(code) } else { docs::foreign_script(language) };
+    fn add(&mut self, name: String, file: &Path, language: &str, code: &[u8]) {
+        let uses = uses_of(file, language, code);
         self.scripts.push(Patient { name, uses });
     }
 
@@ -146,6 +147,15 @@ impl Report {
             "summary": {"works": works, "approximated": approximated, "missing": missing},
         });
         format!("{report}\n")
+    }
+}
+
+/// What a script uses, which is from `file`.
+pub(super) fn uses_of(file: &Path, language: &str, code: &[u8]) -> Vec<Use> {
+    match language {
+        "lua" => docs::uses(code),
+        "python" => python_uses::uses(code, file).unwrap_or_else(|reason| docs::unreadable_script(&reason)),
+        _ => docs::foreign_script(language),
     }
 }
 

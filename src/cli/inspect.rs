@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use super::doctor::uses_of;
 use super::{files, refuse, say};
-use crate::docs::{self, Support};
+use crate::docs::Support;
 use crate::format::scene_file::{SceneFile, ScriptCode};
 use crate::format::scene_outline::{Item, Outline};
 
@@ -57,10 +58,7 @@ impl Report {
     fn new(args: &Args) -> Result<Self, String> {
         let file = files::scene(&args.file)?;
         let scripts = file.scripts();
-        let uses = scripts.iter().flat_map(|script| match script.language.as_str() {
-            "lua" => docs::uses(&script.code),
-            other => docs::foreign_script(other),
-        });
+        let uses = scripts.iter().flat_map(|script| uses_of(&args.file, &script.language, &script.code));
         let needs = uses.map(|found| (found.name, found.support)).collect();
         let skipped = file.file().skipped.iter();
         let skipped = skipped.map(|skip| format!("{} ({} bytes)", skip.path, skip.size)).collect();

@@ -29,7 +29,7 @@ pub use approximated::difference;
 pub use markdown::function_text;
 pub use overview::with_overview;
 pub use row::{Function, Parameter, Returned};
-pub use usage::{Support, Use, foreign_script, uses};
+pub use usage::{Support, Use, foreign_script, unreadable_script, use_of_member, use_of_module, uses};
 
 /// Where the editor stubs are kept in the repository.
 pub const STUBS: &str = "docs/stubs";

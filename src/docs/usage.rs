@@ -120,13 +120,36 @@ fn runs_code(function: &str) -> bool {
         || ["load", "loadstring"].contains(&function)
 }
 
-/// Uses of a script in another language: that language, which is missing.
+/// Uses of a script in an unknown language: that language, which is missing.
 pub fn foreign_script(language: &str) -> Vec<Use> {
-    let name = match language {
-        "python" => "Python".to_owned(),
-        other => other.to_owned(),
+    missing_script(format!("scripts in {language}"))
+}
+
+/// Uses of a script that cannot be read, for that reason.
+pub fn unreadable_script(reason: &str) -> Vec<Use> {
+    missing_script(format!("a script that cannot be read ({reason})"))
+}
+
+fn missing_script(name: String) -> Vec<Use> {
+    vec![Use { name, written: None, line: 1, support: Support::Missing }]
+}
+
+/// Functions that only scripts in Python have.
+const OF_PYTHON: [&str; 2] = ["testCB", "protectedCalls"];
+
+/// The use of a member of a module in a script in Python; None for what is no function of CoppeliaSim's.
+pub fn use_of_member(module: &str, member: &str, line: usize, is_call: bool) -> Option<Use> {
+    let support = match module {
+        "sim" if OF_PYTHON.contains(&member) => Support::Works,
+        "sim" => of_sim(member)?,
+        _ => of_module(module, member, is_call)?,
     };
-    vec![Use { name: format!("scripts in {name}"), written: None, line: 1, support: Support::Missing }]
+    Some(Use { name: format!("{module}.{member}"), written: None, line, support })
+}
+
+/// The use of a module in a script in Python; None if it works, or is not CoppeliaSim's.
+pub fn use_of_module(module: &str, line: usize) -> Option<Use> {
+    required(module, line)
 }
 
 /// The meaning of the names in one file.
