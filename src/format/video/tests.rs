@@ -111,7 +111,7 @@ fn wrong_names_are_errors() {
 #[test]
 fn ffmpeg_makes_other_files() {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.mp4");
+    let path = folder.path().join("a.mkv");
     let result = write(&path, 25.0);
     let is_there = Command::new(PROGRAM).arg("-version").output().is_ok();
     match result {
