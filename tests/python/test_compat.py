@@ -75,13 +75,11 @@ def test_callbacks(client):
     sim.setStepping(True)
     seen = []
 
-    def callback(data):
-        seen.append(data["pos"][0])
+    def callback(position, velocity, acceleration, data):
+        seen.append(position[0])
 
     sim.startSimulation()
-    sim.moveToConfig(
-        {"pos": [0.0], "targetPos": [0.1], "maxVel": [1.0], "maxAccel": [1.0], "maxJerk": [10.0], "callback": callback}
-    )
+    sim.moveToConfig(-1, [0.0], [0.0], [0.0], [1.0], [1.0], [10.0], [0.1], [0.0], callback)
     assert seen[-1] == pytest.approx(0.1)
 
 

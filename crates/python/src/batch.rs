@@ -39,7 +39,7 @@ impl Batch {
         timeout: f64,
         unsafe_functions: bool,
     ) -> PyResult<Self> {
-        if !(timeout >= 0.0 && timeout <= 1e9) || time.is_some_and(|time| !(time >= 0.0)) {
+        if !(0.0..=1e9).contains(&timeout) || time.is_some_and(|time| time.is_nan() || time < 0.0) {
             return Err(PyValueError::new_err("time and timeout are numbers of seconds, zero or more"));
         }
         let batch = batch::Batch { scene, seeds, sweeps, fixed, time };

@@ -99,9 +99,7 @@ impl Function {
         } else {
             self.call_detached(py, &args)
         };
-        if let Err(exception) = world.raise() {
-            return Err(exception);
-        }
+        world.raise()?;
         convert::results(py, results?)
     }
 
