@@ -1,5 +1,7 @@
 //! Scripts in Python: what those of `python/cases` print, and what becomes of their processes.
 
+#![allow(clippy::disallowed_methods, reason = "tests look at the environment, and every wait is bounded by the clock")]
+
 mod support;
 
 use std::fs;
