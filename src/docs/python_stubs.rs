@@ -206,7 +206,7 @@ mod tests {
         let known: fn(&Function) -> bool = |function| function.name == "sim.getObjectPosition";
         assert!(super::functions().iter().any(known));
         assert!(text.contains(
-            "def getObjectPosition(self, objectHandle: int, relativeTo: int | None = ..., /) -> list[float]:"
+            "def getObjectPosition(self, objectHandle: int, relativeToObjectHandle: int | None = ..., /) -> list[float]:"
         ));
         assert!(text.contains("Literal[\"simUI\"]") && text.contains("    handle_world: int\n"));
     }

@@ -167,6 +167,11 @@ impl Matrix {
         true
     }
 
+    /// Whether it is a Cholesky factor, with which systems can be solved.
+    pub(crate) fn is_factor(&self) -> bool {
+        self.reciprocals.len() == self.diagonal.len()
+    }
+
     /// Solves the lower triangular system of the factor for six right-hand sides at once; None stands for zeros.
     pub(crate) fn carry(&self, pattern: &Pattern, x: &mut [Option<Block>]) {
         for column in 0..pattern.columns.len() {

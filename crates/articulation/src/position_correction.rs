@@ -49,7 +49,7 @@ impl Mechanism {
         let mut is_current = false;
         let begin = (largest > WIDE && self.has_loops()).then(|| (largest, self.placements()));
         for _ in 0..ITERATIONS {
-            if largest < CLOSED || !largest.is_finite() {
+            if largest < CLOSED || !largest.is_finite() || !self.matrix.is_factor() {
                 break;
             }
             let placements = self.placements();
