@@ -38,6 +38,8 @@ struct Client {
     last: Option<(i32, i32)>,
     /// Whether its commands have not been executed yet.
     is_waiting: bool,
+    /// Whether a batch is being executed.
+    is_executing: bool,
     pending: Pending,
     splits: Vec<Split>,
     /// Results as bytes.
@@ -73,7 +75,8 @@ pub(crate) struct Received {
 /// Commands to be executed, and their results so far.
 pub(crate) struct Batch {
     connection: u64,
-    stamp: Stamp,
+    /// Of the reply that fetches the results.
+    head: ReplyHead,
     pub order: Order,
     jobs: VecDeque<Job>,
     answers: Vec<(Job, Answer)>,
@@ -181,7 +184,7 @@ impl Session {
 
     /// Whether the commands of the last message have not been executed yet, though they could be.
     pub(crate) fn is_waiting(&self) -> bool {
-        self.client.is_waiting && self.is_ready()
+        self.client.is_executing || self.client.is_waiting && self.is_ready()
     }
 
     /// Takes a message of the client; `now` is in milliseconds.
@@ -231,14 +234,18 @@ impl Session {
         if !client.outbox.is_empty() {
             return None;
         }
-        self.head.stamp = stamp;
-        (self.head.id, self.head.client_time) = client.last?;
+        let (id, client_time) = client.last?;
+        let head = ReplyHead { id, client_time, stamp };
         client.is_waiting = false;
         let is_sent = |place| client.splits.iter().all(|split| split.place != place);
         let jobs = client.pending.take_due(stamp.system_time, is_sent);
         let (connection, order) = (self.connections, client.order);
-        let batch = Batch { connection, stamp, order, jobs: jobs.into(), answers: Vec::new(), size: 0 };
-        (!batch.jobs.is_empty()).then_some(batch)
+        if jobs.is_empty() {
+            self.head = head;
+            return None;
+        }
+        client.is_executing = true;
+        Some(Batch { connection, head, order, jobs: jobs.into(), answers: Vec::new(), size: 0 })
     }
 
     /// Takes the results of commands. Those of a client that is gone are dropped.
@@ -246,6 +253,9 @@ impl Session {
         if self.connection() != Some(batch.connection) {
             return;
         }
+        self.client.is_executing = false;
+        // Not before: a reply in between would carry the id without the results, and the client would wait for ever.
+        self.head = batch.head;
         let mut writer = Writer::new(batch.order);
         for (job, answer) in batch.answers {
             if answer.ends_stream {
@@ -255,7 +265,7 @@ impl Session {
                 let identity = job.command.identity();
                 self.client.splits.retain(|split| split.command.identity() != identity);
             }
-            self.client.add_result(job, answer, batch.stamp.simulation_time, &mut writer);
+            self.client.add_result(job, answer, batch.head.stamp.simulation_time, &mut writer);
         }
         self.client.outbox = writer.into_bytes();
     }
@@ -276,5 +286,38 @@ impl Client {
         } else {
             ReplyPiece { command: &command, failed, time, offset: 0, full: data.len(), data: &data }.write(writer);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Message 5 with one blocking command, which reads a handle by the name `a`.
+    fn message() -> Vec<u8> {
+        let size = 28_i32.to_le_bytes();
+        let head = [&[0, 0, 11][..], &5_i32.to_le_bytes(), &[0; 11]].concat();
+        let mode = (1 << 16 | 0x3001_i32).to_le_bytes();
+        [&head[..], &size, &size, &2_i16.to_le_bytes(), &[0; 4], &mode, &[0; 8], b"a\0"].concat()
+    }
+
+    fn id(reply: &[u8]) -> i32 {
+        i32::from_le_bytes(reply[3..7].try_into().expect("four bytes"))
+    }
+
+    #[test]
+    fn the_id_of_a_message_comes_with_its_results() {
+        let mut session = Session::new(false);
+        session.connect("127.0.0.1".into());
+        let received = session.receive(&message(), Order::default(), 0).expect("it is a message");
+        assert!(received.is_waiting);
+        let mut batch = session.due(Stamp::default()).expect("a command is due");
+        assert!(session.is_waiting(), "it is being executed");
+        assert_eq!(id(&session.reply(0)), -1);
+        batch.answer(Answer { data: vec![1, 2, 3, 4], ..Answer::default() });
+        session.complete(batch);
+        assert!(!session.is_waiting());
+        assert_eq!(id(&session.reply(0)), 5);
+        assert_eq!(id(&session.reply(0)), -1);
     }
 }
