@@ -13,6 +13,10 @@ use rendering::{
 fn bumpy_ball(rings: usize) -> Mesh {
     let sectors = 2 * rings;
     let point = |ring: usize, sector: usize| {
+        // A pole is one point, so that the surface is closed.
+        if ring == 0 || ring == rings {
+            return [0.0, 0.0, if ring == 0 { 0.5 } else { -0.5 }];
+        }
         let polar = std::f64::consts::PI * ring as f64 / rings as f64;
         let around = std::f64::consts::TAU * (sector % sectors) as f64 / sectors as f64;
         let radius = 0.5 + 0.05 * (5.0 * polar).sin() * (6.0 * around).sin();

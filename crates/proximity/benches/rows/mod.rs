@@ -20,8 +20,13 @@ criterion_group!(group, meshes, boxes, build);
 const SIZES: [(&str, usize); 2] = [("20k", 20_000), ("200k", 200_000)];
 const EVERYWHERE: f64 = f64::INFINITY;
 
-fn mesh(triangles: usize) -> TriangleMesh {
-    let (vertices, indices) = models::ball(triangles);
+/// Bumps of the ball, metres. Many triangles are almost equally near to what is outside, which is the hardest case for distances.
+const BUMPS: f64 = 0.01;
+/// Those of a ball with clear summits.
+const SUMMITS: f64 = 0.05;
+
+fn mesh(triangles: usize, bumps: f64) -> TriangleMesh {
+    let (vertices, indices) = models::ball(triangles, bumps);
     TriangleMesh::new(&vertices, &indices).expect("triangles with area")
 }
 
@@ -31,11 +36,12 @@ fn at(mesh: &TriangleMesh, pose: Pose) -> Placed<'_> {
 
 fn meshes(criterion: &mut Criterion) {
     for (name, triangles) in SIZES {
-        let ball = mesh(triangles);
+        let ball = mesh(triangles, BUMPS);
         sensors(criterion, name, &ball);
         distances(criterion, name, &ball);
         collisions(criterion, name, &ball);
         parry::rows(criterion, name, triangles);
+        distance_to_summits(criterion, name, triangles);
     }
 }
 
@@ -63,6 +69,18 @@ fn distances(criterion: &mut Criterion, name: &str, ball: &TriangleMesh) {
             });
         }
     }
+}
+
+fn distance_to_summits(criterion: &mut Criterion, name: &str, triangles: usize) {
+    let (ball, cuboid, mut poses) = (mesh(triangles, SUMMITS), models::cuboid([0.1; 3]), Poses::apart(0.6));
+    criterion.bench_function(&format!("{name}/distance of summits to box"), |bench| {
+        bench.iter(|| distance(at(&ball, Pose::identity()), at(&cuboid, poses.next()), black_box(EVERYWHERE)));
+    });
+    parry::distance_to_box(
+        criterion,
+        &format!("{name}/parry, distance of summits to box"),
+        &parry::mesh(triangles, SUMMITS),
+    );
 }
 
 fn collisions(criterion: &mut Criterion, name: &str, ball: &TriangleMesh) {
@@ -124,7 +142,7 @@ fn nearest_box(index: &BoundsTree, cuboid: &TriangleMesh, poses: &[Pose], sensor
 }
 
 fn build(criterion: &mut Criterion) {
-    let (vertices, indices) = models::ball(200_000);
+    let (vertices, indices) = models::ball(200_000, BUMPS);
     let mut group = criterion.benchmark_group("200k");
     group.sample_size(10);
     group.bench_function("build", |bench| bench.iter(|| TriangleMesh::new(&vertices, &indices)));

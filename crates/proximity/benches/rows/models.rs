@@ -7,13 +7,13 @@ use geometry::{Pose, PrimitiveKind};
 use nalgebra::{UnitQuaternion, Vector3};
 use proximity::{TriangleMesh, Volume};
 
-/// Vertices and triangles of a ball of diameter 1 m with bumps of up to 1 cm, of about so many triangles.
-pub fn ball(triangles: usize) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+/// Vertices and triangles of a ball of diameter 1 m with bumps of up to `bumps` metres, of about so many triangles.
+pub fn ball(triangles: usize, bumps: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let rings = ((triangles as f64) / 4.0).sqrt() as u32;
     let sides = 2 * rings;
     let place = |ring: u32, side: u32| {
         let (theta, phi) = (PI * f64::from(ring) / f64::from(rings), TAU * f64::from(side) / f64::from(sides));
-        let radius = 0.49 + 0.01 * (9.0 * theta).sin() * (7.0 * phi).cos();
+        let radius = 0.5 - bumps + bumps * (9.0 * theta).sin() * (7.0 * phi).cos();
         [radius * theta.sin() * phi.cos(), radius * theta.sin() * phi.sin(), radius * theta.cos()]
     };
     let vertices = (0..=rings).flat_map(|ring| (0..sides).map(move |side| place(ring, side))).collect();

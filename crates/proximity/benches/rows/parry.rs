@@ -9,7 +9,7 @@ use parry3d_f64::shape::{Cuboid, TriMesh};
 use super::models::{self, Poses};
 
 pub fn rows(criterion: &mut Criterion, name: &str, triangles: usize) {
-    let ball = mesh(triangles);
+    let ball = mesh(triangles, super::BUMPS);
     let mut poses = Poses::around(1.0);
     criterion.bench_function(&format!("{name}/parry, ray"), |bench| {
         bench.iter(|| {
@@ -18,11 +18,7 @@ pub fn rows(criterion: &mut Criterion, name: &str, triangles: usize) {
             ball.cast_local_ray_and_get_normal(&ray, 5.0, false)
         });
     });
-    let cuboid = Cuboid::new(Vector::splat(0.05));
-    let mut poses = Poses::apart(0.6);
-    criterion.bench_function(&format!("{name}/parry, distance to box"), |bench| {
-        bench.iter(|| query::distance(&Isometry::IDENTITY, &ball, &converted(&poses.next()), &cuboid));
-    });
+    distance_to_box(criterion, &format!("{name}/parry, distance to box"), &ball);
     for (kind, gap) in [("near miss", 1.02), ("overlap", 0.6)] {
         let mut poses = Poses::apart_by(gap);
         criterion.bench_function(&format!("{name}/parry, collision, {kind}"), |bench| {
@@ -35,12 +31,20 @@ pub fn rows(criterion: &mut Criterion, name: &str, triangles: usize) {
     group.bench_function("parry, distance to mesh", |bench| {
         bench.iter(|| query::distance(&Isometry::IDENTITY, &ball, &converted(&poses.next()), &ball));
     });
-    group.bench_function("parry, build", |bench| bench.iter(|| mesh(triangles)));
+    group.bench_function("parry, build", |bench| bench.iter(|| mesh(triangles, super::BUMPS)));
     group.finish();
 }
 
-fn mesh(triangles: usize) -> TriMesh {
-    let (vertices, indices) = models::ball(triangles);
+/// The distance to a box that lies in another place each time.
+pub fn distance_to_box(criterion: &mut Criterion, name: &str, ball: &TriMesh) {
+    let (cuboid, mut poses) = (Cuboid::new(Vector::splat(0.05)), Poses::apart(0.6));
+    criterion.bench_function(name, |bench| {
+        bench.iter(|| query::distance(&Isometry::IDENTITY, ball, &converted(&poses.next()), &cuboid));
+    });
+}
+
+pub fn mesh(triangles: usize, bumps: f64) -> TriMesh {
+    let (vertices, indices) = models::ball(triangles, bumps);
     let vertices = vertices.into_iter().map(|[x, y, z]| Vector::new(x, y, z)).collect();
     TriMesh::new(vertices, indices).expect("indices within range")
 }
