@@ -140,6 +140,24 @@ def windows_of_scripts_are_forms(browser):
     browser.shows("document.querySelector('.window .ui-label strong')?.textContent == 'pressed'", "the handler")
 
 
+QML = """simQML = require 'simQML'
+engine = simQML.createEngine()
+simQML.setEventHandler(engine, 'received')
+function received(engine, name, data) print('event ' .. name .. ' ' .. tostring(data.speed)) end
+simQML.loadData(engine, 'Window { title: "Dials"; Text { text: "<b>QML</b>" } }')"""
+
+
+def interfaces_in_qml_show_their_source(browser, sim):
+    browser.evaluate(f"swanilda.source.request('run', {{code: {json.dumps(QML)}}})")
+    own = "[...document.querySelectorAll('.window')].find(window => window.querySelector('h2').textContent == 'Dials')"
+    browser.shows(f"{own}?.textContent.includes('Text {{ text: \"<b>QML</b>\" }}')", "the source")
+    same("the notice", browser.evaluate(f"{own}.textContent.includes('QML is not drawn here')"), True)
+    write = "(field, text) => { field.value = text; field.dispatchEvent(new Event('input')); field.dispatchEvent(new Event('change')) }"
+    browser.evaluate(f"(([name, data]) => {{ const write = {write}; write(name, 'turned'); write(data, '{{\"speed\": 3}}') }})([...{own}.querySelectorAll('input')])")
+    browser.evaluate(f"{own}.querySelector('.ui-button').click()")
+    sim.printed("event turned 3")
+
+
 def texts_stay_texts(browser):
     lines = "[...document.querySelectorAll('.console-lines .text')].map(text => text.textContent)"
     same("a printed text", browser.evaluate(f"{lines}.includes('<img src=x onerror=hacked=1>')"), True)
@@ -157,6 +175,15 @@ def keys_work(browser):
     tree = "document.getElementById('tree')"
     browser.evaluate(f"{tree}.focus(); {tree}.dispatchEvent(new KeyboardEvent('keydown', {{key: 'Home'}}))")
     browser.shows(f"{tree}.getAttribute('aria-activedescendant')", "the tree's row")
+
+
+def panels_close_where_a_window_is_made_narrow(browser):
+    panels = "['side', 'console'].map(name => document.getElementById(name).hidden).join()"
+    same("wide", browser.evaluate(panels), "false,false")
+    browser.command("Emulation.setDeviceMetricsOverride", width=360, height=640, deviceScaleFactor=1, mobile=True)
+    browser.shows(f"{panels} == 'true,true'", "the scene alone")
+    browser.command("Emulation.setDeviceMetricsOverride", width=1000, height=700, deviceScaleFactor=1, mobile=False)
+    browser.shows(f"{panels} == 'false,false'", "the panels")
 
 
 def fits_small_screens(browser):
@@ -212,9 +239,11 @@ def main():
         steps_plays_and_stops(browser)
         console_filters(browser)
         windows_of_scripts_are_forms(browser)
+        interfaces_in_qml_show_their_source(browser, sim)
         texts_stay_texts(browser)
         keys_work(browser)
         is_accessible(browser)
+        panels_close_where_a_window_is_made_narrow(browser)
         fits_small_screens(browser)
         console_has_no_errors(browser)
         notices_the_end(browser, sim)

@@ -16,7 +16,9 @@ export class Layout {
     this.dark = matchMedia('(prefers-color-scheme: dark)');
     this.dark.addEventListener('change', () => this._applyTheme());
     this._applyTheme();
-    for (const name of ['side', 'console']) this.show(name, innerWidth >= NARROW && setting(`panel ${name}`, true), false);
+    this._fit();
+    this.narrow = matchMedia(`(max-width: ${NARROW - 0.02}px)`);
+    this.narrow.addEventListener('change', () => this._fit());
     this._split();
     page.store.on('objects', () => this._cameras());
   }
@@ -27,6 +29,11 @@ export class Layout {
     this.app.classList.toggle(`with-${name}`, shown);
     this.buttons.get(name)?.setAttribute('aria-pressed', String(shown));
     if (kept && innerWidth >= NARROW) remember(`panel ${name}`, shown);
+  }
+
+  /** Panels as they are at first at this width: also when a window is made narrow or a phone is turned. */
+  _fit() {
+    for (const name of ['side', 'console']) this.show(name, innerWidth >= NARROW && setting(`panel ${name}`, true), false);
   }
 
   toggleTheme() {
