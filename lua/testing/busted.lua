@@ -17,6 +17,7 @@ A file that loads neither `sim` nor `swanilda.test` runs as in busted: in one Lu
 gets a simulator of its own, in which the file is loaded anew, so that setup and teardown run for each test.
 ]]
 
+local _, compiled = ... -- the file as the runner keeps it
 local assert, failures = require('luassert'), require('luassert.failure')
 local spy, stub, mock, match = require('luassert.spy'), require('luassert.stub'), require('luassert.mock'), require('luassert.match')
 
@@ -28,7 +29,9 @@ local PENDING = {} -- the metatable of the value that ends a pending test
 
 local root -- the group that is the file
 local group -- the group being filled
-local tests -- all tests in order
+local tests -- all tests by their number
+local count -- how many there are
+local wanted -- the number of the only one that will run; nil: all may
 local path -- the file
 local open -- groups whose setup has run, outermost first
 local final -- what `finally` was given by the running test
@@ -55,8 +58,15 @@ local function names(owner, name)
     return list
 end
 
+-- Whether the next test may run. All others are counted only: a file has its tests loaded as often as it has tests.
+local function isWanted()
+    if not wanted or count + 1 == wanted then return true end
+    count = count + 1
+end
+
 local function addTest(name, body, line, reason)
-    tests[#tests + 1] = { name = name, body = body, group = group, line = line or -1, pending = reason }
+    count = count + 1
+    tests[count] = { name = name, body = body, group = group, line = line or -1, pending = reason }
 end
 
 local function describe(name, block)
@@ -67,7 +77,7 @@ local function describe(name, block)
     if not ok then
         -- What is wrong with a group is told as a test of its own.
         group = inner
-        addTest('(group)', function() error(message, 0) end, line)
+        if isWanted() then addTest('(group)', function() error(message, 0) end, line) end
     end
     group = outer
     return inner
@@ -84,6 +94,7 @@ local function expose(name, block)
 end
 
 local function it(name, body)
+    if not isWanted() then return end
     local line = currentLine()
     if body == nil then return addTest(tostring(name), nil, line, 'not written yet') end
     addTest(tostring(name), body, line)
@@ -92,6 +103,7 @@ end
 -- Between tests it announces one; within a test it ends it.
 local function pending(name, body)
     if open then error(setmetatable({ reason = tostring(name or 'pending') }, PENDING), 0) end
+    if not isWanted() then return end
     addTest(tostring(name), nil, currentLine(), type(body) == 'string' and body or 'pending')
 end
 
@@ -120,7 +132,9 @@ local function addPlainTests(known, environment)
         end
     end
     table.sort(found, function(a, b) return a.line < b.line or a.line == b.line and a.name < b.name end)
-    for _, test in ipairs(found) do addTest(test.name, test.body, test.line) end
+    for _, test in ipairs(found) do
+        if isWanted() then addTest(test.name, test.body, test.line) end
+    end
     if #found == 0 then return end
     for plain, kind in pairs { setup = 'before_each', teardown = 'after_each', before_each = 'before_each', after_each = 'after_each' } do
         local own = rawget(environment, plain)
@@ -134,26 +148,53 @@ local function copy(from)
     return to
 end
 
---- Loads a test file. Its tests, in order: name (the groups' names first), line, pending.
--- Returns also whether the file uses the simulator.
-function M.collect(file)
-    path, tests, open, root = file, {}, nil, newGroup('')
+-- Loads the file, for the test with that number or for all. Returns what went wrong, or nil, the chunk and its environment.
+local function loadFile(file, number)
+    path, tests, count, wanted, open, root = file, {}, 0, number, nil, newGroup('')
     group = root
     -- The sandbox has loaded it; whether the file wants it is what counts.
     _G.sim, package.loaded.sim, package.loaded['sim-1'] = nil, nil, nil
     -- The vocabulary is that of the test file; what it tests has Lua's own assert.
     local environment = setmetatable(copy(VOCABULARY), { __index = _G, __newindex = _G })
     local known = copy(_G)
-    local chunk, message = loadfile(file, 'bt', environment)
-    if not chunk then return { error = { message = message, line = tonumber(message:match(':(%d+): ')) } } end
+    local chunk, message = compiled.load(environment, number)
+    if not chunk then chunk, message = loadfile(file, 'bt', environment) end
+    if not chunk then return { message = message, line = tonumber(message:match(':(%d+): ')) } end
     local ok, failure = xpcall(chunk, M.explain)
-    if not ok then return { error = failure } end
+    if not ok then return failure end
     addPlainTests(known, environment)
+    return nil, chunk, environment
+end
+
+-- The first and the last line of each test's function, in one list; nil if the file has its own idea of what a test is.
+local function linesOfTests(environment)
+    for _, name in ipairs { 'it', 'spec', 'test' } do
+        if rawget(environment, name) ~= it then return end
+    end
+    local lines = {}
+    for i, test in ipairs(tests) do
+        local info = type(test.body) == 'function' and debug.getinfo(test.body, 'S') or { linedefined = 0, lastlinedefined = 0 }
+        lines[2 * i - 1], lines[2 * i] = info.linedefined, info.lastlinedefined
+    end
+    return lines
+end
+
+--- Loads a test file. Its tests, in order: name (the groups' names first), line, pending.
+-- Returns also whether the file uses the simulator.
+function M.collect(file)
+    local failure, chunk, environment = loadFile(file)
+    if failure then return { error = failure } end
     local list = {}
     for i, test in ipairs(tests) do
         list[i] = { name = names(test.group, test.name), line = test.line, pending = test.pending }
     end
+    compiled.keep(chunk, linesOfTests(environment))
     return { tests = list, simulates = (package.loaded.sim or package.loaded['swanilda.test']) ~= nil }
+end
+
+--- Loads a test file of which the tests are known, to run all of them or the one with that number. Returns what went wrong.
+function M.load(file, number)
+    return { error = loadFile(file, number) }
 end
 
 ---------------------------------------------------------------- running

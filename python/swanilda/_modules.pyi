@@ -116,6 +116,9 @@ class _busted:
     def it(self, name: Any | None = ..., test: Any | None = ..., /) -> Any:
         """spec, test: one test; without a function it is pending
         """
+    def load(self, file: Any | None = ..., number: Any | None = ..., /) -> Any:
+        """Loads a test file of which the tests are known, to run all of them or the one with that number. Returns what went wrong.
+        """
     def pending(self, name: Any | None = ..., /) -> Any:
         """a test to be written; inside of a test: ends it as pending
         """

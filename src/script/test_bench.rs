@@ -1,9 +1,11 @@
 //! Access of a test to its simulator, and its results for the test runner.
 
+use std::any::Any;
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::Options;
 use super::coverage::LineCounts;
@@ -140,6 +142,9 @@ pub type RunApart = fn(Options, &RunRequest) -> Result<RunReport, String>;
 /// Levels of the lines of streams, in the order of `Stream`.
 const LEVELS: [&str; 2] = ["print", "stderr"];
 
+/// What a language has made of the text of a file, which other simulators can load; only the language knows what it is.
+pub type CompiledFile = Arc<dyn Any + Send + Sync>;
+
 /// The link between a test's script and its runner.
 #[derive(Debug, Default)]
 pub struct TestBench {
@@ -149,6 +154,8 @@ pub struct TestBench {
     pub time_limit: f64,
     /// Runs scenes that the test requests.
     pub run_apart: Option<RunApart>,
+    /// The test's file, once a simulator has compiled it.
+    pub compiled: RefCell<Option<CompiledFile>>,
     pub goldens: RefCell<Vec<Golden>>,
     lines: RefCell<Vec<ConsoleLine>>,
     /// Lines of standard output and error that have no end so far.

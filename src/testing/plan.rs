@@ -1,10 +1,11 @@
 //! Which tests run, and what runs together.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::Config;
 use super::case::{Outcome, TestCase};
+use crate::script::test_bench::CompiledFile;
 
 /// Tests of a loaded file.
 pub(super) struct Collection {
@@ -12,15 +13,22 @@ pub(super) struct Collection {
     pub tests: Vec<Found>,
     /// Whether it uses the simulator, so that each test needs one of its own.
     pub simulates: bool,
+    /// The file as the simulators of its tests load it.
+    pub compiled: Option<CompiledFile>,
     /// Set when it could not be loaded.
     pub broken: Option<Outcome>,
 }
 
 impl Collection {
+    /// A file of which nothing is known yet.
+    pub(super) fn new(file: &Path) -> Self {
+        Self { file: file.to_owned(), tests: Vec::new(), simulates: true, compiled: None, broken: None }
+    }
+
     /// A file that could not be loaded.
     pub(super) fn broken(outcome: Outcome) -> Self {
-        let file = outcome.test.file.clone();
-        Self { file, tests: Vec::new(), simulates: true, broken: Some(outcome) }
+        let file = Self::new(&outcome.test.file);
+        Self { broken: Some(outcome), ..file }
     }
 }
 
@@ -30,10 +38,34 @@ pub(super) struct Found {
     pub line: Option<u32>,
 }
 
-/// Tests that share a simulator.
+/// Tests of one file that share a simulator.
 #[derive(Debug, Clone)]
 pub(super) struct Job {
-    pub tests: Vec<Arc<TestCase>>,
+    tests: Arc<[Arc<TestCase>]>,
+    /// How many of them are over.
+    done: usize,
+    pub compiled: Option<CompiledFile>,
+}
+
+impl Job {
+    fn new(tests: Vec<Arc<TestCase>>, compiled: Option<&CompiledFile>) -> Self {
+        Self { tests: tests.into(), done: 0, compiled: compiled.cloned() }
+    }
+
+    /// Without any tests.
+    pub(super) fn none() -> Self {
+        Self::new(Vec::new(), None)
+    }
+
+    /// The tests that are left.
+    pub(super) fn left(&self) -> &[Arc<TestCase>] {
+        &self.tests[self.done..]
+    }
+
+    /// The job without the first of the tests that are left.
+    pub(super) fn rest(&self) -> Self {
+        Self { done: self.tests.len().min(self.done + 1), ..self.clone() }
+    }
 }
 
 /// The work to do.
@@ -61,7 +93,7 @@ impl Plan {
                 number += 1;
             }
             plan.tests.extend(chosen.iter().cloned());
-            plan.jobs.extend(jobs(config, chosen, collection.simulates || config.isolate.is_some()));
+            plan.jobs.extend(jobs(config, chosen, &collection));
             plan.broken.extend(collection.broken);
         }
         plan
@@ -97,11 +129,12 @@ fn is_chosen(config: &Config, test: &TestCase, number: usize) -> bool {
 }
 
 /// Without a simulator, the tests of a file share their Lua state, each round one.
-fn jobs(config: &Config, tests: Vec<Arc<TestCase>>, simulates: bool) -> Vec<Job> {
-    if simulates {
-        return tests.into_iter().map(|test| Job { tests: vec![test] }).collect();
+fn jobs(config: &Config, tests: Vec<Arc<TestCase>>, collection: &Collection) -> Vec<Job> {
+    let job = |tests| Job::new(tests, collection.compiled.as_ref());
+    if collection.simulates || config.isolate.is_some() {
+        return tests.into_iter().map(|test| job(vec![test])).collect();
     }
     let round = |n| tests.iter().filter(|test| test.repetition == n).cloned().collect::<Vec<_>>();
     let rounds = (0..config.repeat.max(1)).map(round).filter(|round| !round.is_empty());
-    rounds.map(|tests| Job { tests }).collect()
+    rounds.map(job).collect()
 }

@@ -13,6 +13,7 @@ use super::plan::{Collection, Found};
 use super::recording::TestRecording;
 use crate::scene::Data;
 use crate::script::TestBench;
+use crate::script::test_bench::CompiledFile;
 use crate::{Limits, Options, ScriptKind, ScriptRef, Simulator};
 
 /// A simulator that has loaded a test file.
@@ -56,7 +57,7 @@ impl Session {
     pub(super) fn collect(&mut self, file: &Path) -> Collection {
         let name = Data::text(&file.to_string_lossy());
         let answer = self.call("package.loaded.busted.collect", &[name]);
-        let mut collection = Collection { file: file.to_owned(), tests: Vec::new(), simulates: true, broken: None };
+        let mut collection = Collection::new(file);
         match (&answer, answer.as_ref().and_then(|answer| answer.field("tests"))) {
             (Some(answer), Some(Data::Array(tests))) => {
                 collection.tests = tests.iter().map(found).collect();
@@ -64,7 +65,24 @@ impl Session {
             }
             _ => collection.broken = Some(self.broken(file, answer.as_ref())),
         }
+        collection.compiled = self.bench.compiled.take();
         collection
+    }
+
+    /// Loads the file to run tests of it: all, or only the one with that number. Its outcome when that fails.
+    pub(super) fn load(
+        &mut self,
+        file: &Path,
+        compiled: Option<CompiledFile>,
+        number: Option<usize>,
+    ) -> Result<(), Box<Outcome>> {
+        self.bench.compiled.replace(compiled);
+        let number = number.map_or(Data::Nil, |number| Data::Int(number as i64));
+        let answer = self.call("package.loaded.busted.load", &[Data::text(&file.to_string_lossy()), number]);
+        match &answer {
+            Some(answer) if answer.field("error").is_none() => Ok(()),
+            answer => Err(Box::new(self.broken(file, answer.as_ref()))),
+        }
     }
 
     fn broken(&self, file: &Path, answer: Option<&Data>) -> Outcome {

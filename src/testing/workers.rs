@@ -57,7 +57,7 @@ enum News {
 struct Running {
     test: Arc<TestCase>,
     /// Remaining tests, for another worker if this one is abandoned.
-    rest: Vec<Arc<TestCase>>,
+    rest: Job,
     stop: Arc<AtomicBool>,
     started: Instant,
 }
@@ -215,8 +215,8 @@ impl Watch<'_> {
         if !(self.receive)(message) {
             self.shared.cancel();
         }
-        if !running.rest.is_empty() {
-            self.shared.queue().tasks.push_front(Task::Run(Job { tests: running.rest }));
+        if !running.rest.left().is_empty() {
+            self.shared.queue().tasks.push_front(Task::Run(running.rest));
         }
         self.spawn();
     }
@@ -243,8 +243,8 @@ impl Worker {
             match task {
                 Task::Collect(file) => self.collect(&file),
                 Task::Run(job) => match self.shared.config.isolate {
-                    Some(command) => self.run_isolated(&job.tests, command),
-                    None => self.run(job.tests),
+                    Some(command) => self.run_isolated(job, command),
+                    None => self.run(job),
                 },
                 Task::Simulate(job) => self.simulate(&job),
             }
@@ -262,15 +262,15 @@ impl Worker {
         self.shared.cancelled.load(Ordering::Relaxed) || self.shared.queue().abandoned.contains(&self.id)
     }
 
-    fn begin(&self, test: &Arc<TestCase>, rest: &[Arc<TestCase>], stop: &Arc<AtomicBool>) {
-        let (test, rest, stop) = (Arc::clone(test), rest.to_vec(), Arc::clone(stop));
+    fn begin(&self, test: &Arc<TestCase>, rest: Job, stop: &Arc<AtomicBool>) {
+        let (test, stop) = (Arc::clone(test), Arc::clone(stop));
         self.send(News::Started(Running { test, rest, stop, started: Instant::now() }));
     }
 
     fn collect(&self, file: &Path) {
         let test = Arc::new(TestCase::of_file(file));
         let stop = Arc::new(AtomicBool::new(false));
-        self.begin(&test, &[], &stop);
+        self.begin(&test, Job::none(), &stop);
         let collect = || Session::new(&self.shared.config, file, self.shared.config.seed, stop).collect(file);
         let collection = catch_unwind(AssertUnwindSafe(collect))
             .unwrap_or_else(|_| Collection::broken(Outcome::new(test, Status::Error, CRASHED)));
@@ -278,58 +278,67 @@ impl Worker {
     }
 
     /// Runs tests in one simulator; those after one that had to be stopped get another.
-    fn run(&self, mut tests: Vec<Arc<TestCase>>) {
-        while !tests.is_empty() && !self.is_to_end() {
+    fn run(&self, mut job: Job) {
+        while let Some(first) = job.left().first().cloned()
+            && !self.is_to_end()
+        {
             let stop = Arc::new(AtomicBool::new(false));
-            let first = Arc::clone(&tests[0]);
-            self.begin(&first, &tests[1..], &stop);
-            let left = catch_unwind(AssertUnwindSafe(|| self.run_until_stopped(tests.clone(), &stop)));
-            tests = left.unwrap_or_else(|_| {
+            self.begin(&first, job.rest(), &stop);
+            let left = catch_unwind(AssertUnwindSafe(|| self.run_until_stopped(job.clone(), &stop)));
+            job = left.unwrap_or_else(|_| {
                 self.finished(Outcome::new(first, Status::Error, CRASHED));
-                tests.split_off(1)
+                job.rest()
             });
         }
     }
 
     /// Each test in a process of its own.
-    fn run_isolated(&self, tests: &[Arc<TestCase>], command: fn(&TestCase) -> Command) {
-        for (number, test) in tests.iter().enumerate().filter(|_| !self.is_to_end()) {
+    fn run_isolated(&self, mut job: Job, command: fn(&TestCase) -> Command) {
+        while let Some(test) = job.left().first().cloned()
+            && !self.is_to_end()
+        {
             let stop = Arc::new(AtomicBool::new(false));
-            self.begin(test, &tests[number + 1..], &stop);
-            self.finished(isolated::run(command(test), test, &stop));
+            job = job.rest();
+            self.begin(&test, job.clone(), &stop);
+            self.finished(isolated::run(command(&test), &test, &stop));
         }
     }
 
-    /// Returns the tests that are left.
-    fn run_until_stopped(&self, mut tests: Vec<Arc<TestCase>>, stop: &Arc<AtomicBool>) -> Vec<Arc<TestCase>> {
-        let mut session = Session::new(&self.shared.config, &tests[0].file, tests[0].seed, Arc::clone(stop));
-        let collection = session.collect(&tests[0].file);
-        while !tests.is_empty() && !stop.load(Ordering::Relaxed) && !self.is_to_end() {
-            let test = tests.remove(0);
-            self.begin(&test, &tests, stop);
-            let mut outcome = match &collection.broken {
-                Some(broken) => Outcome { test, ..broken.clone() },
-                None => session.run(&test),
+    /// Returns the job with the tests that are left.
+    fn run_until_stopped(&self, mut job: Job, stop: &Arc<AtomicBool>) -> Job {
+        let Some(first) = job.left().first().cloned() else { return job };
+        let mut session = Session::new(&self.shared.config, &first.file, first.seed, Arc::clone(stop));
+        let only = (job.left().len() == 1).then_some(first.index);
+        let loaded = session.load(&first.file, job.compiled.clone(), only);
+        while let Some(test) = job.left().first().cloned()
+            && !stop.load(Ordering::Relaxed)
+            && !self.is_to_end()
+        {
+            job = job.rest();
+            self.begin(&test, job.clone(), stop);
+            let mut outcome = match &loaded {
+                Err(broken) => Outcome { test, ..Outcome::clone(broken) },
+                Ok(()) => session.run(&test),
             };
-            let is_last = tests.is_empty() || stop.load(Ordering::Relaxed);
-            if tests.is_empty() {
+            let is_last = job.left().is_empty();
+            if is_last {
                 session.finish(&mut outcome);
             }
             session.take_line_counts(&mut outcome);
-            if is_last {
+            if is_last || stop.load(Ordering::Relaxed) {
                 // A hang or crash while the simulator is closed is the test's as well.
                 drop(session);
                 self.finished(outcome);
-                return tests;
+                return job;
             }
             self.finished(outcome);
         }
-        tests
+        job
     }
 
     fn simulate(&self, job: &batch::Job) {
         let stop = Arc::new(AtomicBool::new(false));
-        self.begin(&job.case, &[], &stop);
+        self.begin(&job.case, Job::none(), &stop);
         let outcome = catch_unwind(AssertUnwindSafe(|| batch::simulate(&self.shared.config, job, &stop)));
         self.finished(outcome.unwrap_or_else(|_| Outcome::new(Arc::clone(&job.case), Status::Error, CRASHED)));
     }

@@ -217,7 +217,7 @@ const SCRIPT: Rooms = &[
     ("runtime", &["calls", "coverage", "error", "lifecycle", "sim"]),
     // A state carries the environment of its script.
     ("lua", &["lifecycle", "runtime"]),
-    ("lua_runtime", &["binding", "calls", "coverage", "lifecycle", "log", "lua", "runtime", "sim"]),
+    ("lua_runtime", &["binding", "calls", "coverage", "lifecycle", "log", "lua", "runtime", "sim", "test_bench"]),
     (
         "python_runtime",
         &["binding", "calls", "coverage", "error", "lifecycle", "log", "lua", "lua_runtime", "runtime", "sim", "step"],

@@ -115,6 +115,43 @@ fn a_suite_of_pure_lua_shares_its_state_as_in_busted() {
     assert!(output.contains("5 passed, 3 pending"), "{output}");
 }
 
+/// The bodies of other tests are not loaded; what anything else can reach is.
+#[test]
+fn a_test_of_a_robot_finds_all_that_its_file_has_beside_tests() {
+    let suite = simulating(
+        "local log, one = {}, function() return 1 end
+        it('first', function() log[#log + 1] = 'first' end)
+        it('shared', one)
+        describe('group', function()
+            before_each(function() log[#log + 1] = 'each' end)
+            it('is alone', function() assert.same({'each'}, log) end)
+            for i = 1, 2 do it('in a loop ' .. i, function() assert.same({'each'}, log) return i end) end
+        end)
+        local function case(name, body) it(name, function() assert.equal(2, body()) end) end
+        case('through a function', function() return one() + 1 end)
+        it('calls one', function() assert.equal(1, one()) end) it('on one line', function() assert.equal(1, one()) end)
+        function test_plain() assert.equal(1, one()) end
+        it('fails', function()
+            assert.equal(2, one())
+        end)",
+    );
+    let (code, output) = run(&[("a_test.lua", &suite)], &["-v"]);
+    assert_eq!(code, 1, "{output}");
+    assert!(output.contains("9 passed, 1 failed") && output.contains("a_test.lua:15"), "{output}");
+}
+
+#[test]
+fn a_file_may_have_its_own_idea_of_a_test() {
+    let suite = simulating(
+        "local saved, real = {}, it
+        it = function(name, body) saved[name] = body real(name, body) end
+        it('gives', function() return 7 end)
+        it('takes', function() assert.equal(7, saved.gives()) end)",
+    );
+    let (code, output) = run(&[("a_test.lua", &suite)], &[]);
+    assert_eq!(code, 0, "{output}");
+}
+
 #[test]
 fn each_test_of_a_robot_has_a_fresh_simulator() {
     let suite = simulating(

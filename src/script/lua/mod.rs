@@ -27,7 +27,7 @@ mod stack;
 mod state;
 
 pub(crate) use api::{Room, Scalar};
-pub(crate) use bytecode::{Bytecode, Prototype};
+pub(crate) use bytecode::{Bytecode, PassedFunction, Prototype};
 pub(crate) use calls::callback::{Callback, push_callback};
 pub(crate) use calls::{LuaError, MULTIPLE};
 pub(crate) use file::report_closed_pipes;

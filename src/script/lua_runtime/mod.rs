@@ -7,6 +7,7 @@ mod old_calls;
 pub(in crate::script) mod reference_modules;
 mod shared_process;
 mod startup;
+mod test_file;
 pub(in crate::script) mod threads;
 pub(in crate::script) mod user_modules;
 

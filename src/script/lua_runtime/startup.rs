@@ -8,7 +8,7 @@ use mlua::{Function, Lua, Table};
 
 use super::reference_modules::ReferenceModule;
 use super::user_modules::UserModule;
-use super::{coverage, library_globals, shared_process, threads, user_modules};
+use super::{coverage, library_globals, shared_process, test_file, threads, user_modules};
 use crate::script::binding::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE};
 use crate::script::binding::registry::{Member, MissingId, Namespace};
 use crate::script::binding::{deprecation_notice, error_text, push_function, push_function_of_old_name};
@@ -178,6 +178,9 @@ fn find_module(stack: Stack<'_>, name: &str) -> Result<c_int, String> {
         }
     }
     push_native(stack, namespace);
+    if name == test_file::MODULE {
+        test_file::add_functions(stack);
+    }
     Ok(2)
 }
 

@@ -27,16 +27,18 @@ pub(super) struct Chunk<'a> {
 
 /// A function of a chunk.
 pub(crate) struct Prototype<'a> {
+    /// The bytes it was read from.
+    pub(super) raw: &'a [u8],
     source: &'a [u8],
     /// Its first line; 0 for the main function.
     pub line: usize,
-    last_line: usize,
+    pub(super) last_line: usize,
     parameters: u8,
     pub is_vararg: bool,
     pub registers: u8,
     pub code: Vec<u32>,
     /// Type and value, encoded.
-    constants: Vec<Cow<'a, [u8]>>,
+    pub(super) constants: Vec<Cow<'a, [u8]>>,
     /// For each: whether it is a local variable of the enclosing function, its index, and its kind.
     upvalues: Vec<[u8; 3]>,
     pub inner: Vec<Prototype<'a>>,
@@ -101,6 +103,17 @@ impl Prototype<'_> {
         Some(number)
     }
 
+    /// Whether it, or a function inside it, has a local variable of that name.
+    pub(super) fn has_local(&self, name: &[u8]) -> bool {
+        self.locals.iter().any(|local| text_of(local.name) == Some(name))
+            || self.inner.iter().any(|inner| inner.has_local(name))
+    }
+
+    /// The name of an upvalue, as far as it is known.
+    pub(super) fn upvalue_name(&self, number: usize) -> Option<&[u8]> {
+        text_of(self.upvalue_names.get(number)?)
+    }
+
     pub(super) fn constant_count(&self) -> usize {
         self.constants.len()
     }
@@ -162,8 +175,22 @@ impl Prototype<'_> {
     }
 }
 
+/// Whether an encoded constant is that text, which is short.
+pub(super) fn is_short_string(constant: &[u8], text: &str) -> bool {
+    constant
+        .split_first()
+        .is_some_and(|(&kind, encoded)| kind == SHORT_STRING && text_of(encoded) == Some(text.as_bytes()))
+}
+
+/// The text of an encoded string.
+fn text_of(encoded: &[u8]) -> Option<&[u8]> {
+    let mut reader = Reader(encoded);
+    let size = reader.size()?;
+    reader.take(size.checked_sub(1)?)
+}
+
 /// A number in bytes of seven bits, most significant first; the last byte has the high bit set.
-fn write_size(out: &mut Vec<u8>, size: usize) {
+pub(super) fn write_size(out: &mut Vec<u8>, size: usize) {
     let groups = (usize::BITS - size.leading_zeros()).div_ceil(7).max(1);
     for group in (0..groups).rev() {
         let mark = if group == 0 { 0x80 } else { 0 };
@@ -234,6 +261,7 @@ impl<'a> Reader<'a> {
 
     /// Reads a function and the functions inside it.
     fn function(&mut self) -> Option<Prototype<'a>> {
+        let before = self.0;
         let source = self.text()?;
         let (line, last_line) = (self.size()?, self.size()?);
         let (parameters, is_vararg, registers) = (self.byte()?, self.byte()? != 0, self.byte()?);
@@ -246,6 +274,7 @@ impl<'a> Reader<'a> {
             self.list(|reader| Some(Local { name: reader.text()?, begin: reader.size()?, end: reader.size()? }))?;
         let upvalue_names = self.list(|reader| reader.text().map(Cow::Borrowed))?;
         Some(Prototype {
+            raw: &before[..before.len() - self.0.len()],
             source,
             line,
             last_line,

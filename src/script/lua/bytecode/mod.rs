@@ -5,6 +5,7 @@
 
 mod chunk;
 mod probes;
+mod stubs;
 
 use std::collections::BTreeSet;
 use std::ffi::{CStr, CString, c_int};
@@ -16,6 +17,7 @@ use super::calls::LuaError;
 use super::stack::Stack;
 use chunk::Chunk;
 pub(crate) use chunk::Prototype;
+pub(crate) use stubs::PassedFunction;
 
 /// A function compiled by Lua.
 #[derive(Debug, PartialEq, Eq)]
@@ -42,6 +44,16 @@ impl Bytecode {
     /// The main function; None for bytecode of another version of Lua.
     pub(crate) fn main_function(&self) -> Option<Prototype<'_>> {
         Some(Chunk::read(&self.0)?.main)
+    }
+
+    /// The functions that are made only to be passed to one of these globals, behind a name: `it('name', function() ... end)`.
+    pub(crate) fn passed_functions(&self, callees: &[&str]) -> Vec<PassedFunction> {
+        stubs::passed_functions(&self.0, callees)
+    }
+
+    /// The same with functions that do nothing in place of these, which are in the order of `passed_functions` of this very bytecode.
+    pub(crate) fn with_stubs<'a>(&self, functions: impl Iterator<Item = &'a PassedFunction>) -> Self {
+        Self(stubs::with_stubs(&self.0, functions))
     }
 
     /// The function with probes on these lines; None where there is no room for them.
