@@ -1,5 +1,6 @@
 //! Graphs as files: tables of their streams (CSV), and charts (SVG).
 
+#[cfg(feature = "plots")]
 use super::plot::{self, Chart, PlottedCurve};
 use crate::scene::graph::{Graph, Style};
 
@@ -7,6 +8,7 @@ use crate::scene::graph::{Graph, Style};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum GraphFile {
     Csv,
+    #[cfg(feature = "plots")]
     Svg,
 }
 
@@ -14,6 +16,7 @@ impl GraphFile {
     pub(crate) fn of_extension(extension: &str) -> Option<Self> {
         match extension.to_ascii_lowercase().as_str() {
             "csv" => Some(Self::Csv),
+            #[cfg(feature = "plots")]
             "svg" => Some(Self::Svg),
             _ => None,
         }
@@ -78,12 +81,14 @@ impl GraphData {
     pub(crate) fn file(&self, kind: GraphFile) -> Vec<u8> {
         match kind {
             GraphFile::Csv => csv(self).into_bytes(),
+            #[cfg(feature = "plots")]
             GraphFile::Svg => plot::svg(&charts(self)).unwrap_or_default().into_bytes(),
         }
     }
 }
 
 /// A chart over time of what is visible, and one of the curves through streams, if there are any. A curve of three dimensions is seen along z.
+#[cfg(feature = "plots")]
 fn charts(graph: &GraphData) -> Vec<Chart> {
     let visible = graph.streams.iter().filter(|stream| stream.visible);
     let streams =
@@ -104,6 +109,7 @@ fn charts(graph: &GraphData) -> Vec<Chart> {
     charts
 }
 
+#[cfg(feature = "plots")]
 fn plotted(style: &Style, points: impl Iterator<Item = (f64, f64)>) -> PlottedCurve {
     let label = style.label.then(|| with_unit(style));
     PlottedCurve { label, colour: style.colour, linked: style.linked, points: points.collect() }

@@ -2,6 +2,7 @@
 
 pub(crate) mod graph_file;
 pub(crate) mod picture;
+#[cfg(feature = "plots")]
 pub(crate) mod plot;
 
 pub(crate) mod scene_file;

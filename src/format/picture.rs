@@ -4,9 +4,12 @@
 
 use std::io::Cursor;
 
+#[cfg(feature = "pictures")]
+use image::ExtendedColorType;
+#[cfg(feature = "pictures")]
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::{self, FilterType};
-use image::{DynamicImage, ExtendedColorType, ImageFormat, ImageReader, Limits, RgbaImage};
+use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits, RgbaImage};
 
 /// No picture is larger: it could hardly be meant.
 const MAX_SIDE: u32 = 16_384;
@@ -20,10 +23,23 @@ pub(crate) enum PictureError {
     Resolution,
     #[error("unknown kind of image: {0} (known: png, jpg, bmp, tga).")]
     Kind(String),
+    #[cfg(not(feature = "pictures"))]
+    #[error("this build knows no images but PNG ({0}): build Swanilda with the feature `pictures`.")]
+    LeftOut(String),
     #[error("{0}.")]
-    Codec(#[from] image::ImageError),
+    Codec(ImageError),
     #[error("{0}.")]
     Io(#[from] std::io::Error),
+}
+
+impl From<ImageError> for PictureError {
+    fn from(error: ImageError) -> Self {
+        match error {
+            #[cfg(not(feature = "pictures"))]
+            ImageError::Unsupported(reason) => Self::LeftOut(reason.to_string()),
+            other => Self::Codec(other),
+        }
+    }
 }
 
 /// Bytes per pixel.
@@ -89,12 +105,14 @@ impl Picture {
     ///
     /// # Errors
     /// When there is no such kind.
+    #[cfg_attr(not(feature = "pictures"), allow(unused_variables, reason = "there is no JPEG"))]
     pub(crate) fn encode(&self, extension: &str, quality: u8) -> Result<Vec<u8>, PictureError> {
         let format = ImageFormat::from_extension(extension).filter(ImageFormat::can_write);
         let mut file = Cursor::new(Vec::new());
         match format {
             None => return Err(PictureError::Kind(extension.to_owned())),
             // JPEG knows no transparency.
+            #[cfg(feature = "pictures")]
             Some(ImageFormat::Jpeg) => {
                 let rgb = self.to_dynamic().into_rgb8();
                 let mut encoder = JpegEncoder::new_with_quality(&mut file, quality);

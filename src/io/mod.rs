@@ -8,6 +8,10 @@ mod peer_process;
 #[path = "peer_process_elsewhere.rs"]
 mod peer_process;
 mod process;
+#[cfg(feature = "serial")]
+mod serial;
+#[cfg(not(feature = "serial"))]
+#[path = "serial_left_out.rs"]
 mod serial;
 pub(crate) mod signals;
 mod simx_server;

@@ -30,7 +30,14 @@ pub(crate) struct SerialPort {
 
 impl SerialPort {
     /// Opens a device in raw mode; None at an unknown rate, and when it cannot be opened.
-    pub(crate) fn open(path: &str, baud_rate: i64) -> Option<Self> {
+    ///
+    /// # Errors
+    /// When this build has no serial ports.
+    pub(crate) fn open(path: &str, baud_rate: i64) -> Result<Option<Self>, &'static str> {
+        Ok(Self::opened(path, baud_rate))
+    }
+
+    fn opened(path: &str, baud_rate: i64) -> Option<Self> {
         let baud_rate = *BAUD_RATES.iter().find(|&&known| i64::from(known) == baud_rate)?;
         let builder = serialport::new(path, baud_rate).timeout(SLICE);
         // As in CoppeliaSim, other programs may open the device too.

@@ -39,7 +39,8 @@ fn serial_open(cx: &mut Cx, port_string: String, baud_rate: Number) -> Result<i6
     if ports.values().any(|port| port.path() == port_string) {
         return Ok(FAILED);
     }
-    Ok(SerialPort::open(&port_string, baud_rate.0).map_or(FAILED, |port| ports.add(port)))
+    let port = SerialPort::open(&port_string, baud_rate.0).map_err(|reason| ApiError::Other(reason.into()))?;
+    Ok(port.map_or(FAILED, |port| ports.add(port)))
 }
 
 #[api("sim._serialClose")]

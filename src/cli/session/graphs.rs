@@ -35,7 +35,10 @@ fn graph_file(text: &str) -> Result<(String, PathBuf), String> {
 
 pub(in crate::cli) fn kind_of(file: &std::path::Path) -> Result<GraphFile, String> {
     let extension = file.extension().unwrap_or_default().to_string_lossy();
-    GraphFile::of_extension(&extension).ok_or_else(|| format!("graphs become .svg or .csv files, not .{extension}"))
+    GraphFile::of_extension(&extension).ok_or_else(|| match extension.as_ref() {
+        "svg" => "this build draws no graphs: build Swanilda with the feature `plots`".into(),
+        _ => format!("graphs become .svg or .csv files, not .{extension}"),
+    })
 }
 
 pub(in crate::cli) fn write(data: &GraphData, file: &std::path::Path) -> Result<(), String> {

@@ -1,13 +1,16 @@
 //! Videos: pictures one after the other, as GIF, animated WebP, a series of PNG files, or what `ffmpeg` makes of them.
 
 mod ffmpeg;
+#[cfg(any(feature = "pictures", feature = "video"))]
 mod frames;
+#[cfg(feature = "pictures")]
 mod gif;
 #[cfg(feature = "video")]
 mod mp4;
 mod series;
-#[cfg(test)]
+#[cfg(all(test, feature = "pictures"))]
 mod tests;
+#[cfg(feature = "pictures")]
 mod webp;
 
 use std::path::Path;
@@ -38,8 +41,13 @@ pub(crate) enum VideoError {
     Io(#[from] std::io::Error),
     #[error("{0}")]
     Picture(#[from] super::picture::PictureError),
+    #[cfg(not(feature = "pictures"))]
+    #[error("this build makes no {0} files: build Swanilda with the feature `pictures`")]
+    LeftOut(String),
+    #[cfg(feature = "pictures")]
     #[error("{0}")]
     Gif(#[from] ::gif::EncodingError),
+    #[cfg(feature = "pictures")]
     #[error("{0}")]
     WebP(#[from] image_webp::EncodingError),
     #[cfg(feature = "video")]
@@ -84,7 +92,11 @@ pub(crate) fn needs_program(path: &Path) -> bool {
 /// When the kind is unknown, or the file cannot be created.
 pub(crate) fn create(path: &Path, format: VideoFormat) -> Result<Box<dyn VideoFile>, VideoError> {
     match extension(path).as_str() {
+        #[cfg(not(feature = "pictures"))]
+        kind @ ("gif" | "webp") => Err(VideoError::LeftOut(kind.to_owned())),
+        #[cfg(feature = "pictures")]
         "gif" => Ok(Box::new(gif::Gif::create(path, format)?)),
+        #[cfg(feature = "pictures")]
         "webp" => Ok(Box::new(webp::WebP::create(path, format)?)),
         #[cfg(feature = "video")]
         "mp4" => Ok(Box::new(mp4::Mp4::create(path, format)?)),

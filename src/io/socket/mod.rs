@@ -9,7 +9,12 @@ mod lookup;
 mod options;
 mod reader;
 mod stream;
+#[cfg(feature = "tls")]
 mod tls;
+#[cfg(not(feature = "tls"))]
+#[path = "tls_left_out.rs"]
+mod tls;
+mod tls_settings;
 mod wait;
 
 pub(crate) use address::{Family, Place};
@@ -19,7 +24,7 @@ pub(crate) use lookup::{Lookup, host_name, name_of, numeric, port};
 pub(crate) use options::{OptionValue, option, set_option};
 pub(crate) use reader::Pattern;
 pub(crate) use stream::{Role, Stream};
-pub(crate) use tls::{TlsSettings, Verify};
+pub(crate) use tls_settings::{TlsSettings, Verify};
 pub(crate) use wait::{Timeout, Wait, select, sleep};
 
 use std::rc::Rc;

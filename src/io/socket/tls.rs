@@ -15,28 +15,7 @@ use rustls::{
 };
 
 use super::failure::is_pending;
-use super::{Failure, Socket, Stream, Wait};
-
-/// Whether the other side must prove who it is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Verify {
-    Peer,
-    Nobody,
-}
-
-/// The parameters of a connection.
-#[derive(Debug, Clone)]
-pub(crate) struct TlsSettings {
-    pub is_server: bool,
-    pub verify: Verify,
-    /// The name the certificate of a server must have.
-    pub host: String,
-    /// A file with the certificates to trust, instead of the system's.
-    pub ca_file: Option<String>,
-    /// Files with the own certificate and its key.
-    pub certificate: Option<String>,
-    pub key: Option<String>,
-}
+use super::{Failure, Socket, Stream, TlsSettings, Verify, Wait};
 
 /// The state of a connection.
 pub(crate) struct Tls {

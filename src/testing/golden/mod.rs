@@ -3,6 +3,10 @@
 mod claims;
 mod compare;
 mod file;
+#[cfg(feature = "plots")]
+mod plot;
+#[cfg(not(feature = "plots"))]
+#[path = "plot_left_out.rs"]
 mod plot;
 mod snapshot;
 

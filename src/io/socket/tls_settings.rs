@@ -1,0 +1,23 @@
+//! How a connection of TLS is to be.
+#![cfg_attr(not(feature = "tls"), allow(dead_code, reason = "scripts set them, and learn later that there is no TLS"))]
+
+/// Whether the other side must prove who it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Verify {
+    Peer,
+    Nobody,
+}
+
+/// The parameters of a connection.
+#[derive(Debug, Clone)]
+pub(crate) struct TlsSettings {
+    pub is_server: bool,
+    pub verify: Verify,
+    /// The name the certificate of a server must have.
+    pub host: String,
+    /// A file with the certificates to trust, instead of the system's.
+    pub ca_file: Option<String>,
+    /// Files with the own certificate and its key.
+    pub certificate: Option<String>,
+    pub key: Option<String>,
+}
