@@ -50,6 +50,7 @@ fn register_script_func_hook(
     let call =
         SysCall::from_name(&system_callback).ok_or_else(|| ApiError::Other("invalid system callback.".into()))?;
     cx.note_callback(call);
+    cx.env().note_hook(call);
     let entries = Rc::make_mut(list.entry(call).or_default());
     match user_function {
         ScriptFunction::Name(name) if name.is_empty() => release(cx, &std::mem::take(entries)),

@@ -1,7 +1,5 @@
 //! The callbacks scripts may define (`sysCall_*`), with their numbers (spec: callbacks 1).
 
-use std::ffi::CStr;
-
 macro_rules! callbacks {
     ($($variant:ident = $code:literal $name:literal),* $(,)?) => {
         /// A callback of a script. Its number is `sim.syscb_*`.
@@ -15,20 +13,6 @@ macro_rules! callbacks {
             /// The name of the global function.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$variant => $name),* }
-            }
-
-            /// The same for C.
-            pub(crate) const fn c_name(self) -> &'static CStr {
-                match self {
-                    $(Self::$variant => {
-                        const NAME: &[u8] = concat!($name, "\0").as_bytes();
-                        const C_NAME: &CStr = match CStr::from_bytes_with_nul(NAME) {
-                            Ok(name) => name,
-                            Err(_) => panic!("names have no NUL"),
-                        };
-                        C_NAME
-                    })*
-                }
             }
         }
     };

@@ -28,6 +28,8 @@ pub(crate) struct Env {
     pub registry: Arc<Registry>,
     /// Callbacks whose function existed after the chunk had run.
     pub defined: Cell<u64>,
+    /// Callbacks that have or had hooks: most have none, which is all that a call needs to know.
+    pub hooked: Cell<u64>,
     pub hooks: RefCell<Hooks>,
     /// Calls of this state in progress.
     pub depth: Cell<usize>,
@@ -74,6 +76,7 @@ impl Env {
             runtime: OnceCell::new(),
             registry: sim.modules.registry.clone(),
             defined: Cell::new(0),
+            hooked: Cell::new(0),
             hooks: RefCell::default(),
             depth: Cell::new(0),
             yields: Yields { delay_ms: Cell::new(2), ..Yields::default() },
@@ -158,7 +161,24 @@ impl Env {
     }
 
     pub(crate) fn has_hooks(&self, call: SysCall) -> bool {
+        if self.hooked.get() & call.bit() == 0 {
+            return false;
+        }
         let hooks = self.hooks.borrow();
         [&hooks.before, &hooks.after].iter().any(|list| list.get(&call).is_some_and(|hooks| !hooks.is_empty()))
+    }
+
+    /// Notes that the callback gets a hook.
+    pub(crate) fn note_hook(&self, call: SysCall) {
+        self.hooked.set(self.hooked.get() | call.bit());
+    }
+
+    /// The hooks that run before the callback, or those that run after it.
+    pub(in crate::script) fn hooks_of(&self, call: SysCall, before: bool) -> Option<Rc<Vec<Hook>>> {
+        if self.hooked.get() & call.bit() == 0 {
+            return None;
+        }
+        let hooks = self.hooks.borrow();
+        if before { &hooks.before } else { &hooks.after }.get(&call).cloned()
     }
 }

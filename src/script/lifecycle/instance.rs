@@ -16,18 +16,22 @@ pub(crate) mod state {
     pub const ERROR: i64 = 8;
 }
 
-/// A script of the simulator.
+/// A script of the simulator. What every call looks at comes first: with thousands of scripts, a call takes as long as the memory it
+/// has to wait for.
+#[repr(C)]
 pub struct Script {
     /// The handle scripts know it by.
     pub id: i64,
+    state: Cell<i64>,
+    pub(crate) runtime: RefCell<Option<Rc<Runtime>>>,
+    /// Whether the object is disabled, and the edition of the scripts of the scene that this is from.
+    pub(crate) disabled: Cell<(u64, bool)>,
     pub script_type: ScriptType,
+    pub(crate) removed: Cell<bool>,
     /// The scene object that holds text and flags; None for main, sandbox and add-ons.
     pub object: Option<Handle>,
     /// The data of a detached script, which has no object.
     pub(crate) detached: Box<RefCell<Detached>>,
-    state: Cell<i64>,
-    pub(crate) runtime: RefCell<Option<Rc<Runtime>>>,
-    pub(crate) removed: Cell<bool>,
     /// The file its text comes from, as the user named it: errors name it in the log.
     pub(crate) file: RefCell<Option<String>>,
     /// The run counter of an old script, from before callbacks had one.
@@ -88,6 +92,7 @@ impl Script {
             state: Cell::new(state::UNLOADED),
             runtime: RefCell::new(None),
             removed: Cell::new(false),
+            disabled: Cell::new((0, false)),
             file: RefCell::default(),
             execution_count: Cell::new(0),
         }

@@ -38,11 +38,11 @@ pub(crate) struct Reply {
 impl Sim {
     /// Delivers a callback to one script, loading and initialising it first where the callback does that.
     pub(crate) fn deliver(self: &Rc<Self>, script: &Rc<Script>, call: SysCall, args: &[Data]) -> Reply {
-        if script.removed.get() || (call != SysCall::Cleanup && script.is_disabled(&self.scene.borrow())) {
+        if script.removed.get() || (call != SysCall::Cleanup && self.is_disabled(script)) {
             return Reply::default();
         }
         if script.state() == state::UNLOADED {
-            if !call.wakes() || script.is_disabled(&self.scene.borrow()) {
+            if !call.wakes() || self.is_disabled(script) {
                 return Reply::default();
             }
             self.load(script);
@@ -57,6 +57,23 @@ impl Sim {
             return Reply::default();
         }
         self.run_callback(script, call, args)
+    }
+
+    /// Whether a script is not to be called. The scene is only looked into after a change that can concern it.
+    fn is_disabled(&self, script: &Script) -> bool {
+        let scene = self.scene.borrow();
+        if script.object.is_none() {
+            return script.is_disabled(&scene);
+        }
+        let edition = self.scripts.edition(&scene);
+        match script.disabled.get() {
+            (known, disabled) if known == edition => disabled,
+            _ => {
+                let disabled = script.is_disabled(&scene);
+                script.disabled.set((edition, disabled));
+                disabled
+            }
+        }
     }
 
     /// Runs the text in a fresh interpreter, then `sysCall_info`.
@@ -152,12 +169,12 @@ impl Sim {
         if call.resumes_threads() {
             outcome.resume_thread(runtime);
         }
-        let before = env.hooks.borrow().before.get(&call).cloned();
+        let before = env.hooks_of(call, true);
         for hook in before.iter().flat_map(|hooks| hooks.iter().rev()) {
             outcome.call_hook(runtime, hook, args);
         }
         outcome.call_function(runtime, call, args);
-        let after = env.hooks.borrow().after.get(&call).cloned();
+        let after = env.hooks_of(call, false);
         for hook in after.iter().flat_map(|hooks| hooks.iter()) {
             outcome.call_hook(runtime, hook, args);
         }

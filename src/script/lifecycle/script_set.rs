@@ -7,10 +7,13 @@ use std::rc::Rc;
 use super::budget::Budget;
 use super::instance::{Detached, Script};
 use super::order::OrderCache;
-use crate::scene::Handle;
 use crate::scene::object::script_object::ScriptType;
+use crate::scene::{Field, Handle, Mark, Scene, Topics};
 use crate::script::calls::callback::SysCall;
 use crate::script::runtime::Languages;
+
+/// Changes that can disable a script of the scene, or remove it.
+const SCRIPTS: Topics = Topics::TREE.with_fields(&[Field::Script]);
 
 /// The first handle of scripts that are no scene objects.
 const FIRST_DETACHED: i64 = 1_010_000;
@@ -25,10 +28,15 @@ pub(crate) struct ScriptSet {
     /// The memory all of them share.
     pub(super) budget: Rc<Budget>,
     by_id: RefCell<BTreeMap<i64, Rc<Script>>>,
+    /// Those that are no scene objects: few, where there may be thousands of others.
+    detached: RefCell<BTreeMap<i64, Rc<Script>>>,
     next_detached: Cell<i64>,
     /// There are, or were, scripts attached to objects; most scenes have none.
     has_attached: Cell<bool>,
     pub(super) order: RefCell<OrderCache>,
+    /// A number that rises when scripts of the scene change, and the changes it knows of.
+    edition: Cell<u64>,
+    edition_mark: RefCell<Mark>,
     /// Callbacks some script has or had, as bits.
     callbacks_in_use: Cell<u64>,
     /// Script calls in progress, over all states.
@@ -46,14 +54,25 @@ impl ScriptSet {
             languages,
             budget: Rc::new(Budget::new(memory)),
             by_id: RefCell::default(),
+            detached: RefCell::default(),
             next_detached: Cell::new(FIRST_DETACHED),
             has_attached: Cell::new(false),
             order: RefCell::default(),
+            edition: Cell::new(0),
+            edition_mark: RefCell::new(Mark::new(SCRIPTS)),
             callbacks_in_use: Cell::new(0),
             depth: Cell::new(0),
             notified_selection: RefCell::default(),
             examined_sensors: RefCell::default(),
         }
+    }
+
+    /// The number of changes of scripts of the scene so far, from 1.
+    pub(super) fn edition(&self, scene: &Scene) -> u64 {
+        if scene.journal().changed_since(&mut self.edition_mark.borrow_mut()) {
+            self.edition.set(self.edition.get() + 1);
+        }
+        self.edition.get()
     }
 
     /// Adds a script that is no scene object.
@@ -70,6 +89,9 @@ impl ScriptSet {
 
     pub(in crate::script) fn add(&self, script: &Rc<Script>) {
         self.by_id.borrow_mut().insert(script.id, Rc::clone(script));
+        if script.object.is_none() {
+            self.detached.borrow_mut().insert(script.id, Rc::clone(script));
+        }
     }
 
     /// The script with that handle, if it has been looked up before.
@@ -84,13 +106,12 @@ impl ScriptSet {
 
     /// The one script of that type without an object: main or sandbox.
     pub(crate) fn detached(&self, script_type: ScriptType) -> Option<Rc<Script>> {
-        let scripts = self.by_id.borrow();
-        scripts.values().find(|script| script.object.is_none() && script.script_type == script_type).cloned()
+        self.detached.borrow().values().find(|script| script.script_type == script_type).cloned()
     }
 
     /// All scripts that are no objects, in the order of their creation.
     pub(in crate::script) fn all_detached(&self) -> Vec<Rc<Script>> {
-        self.by_id.borrow().values().filter(|script| script.object.is_none()).cloned().collect()
+        self.detached.borrow().values().cloned().collect()
     }
 
     /// The old scripts attached to an object, simulation scripts first.
@@ -98,7 +119,7 @@ impl ScriptSet {
         if !self.has_attached.get() {
             return Vec::new();
         }
-        let scripts = self.by_id.borrow();
+        let scripts = self.detached.borrow();
         let mut attached: Vec<_> = scripts.values().filter(|script| script.owner() == Some(object)).cloned().collect();
         attached.sort_by_key(|script| script.script_type != ScriptType::Simulation);
         attached
@@ -109,17 +130,22 @@ impl ScriptSet {
         if !self.has_attached.get() {
             return BTreeSet::new();
         }
-        self.by_id.borrow().values().filter_map(|script| script.owner()).collect()
+        self.detached.borrow().values().filter_map(|script| script.owner()).collect()
     }
 
     /// Removes the script an object was, and those attached to it.
     pub(super) fn remove_those_of(&self, object: Handle) {
-        self.by_id.borrow_mut().retain(|id, script| *id != object.raw() && script.owner() != Some(object));
+        self.by_id.borrow_mut().remove(&object.raw());
+        for attached in self.attached_to(object) {
+            self.by_id.borrow_mut().remove(&attached.id);
+            self.detached.borrow_mut().remove(&attached.id);
+        }
     }
 
     /// Removes a script that is no object.
     pub(super) fn remove_detached(&self, id: i64) {
-        self.by_id.borrow_mut().retain(|other, _| *other != id);
+        self.by_id.borrow_mut().remove(&id);
+        self.detached.borrow_mut().remove(&id);
         self.forget_order();
     }
 

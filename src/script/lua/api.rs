@@ -6,6 +6,7 @@
 mod new_table;
 
 use std::ffi::{c_char, c_int, c_void};
+use std::mem::MaybeUninit;
 
 use mlua::ffi;
 
@@ -62,6 +63,7 @@ unsafe extern "C-unwind" {
     pub(super) safe fn lua_gethookmask(stack: Stack<'_>) -> c_int;
     pub(super) safe fn lua_gethookcount(stack: Stack<'_>) -> c_int;
     pub(super) safe fn lua_sethook(stack: Stack<'_>, hook: Option<Hook>, mask: c_int, interval: c_int);
+    safe fn lua_getstack(stack: Stack<'_>, level: c_int, record: &mut MaybeUninit<ffi::lua_Debug>) -> c_int;
     pub(super) safe fn lua_isyieldable(stack: Stack<'_>) -> c_int;
     pub(super) safe fn lua_type(stack: Stack<'_>, slot: Slot) -> c_int;
     pub(super) safe fn lua_iscfunction(stack: Stack<'_>, slot: Slot) -> c_int;
@@ -136,6 +138,11 @@ impl Table {
 }
 
 impl<'a> Stack<'a> {
+    /// Whether no function of this coroutine runs.
+    pub(crate) fn is_outermost(self) -> bool {
+        lua_getstack(self, 0, &mut MaybeUninit::uninit()) == 0
+    }
+
     /// The slot with Lua's index `index`; no value for one below the bottom.
     pub(super) fn slot(self, index: c_int) -> Slot {
         if index > 0 {

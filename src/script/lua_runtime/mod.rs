@@ -1,5 +1,6 @@
 //! Scripts in Lua: the implementation of [`Language`] and [`Interpreter`] above the virtual machine of `script::lua`.
 
+mod bottom;
 pub(in crate::script) mod coverage;
 pub(in crate::script) mod embedded;
 mod library_globals;
@@ -23,6 +24,7 @@ use super::runtime::{
 };
 use super::sim::Sim;
 use crate::scene::Data;
+use bottom::Bottom;
 use coverage::Coverage;
 use user_modules::UserModule;
 
@@ -47,7 +49,8 @@ impl LuaLanguage {
 
     /// An interpreter that is a part of another one.
     pub(in crate::script) fn interpreter(&self, env: &Rc<Env>) -> LuaInterpreter {
-        LuaInterpreter { state: State::new(Rc::clone(env)), user_modules: Rc::clone(&self.user_modules) }
+        let (state, user_modules) = (State::new(Rc::clone(env)), Rc::clone(&self.user_modules));
+        LuaInterpreter { state, bottom: Bottom::default(), user_modules }
     }
 }
 
@@ -65,6 +68,7 @@ impl Language for LuaLanguage {
 /// A Lua state of its own for one script.
 pub(in crate::script) struct LuaInterpreter {
     state: State,
+    bottom: Bottom,
     user_modules: Rc<[UserModule]>,
 }
 
@@ -120,17 +124,17 @@ impl Interpreter for LuaInterpreter {
     }
 
     fn call_callback(&self, call: SysCall, args: &[Data]) -> Result<CallbackResult, ScriptError> {
+        // This is the hot path: what lies below the function stays there until the end, and from call to call where it can.
+        let stack = self.stack();
+        if let Some(kind) = self.bottom.push_function(stack, call) {
+            let result = run_callback(stack, bottom::HANDLER, kind, args);
+            stack.set_top(self.bottom.count().min(stack.top()));
+            return result;
+        }
         self.on_stack(|stack| {
-            // This is the hot path: what lies below the function stays there until the end.
             let handler = stack.push_message_handler();
-            stack.push_globals();
-            let base = stack.top();
-            if stack.raw_get_static_field(base, call.c_name()) != Type::Function {
-                return Ok(CallbackResult::NotDefined);
-            }
-            stack.call_above(handler, push_args(stack, args)?, MULTIPLE)?;
-            let value = (stack.top() > base).then(|| data::read_data(stack, -1)).transpose()?;
-            Ok(CallbackResult::Returned(value))
+            let kind = stack.push_global(call.name());
+            run_callback(stack, handler, kind, args)
         })
     }
 
@@ -205,6 +209,17 @@ impl From<LuaError> for ScriptError {
         let is_silent = YIELD_ERRORS.iter().any(|text| error.text.contains(text));
         Self { text: error.text, is_silent }
     }
+}
+
+/// Calls what is on top, which is of that kind, if it is a function.
+fn run_callback(stack: Stack<'_>, handler: i32, kind: Type, args: &[Data]) -> Result<CallbackResult, ScriptError> {
+    if kind != Type::Function {
+        return Ok(CallbackResult::NotDefined);
+    }
+    let base = stack.top() - 1;
+    stack.call_above(handler, push_args(stack, args)?, MULTIPLE)?;
+    let value = (stack.top() > base).then(|| data::read_data(stack, -1)).transpose()?;
+    Ok(CallbackResult::Returned(value))
 }
 
 /// Pushes arguments for a call; returns their number.

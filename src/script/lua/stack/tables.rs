@@ -104,18 +104,6 @@ impl Stack<'_> {
         kind
     }
 
-    /// Pushes `table[name]`. The name is made a string of Lua's once for the state.
-    pub(crate) fn raw_get_static_field(self, table: c_int, name: &'static CStr) -> Type {
-        let (table, key) = self.table_and_value(table);
-        if self.push_registry(name) == Type::Nil {
-            self.pop(1);
-            self.push_bytes(name.to_bytes());
-            self.push_value(-1);
-            self.set_registry(name);
-        }
-        Type::from_raw(api::lua_rawget(key, table))
-    }
-
     /// Pops a value into the global `name`.
     pub(crate) fn set_global(self, name: &str) {
         self.push_globals();
