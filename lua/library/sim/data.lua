@@ -53,19 +53,38 @@ function M.readCustomDataBlockTags(handle)
     return tags and #tags > 0 and tags or nil
 end
 
-local function readInfo(handle)
-    local packed = sim.readCustomStringData(handle, INFO_TAG)
+local function unpackInfo(packed)
     local info = packed and #packed > 0 and sim.unpackTable(packed) or {}
     info.blocks = info.blocks or {}
     return info
 end
 
+-- What the last change of a tag made of the companion data: programs write the same few tags again and again.
+local changed, changedCount = {}, 0 -- tag -> {dataType, before, after}
+local MOST_CHANGED <const> = 16
+
+local function noteChange(tag, dataType, before, after)
+    if not changed[tag] then
+        if changedCount == MOST_CHANGED then changed, changedCount = {}, 0 end
+        changedCount = changedCount + 1
+    end
+    changed[tag] = {dataType, before, after}
+end
+
 local function writeDataType(handle, tag, dataType)
     if tag == INFO_TAG then return end
-    local info = readInfo(handle)
+    local packed = sim.readCustomStringData(handle, INFO_TAG)
+    local known = changed[tag]
+    if known and known[1] == dataType and known[2] == packed then
+        sim.writeCustomStringData(handle, INFO_TAG, known[3])
+        return
+    end
+    local info = unpackInfo(packed)
     if dataType == nil and info.blocks[tag] == nil then return end
     info.blocks[tag] = dataType and {type = dataType} or nil
-    sim.writeCustomStringData(handle, INFO_TAG, sim.packTable(info))
+    local after = sim.packTable(info)
+    noteChange(tag, dataType, packed, after)
+    sim.writeCustomStringData(handle, INFO_TAG, after)
 end
 
 --- Reads custom data and the kind it was written as.
@@ -77,7 +96,7 @@ end
 function M.readCustomDataBlockEx(handle, tag)
     local data = sim.readCustomStringData(handle, tag)
     if not data or #data == 0 then return nil end
-    local block = tag ~= INFO_TAG and readInfo(handle).blocks[tag]
+    local block = tag ~= INFO_TAG and unpackInfo(sim.readCustomStringData(handle, INFO_TAG)).blocks[tag]
     return data, block and block.type or nil
 end
 
@@ -95,6 +114,12 @@ end
 
 local WRITE_ARGS = {{type = 'int'}, {type = 'string'}, {type = 'table'}, {type = 'table', default = {}}}
 local READ_ARGS = {{type = 'int'}, {type = 'string'}, {type = 'table', default = {}}}
+local integer <const>, type <const> = math.type, type
+
+-- Whether arguments need no check and no defaults.
+local function areComplete(count, handle, tag, data)
+    return count == 3 and integer(handle) == 'integer' and type(tag) == 'string' and type(data) == 'table'
+end
 
 --- Writes a table as custom data.
 -- @api sim.writeCustomTableData(int handle, string tag, map data, map options = {})
@@ -103,7 +128,12 @@ local READ_ARGS = {{type = 'int'}, {type = 'string'}, {type = 'table', default =
 -- @param data empty: removes the tag
 -- @param options dataType: table (default) or cbor
 function M.writeCustomTableData(...)
-    local handle, tag, data, options = require('checkargs')(WRITE_ARGS, ...)
+    local handle, tag, data, options = ...
+    if areComplete(select('#', ...), handle, tag, data) then
+        options = WRITE_ARGS[4].default
+    else
+        handle, tag, data, options = require('checkargs')(WRITE_ARGS, ...)
+    end
     if next(data) == nil then return M.writeCustomDataBlockEx(handle, tag, '') end
     local dataType = options.dataType or 'table'
     local packed = dataType == 'cbor' and sim.packTable(data, CBOR) or sim.packTable(data)
@@ -116,9 +146,12 @@ end
 -- @param tag its name
 -- @return data empty if there is none
 function M.readCustomTableData(...)
-    local handle, tag = require('checkargs')(READ_ARGS, ...)
-    local data = M.readCustomDataBlockEx(handle, tag)
-    if not data then return {} end
+    local handle, tag = ...
+    if select('#', ...) ~= 2 or integer(handle) ~= 'integer' or type(tag) ~= 'string' then
+        handle, tag = require('checkargs')(READ_ARGS, ...)
+    end
+    local data = sim.readCustomStringData(handle, tag)
+    if not data or #data == 0 then return {} end
     return sim.unpackTable(data) -- tells both encodings apart by their first byte
 end
 

@@ -194,7 +194,11 @@ local TABLE_ARGS = {{type = 'int'}, {type = 'string'}, {type = 'table'}, {type =
 -- @param value the table
 -- @param options noError: no error if the property cannot be written
 function M.setTableProperty(...)
-    local target, name, value, options = require('checkargs')(TABLE_ARGS, ...)
+    local target, name, value, options = ...
+    local isComplete = select('#', ...) == 3 and math.type(target) == 'integer' and type(name) == 'string'
+    if not (isComplete and type(value) == 'table') then
+        target, name, value, options = require('checkargs')(TABLE_ARGS, ...)
+    end
     sim._setTableProperty(target, name, value, options)
 end
 

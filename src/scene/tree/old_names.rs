@@ -11,6 +11,8 @@ const LONGEST: usize = 127;
 #[derive(Debug, Default)]
 pub(in crate::scene) struct OldNames {
     handles: BTreeMap<String, Handle>,
+    /// How many of them have a suffix, -1 for none.
+    suffixes: BTreeMap<i64, usize>,
     /// For names that end in a number, by what is before it: all smaller numbers are in use.
     first_free: BTreeMap<String, u64>,
 }
@@ -19,16 +21,29 @@ impl OldNames {
     /// Reserves a name for an object: the wished one, or the next free number at its end.
     pub(in crate::scene) fn claim(&mut self, wished: &str, handle: Handle) -> String {
         let name = if self.handles.contains_key(wished) { self.next_free(wished) } else { wished.to_owned() };
-        self.handles.insert(name.clone(), handle);
+        if self.handles.insert(name.clone(), handle).is_none() {
+            *self.suffixes.entry(suffix(&name).0).or_default() += 1;
+        }
         name
     }
 
     /// Makes a name available again.
     pub(in crate::scene) fn release(&mut self, name: &str) {
-        self.handles.remove(name);
+        if self.handles.remove(name).is_some() {
+            self.forget_suffix(suffix(name).0);
+        }
         let (stem, number) = split_number(name);
         if let (Some(number), Some(first)) = (number, self.first_free.get_mut(stem)) {
             *first = number.min(*first);
+        }
+    }
+
+    fn forget_suffix(&mut self, suffix: i64) {
+        if let Some(count) = self.suffixes.get_mut(&suffix) {
+            *count -= 1;
+            if *count == 0 {
+                self.suffixes.remove(&suffix);
+            }
         }
     }
 
@@ -46,7 +61,7 @@ impl OldNames {
 
     /// The largest suffix in use; -1 if there is none.
     fn highest_suffix(&self) -> i64 {
-        self.handles.keys().map(|name| suffix(name).0).max().unwrap_or(-1)
+        self.suffixes.last_key_value().map_or(-1, |(&suffix, _)| suffix)
     }
 }
 

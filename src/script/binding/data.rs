@@ -4,7 +4,7 @@ use std::ffi::{CStr, c_int, c_void};
 
 use crate::scene::{Data, Key};
 use crate::script::error::{ApiError, ApiResult};
-use crate::script::lua::{Room, Scalar, Stack, Type};
+use crate::script::lua::{Entries, Room, Scalar, Stack, Type};
 use crate::script::runtime::FunctionRef;
 
 /// Registry key of the metatable of all buffers of a state.
@@ -95,21 +95,68 @@ pub(crate) fn read_buffer(stack: Stack<'_>, table: c_int) -> Option<Vec<u8>> {
 }
 
 fn read_entries(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) -> ApiResult<Data> {
+    if let Some(numbers) = stack.list_of_numbers(table) {
+        return Ok(Data::Array(numbers.into_iter().map(from_scalar).collect()));
+    }
     let len = stack.raw_len(table);
     // A table with holes may claim any length.
-    let mut entries = Vec::with_capacity(len.min(MAX_HINT));
-    let mut array = true;
+    let mut items = Vec::with_capacity(len.min(MAX_HINT));
     let mut cursor = stack.entries(table);
     while cursor.advance() {
+        if items.len() == len || stack.integer(cursor.key()) != Some(items.len() as i64 + 1) {
+            let entries = (1..).zip(items).map(|(i, item)| (Key::Int(i), item)).collect();
+            return read_remaining(stack, &mut cursor, len, entries, above);
+        }
+        items.push(read(stack, cursor.value(), above)?);
+    }
+    if items.len() == len {
+        return Ok(Data::Array(items));
+    }
+    Ok(Data::Map((1..).zip(items).map(|(i, item)| (Key::Int(i), item)).collect()))
+}
+
+/// Reads the entries from that of the cursor on, of a table that is no list in order, behind those that were read.
+fn read_remaining(
+    stack: Stack<'_>,
+    cursor: &mut Entries<'_>,
+    len: usize,
+    mut entries: Vec<(Key, Data)>,
+    above: &mut Vec<*const c_void>,
+) -> ApiResult<Data> {
+    let mut array = true;
+    loop {
         let key = read_key(stack, cursor.key());
         array = array && matches!(key, Key::Int(i) if i >= 1 && i as usize <= len);
         entries.push((key, read(stack, cursor.value(), above)?));
+        if !cursor.advance() {
+            break;
+        }
     }
     if !array || entries.len() != len {
         return Ok(Data::Map(entries));
     }
     entries.sort_by_key(|(key, _)| if let Key::Int(i) = key { *i } else { 0 });
     Ok(Data::Array(entries.into_iter().map(|(_, value)| value).collect()))
+}
+
+fn from_scalar(value: Scalar) -> Data {
+    match value {
+        Scalar::Nil => Data::Nil,
+        Scalar::Bool(b) => Data::Bool(b),
+        Scalar::Int(i) => Data::Int(i),
+        Scalar::Number(f) => Data::Float(f),
+    }
+}
+
+/// The value, when it has no memory of its own.
+fn as_scalar(data: &Data) -> Option<Scalar> {
+    Some(match data {
+        Data::Nil => Scalar::Nil,
+        Data::Bool(b) => Scalar::Bool(*b),
+        Data::Int(i) => Scalar::Int(*i),
+        Data::Float(f) => Scalar::Number(*f),
+        _ => return None,
+    })
 }
 
 fn read_key(stack: Stack<'_>, index: c_int) -> Key {
@@ -148,7 +195,10 @@ fn push<'a>(stack: Stack<'a>, room: Room<'a>, data: &Data) {
         Data::Array(items) => match room.new_table(items.len(), 0) {
             Ok(table) => {
                 for (i, item) in (1..).zip(items) {
-                    table.set_item(i, |room| push(stack, room, item));
+                    match as_scalar(item) {
+                        Some(scalar) => table.set_scalar(i, scalar),
+                        None => table.set_item(i, |room| push(stack, room, item)),
+                    }
                 }
             }
             Err(room) => room.push(Scalar::Nil),

@@ -10,6 +10,7 @@ use std::mem::MaybeUninit;
 
 use mlua::ffi;
 
+use super::stack::tables::MAX_HINT;
 use super::stack::{Stack, Type};
 pub(crate) use new_table::Scalar;
 
@@ -214,6 +215,40 @@ impl<'a> Stack<'a> {
             }
         }
         true
+    }
+
+    /// The items of the table at `index`, when it holds numbers 1, 2, 3 and so on and nothing else. Nothing runs meanwhile that could
+    /// change it.
+    pub(crate) fn list_of_numbers(self, index: c_int) -> Option<Vec<Scalar>> {
+        let table = self.table(index);
+        let len = lua_rawlen(self, Slot(table.0)) as usize;
+        if len == 0 {
+            return None;
+        }
+        lua_pushnil(self.room_for(3));
+        let key = lua_gettop(self);
+        let mut items = Vec::with_capacity(len.min(MAX_HINT));
+        while lua_next(Known(self), table) != 0 {
+            let is_next = self.integer(key) == Some(items.len() as i64 + 1);
+            let Some(item) = self.number_in(Slot(key + 1)).filter(|_| is_next) else {
+                lua_settop(self, Occupied(key - 1));
+                return None;
+            };
+            items.push(item);
+            lua_settop(self, Occupied(key));
+        }
+        (items.len() == len).then_some(items)
+    }
+
+    /// The number in a slot; a string is none.
+    fn number_in(self, slot: Slot) -> Option<Scalar> {
+        if lua_type(self, slot) != ffi::LUA_TNUMBER {
+            return None;
+        }
+        Some(match lua_isinteger(self, slot) {
+            0 => Scalar::Number(lua_tonumberx(self, slot, None)),
+            _ => Scalar::Int(lua_tointegerx(self, slot, None)),
+        })
     }
 
     /// Pops a table and makes it the metatable of the table or userdata at `index`.

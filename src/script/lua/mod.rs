@@ -26,7 +26,7 @@ mod seal;
 mod stack;
 mod state;
 
-pub(crate) use api::{Room, Scalar};
+pub(crate) use api::{Entries, Room, Scalar};
 pub(crate) use bytecode::{Bytecode, PassedFunction, Prototype};
 pub(crate) use calls::callback::{Callback, push_callback};
 pub(crate) use calls::{LuaError, MULTIPLE};

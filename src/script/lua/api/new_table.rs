@@ -3,7 +3,7 @@
 use std::ffi::c_int;
 
 use super::{
-    Pair, Room, Top, lua_checkstack, lua_createtable, lua_gettop, lua_pushboolean, lua_pushinteger, lua_pushnil,
+    Pair, Room, Table, Top, lua_checkstack, lua_createtable, lua_gettop, lua_pushboolean, lua_pushinteger, lua_pushnil,
     lua_pushnumber, lua_rawset, lua_rawseti,
 };
 use crate::script::lua::Stack;
@@ -50,14 +50,21 @@ pub(crate) struct NewTable<'a> {
 impl<'a> NewTable<'a> {
     /// Sets item `i` to the value that `push` pushes.
     pub(crate) fn set_item(&self, i: i64, push: impl FnOnce(Room<'a>)) {
-        push(self.room(0));
+        push(Room(self.stack));
         self.check(1);
-        lua_rawseti(Top(self.stack), self.stack.table(self.index), i);
+        lua_rawseti(Top(self.stack), Table(self.index), i);
+    }
+
+    /// Sets item `i` to a number or the like.
+    pub(crate) fn set_scalar(&self, i: i64, value: Scalar) {
+        self.check(0);
+        Room(self.stack).push(value);
+        lua_rawseti(Top(self.stack), Table(self.index), i);
     }
 
     /// Sets a field to the value that `push` pushes.
     pub(crate) fn set_field(&self, name: &[u8], push: impl FnOnce(Room<'a>)) {
-        self.room(0).push_bytes(name);
+        Room(self.stack).push_bytes(name);
         self.set(push);
     }
 
@@ -66,23 +73,19 @@ impl<'a> NewTable<'a> {
         if matches!(key, Scalar::Nil) || matches!(key, Scalar::Number(number) if number.is_nan()) {
             return;
         }
-        self.room(0).push(key);
+        Room(self.stack).push(key);
         self.set(push);
     }
 
     /// The key is on top.
     fn set(&self, push: impl FnOnce(Room<'a>)) {
-        push(self.room(1));
+        push(Room(self.stack));
         self.check(2);
-        lua_rawset(Pair(self.stack), self.stack.table(self.index));
+        lua_rawset(Pair(self.stack), Table(self.index));
     }
 
-    /// Room for a value behind `used` others.
-    fn room(&self, used: c_int) -> Room<'a> {
-        self.check(used);
-        Room(self.stack)
-    }
-
+    /// Every entry begins and ends with the table on top, so that it is there, and room for a key and a value, as long as `push` pushes a
+    /// value.
     fn check(&self, values: c_int) {
         assert_eq!(lua_gettop(self.stack), self.index + values, "each entry is a key and a value");
     }
