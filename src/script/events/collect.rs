@@ -25,19 +25,26 @@ impl Sim {
             return;
         }
         self.with_collector(|mut collector| collector.collect_clock());
-        let Some(changes) = self.new_changes() else { return self.restart_events() };
-        if !changes.is_empty() {
-            self.with_collector(|mut collector| changes.into_iter().for_each(|change| collector.collect(change)));
+        match self.new_changes() {
+            None => self.restart_events(),
+            Some(NewChanges::One(change)) => self.with_collector(|mut collector| collector.collect(change)),
+            Some(NewChanges::Several(changes)) if changes.is_empty() => {}
+            Some(NewChanges::Several(changes)) => {
+                self.with_collector(|mut collector| changes.into_iter().for_each(|change| collector.collect(change)));
+            }
         }
     }
 
     /// The changes of the scene since the last call; None if some were lost.
-    fn new_changes(&self) -> Option<Vec<Change>> {
+    fn new_changes(&self) -> Option<NewChanges> {
         let mut guard = self.events.cursor.borrow_mut();
-        let Some(cursor) = guard.as_mut() else { return Some(Vec::new()) };
+        let Some(cursor) = guard.as_mut() else { return Some(NewChanges::Several(Vec::new())) };
         match self.scene.borrow().journal().read(cursor) {
             Unread::Everything => None,
-            Unread::Changes(changes) => Some(latest_of_each(changes)),
+            Unread::Changes(mut changes) if changes.size_hint().1 == Some(1) => {
+                Some(changes.next().map_or_else(|| NewChanges::Several(Vec::new()), |one| NewChanges::One(one.clone())))
+            }
+            Unread::Changes(changes) => Some(NewChanges::Several(latest_of_each(changes))),
         }
     }
 
@@ -102,6 +109,12 @@ impl Sim {
         encode::value(self.events.protocol.get(), ValueType::String, &data, &mut bytes);
         Entry { key: format!("namedParam.{name}").into(), value: bytes }
     }
+}
+
+/// Changes since the last look; after most calls there is one.
+enum NewChanges {
+    One(Change),
+    Several(Vec<Change>),
 }
 
 /// Turns changes into events, with what listeners know of each target.
@@ -335,8 +348,7 @@ impl Collector<'_> {
 /// Leaves out changes of a field of an object that are followed by another one: the physics reports after every sub-step.
 fn latest_of_each(changes: Changes<'_>) -> Vec<Change> {
     let mut seen = HashSet::new();
-    let one = changes.size_hint().1 == Some(1);
-    let mut latest: Vec<Change> = changes.rev().filter(|change| one || is_first(&mut seen, change)).cloned().collect();
+    let mut latest: Vec<Change> = changes.rev().filter(|change| is_first(&mut seen, change)).cloned().collect();
     latest.reverse();
     latest
 }

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
+use std::hash::{BuildHasherDefault, Hasher};
 
 use super::encode;
 use super::filter::Filters;
@@ -100,11 +101,39 @@ impl Event {
     }
 }
 
+/// Hashes eight bytes at a time. The keys are from here, and nothing depends on their order.
+#[derive(Default)]
+struct WordHasher(u64);
+
+impl Hasher for WordHasher {
+    fn finish(&self) -> u64 {
+        self.0 ^ self.0 >> 32
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        let (words, rest) = bytes.as_chunks::<8>();
+        words.iter().for_each(|word| self.write_u64(u64::from_le_bytes(*word)));
+        self.write_u64(rest.iter().fold(rest.len() as u64, |word, &byte| word << 8 | u64::from(byte)));
+    }
+
+    fn write_u64(&mut self, word: u64) {
+        self.0 = (self.0.rotate_left(26) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+
+    fn write_i64(&mut self, word: i64) {
+        self.write_u64(word.cast_unsigned());
+    }
+
+    fn write_u8(&mut self, byte: u8) {
+        self.write_u64(byte.into());
+    }
+}
+
 /// The events since the last dispatch, in order.
 #[derive(Debug, Default)]
 pub(super) struct Queue {
     events: BTreeMap<u64, Event>,
-    latest: HashMap<MergeId, u64>,
+    latest: HashMap<MergeId, u64, BuildHasherDefault<WordHasher>>,
     pushed: u64,
 }
 
@@ -146,9 +175,13 @@ fn write_event(event: &Event, seq: i64, filters: Option<&Filters>, out: &mut Vec
         Some(keys) => keys,
         None => None,
     };
-    let Some(data) = encoded_data(&event.data, |entry| keys.is_none_or(|keys| keys.contains(&entry.key))) else {
+    let wanted = |entry: &&Entry| keys.is_none_or(|keys| keys.contains(&entry.key));
+    if let Content::Entries(entries) = &event.data
+        && !entries.is_empty()
+        && !entries.iter().any(|entry| wanted(&entry))
+    {
         return;
-    };
+    }
     out.push(encode::MAP);
     member(out, "event", |out| encode::text(out, event.name.as_bytes()));
     for (key, number) in [("uid", event.source.uid), ("handle", event.source.handle)] {
@@ -156,25 +189,23 @@ fn write_event(event: &Event, seq: i64, filters: Option<&Filters>, out: &mut Vec
             member(out, key, |out| push_int(out, number));
         }
     }
-    member(out, "data", |out| out.extend(data));
+    member(out, "data", |out| write_data(out, &event.data, wanted));
     member(out, "seq", |out| push_int(out, seq));
     out.push(encode::END);
 }
 
-/// The wanted members as a map; None when there are members, but none of them is wanted.
-fn encoded_data(content: &Content, wanted: impl Fn(&Entry) -> bool) -> Option<Vec<u8>> {
+/// The wanted members as a map.
+fn write_data(out: &mut Vec<u8>, content: &Content, wanted: impl Fn(&&Entry) -> bool) {
     let entries = match content {
-        Content::User(map) => return Some(map.clone()),
+        Content::User(map) => return out.extend(map),
         Content::Entries(entries) => entries,
     };
-    let mut map = vec![encode::MAP];
-    for entry in entries.iter().filter(|entry| wanted(entry)) {
-        encode::text(&mut map, entry.key.as_bytes());
-        map.extend(&entry.value);
+    out.push(encode::MAP);
+    for entry in entries.iter().filter(wanted) {
+        encode::text(out, entry.key.as_bytes());
+        out.extend(&entry.value);
     }
-    let nothing_left = map.len() == 1 && !entries.is_empty();
-    map.push(encode::END);
-    (!nothing_left).then_some(map)
+    out.push(encode::END);
 }
 
 fn member(out: &mut Vec<u8>, key: &str, value: impl FnOnce(&mut Vec<u8>)) {

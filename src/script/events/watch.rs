@@ -17,6 +17,9 @@ use crate::script::property::{
 };
 use crate::script::sim::Sim;
 
+/// Bytes that most values do not exceed: a pose has 37.
+const USUAL_SIZE: usize = 40;
+
 /// The listeners, and their protocol versions.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Listeners {
@@ -130,35 +133,34 @@ impl Watched {
         entries.map(|entry| Event::changed(self.source, vec![entry])).collect()
     }
 
-    /// One event for each of these properties that is not as it was sent; pairs share one.
-    fn differences(&mut self, sim: &Rc<Sim>, indices: &[usize]) -> Vec<Event> {
-        let mut events = Vec::new();
+    /// Adds an event for each of these properties that is not as it was sent; pairs share one.
+    fn push_those_of(&mut self, sim: &Rc<Sim>, indices: &[usize]) {
         for &index in indices {
             if !self.take_difference(sim, index) {
                 continue;
             }
-            let mut sent = vec![index];
-            if let Some(partner) = self.keys.properties[index].partner {
+            let mut sent = [index; 2];
+            let partner = self.keys.properties[index].partner;
+            if let Some(partner) = partner {
                 self.take_difference(sim, partner);
-                sent.push(partner);
-                sent.sort_unstable();
+                sent = [index.min(partner), index.max(partner)];
             }
+            let sent = if partner.is_some() { &sent[..] } else { &sent[..1] };
             let entries = sent.iter().map(|&i| self.entry(i, &self.sent[i])).collect();
-            events.push(Event::changed(self.source, entries));
+            sim.events.push(Event::changed(self.source, entries));
         }
-        events
     }
 
     /// Adds events for the properties that a change of `field` can concern (None: all), as far as they are different.
     pub(super) fn push_differences(&mut self, sim: &Rc<Sim>, field: Option<Field>) {
         let indices = field.map_or(self.keys.all(), |field| self.keys.concerned(field));
-        self.differences(sim, indices).into_iter().for_each(|event| sim.events.push(event));
+        self.push_those_of(sim, indices);
     }
 
     /// Adds an event for one property, if it is different.
     pub(super) fn push_difference(&mut self, sim: &Rc<Sim>, name: &str) {
         let index = self.keys.index_of(name);
-        self.differences(sim, index.as_slice()).into_iter().for_each(|event| sim.events.push(event));
+        self.push_those_of(sim, index.as_slice());
     }
 
     /// Reads a property again; returns whether it differs from what was sent.
@@ -188,7 +190,7 @@ impl Watched {
 
     fn entry(&self, index: usize, value: &Data) -> Entry {
         let property = &self.keys.properties[index];
-        let mut bytes = Vec::new();
+        let mut bytes = Vec::with_capacity(USUAL_SIZE);
         match self.protocol {
             Protocol::V3 => encode::value(Protocol::V3, property.row.ty, value, &mut bytes),
             Protocol::V4 => encode::with_meaning(property.renamed.1, property.row.ty, value, &mut bytes),
