@@ -1,8 +1,10 @@
-//! Lists the files that are embedded: the Lua files of `lua/`, by module name, and those of the viewer's page, compressed.
+//! Lists the files that are embedded: the Lua files of `lua/`, by module name, and those of the viewer's page, compressed; and compiles the library
+//! for plugins.
 //! The folders right below `lua/` are rooms; they are not part of names.
 
 mod bundle;
 mod page;
+mod plugin;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -16,6 +18,7 @@ fn main() {
     let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
     list_lua(&package.join("lua"), &out);
+    plugin::compile(&out);
     page::compress(&package.join("src/view/page"), &out);
 }
 

@@ -10,6 +10,7 @@ mod io;
 mod modules;
 mod perception;
 mod permissions;
+mod plugin;
 pub mod scene;
 pub mod script;
 mod simulator;

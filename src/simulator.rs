@@ -434,6 +434,7 @@ impl Drop for Simulator {
     fn drop(&mut self) {
         self.sim.end_detached();
         self.sim.end_video_of_scripts();
+        self.sim.unload_plugins();
         self.sim.close_all();
         self.sim.save_app_storage();
     }

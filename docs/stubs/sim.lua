@@ -25,10 +25,6 @@ function getAutoYield() end
 ---@return boolean allowed
 function getYieldAllowed() end
 
---- Native plugins of CoppeliaSim cannot be loaded: this is an error.
----@param name string the plugin
-function loadPlugin(name) end
-
 --- Ends the program after the current loop iteration.
 function quitSimulator() end
 
@@ -2337,7 +2333,7 @@ function sim.loadModel(filenameOrBuffer, onlyThumbnails) end
 
 --- Loads a plugin of this simulator.
 ---@param name string for instance simIK
----@return integer handle 0
+---@return integer handle 0, or -1 if it cannot be loaded, which is logged
 function sim.loadPlugin(name) end
 
 --- Replaces the scene. For add-ons and the sandbox, while the simulation is stopped.
@@ -4183,10 +4179,6 @@ function simSetUIProperty(elementHandle, elementProperty) end
 ---@param position integer 0 to 1000
 ---@return integer result 1
 function simSetUISlider(elementHandle, buttonHandle, position) end
-
---- The counterpart of loadPlugin.
----@param name string the plugin
-function unloadPlugin(name) end
 
 sim.addonscriptcall_cleanup = 1
 sim.addonscriptcall_initialization = 2

@@ -192,6 +192,7 @@ standIns('functional', {
 standIns('swanilda.console', {
     'help', 'printBytes', 'hexdump', '_evalExec', '_evalExecRet', '_getCompletion', '_getCalltip',
 })
+standIns('swanilda.plugins', {'loadPlugin', 'unloadPlugin'})
 standIns('var', {'getvar', 'setvar', 'getlocals'})
 standIns('swanilda.modload', {'import', 'rerequire'})
 
@@ -213,7 +214,7 @@ operator = setmetatable({}, {__index = function(t, key) return quietRequire('fun
 
 function wrap(original, generator) return generator(original) end
 
--- Where the original keeps the functions of its interface. Native plugins, which would add to the other table, do not exist here.
+-- Where the original keeps the functions of its interface. Native plugins are in the other table.
 _S = setmetatable({}, {__index = function(_, key) return key == 'sim' and quietRequire('sim') or nil end})
 sim_plugin_namespaces = {}
 loadstring, unpack, quit, exit = load, unpack_, quitSimulator, quitSimulator

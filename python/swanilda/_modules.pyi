@@ -9261,6 +9261,14 @@ class _swanilda_oldmotion:
         """sim.moveToPosition
         """
 
+class _swanilda_plugins:
+    def loadPlugin(self, name: Any | None = ..., /) -> Any:
+        """The functions and variables of a plugin; nothing if it cannot be loaded, which the log says.
+        """
+    def unloadPlugin(self, plugin: Any | None = ..., options: Any | None = ..., /) -> Any:
+        """Ends the use of a plugin, which loadPlugin has returned; with options.force, that of all scripts.
+        """
+
 class _swanilda_test:
     def allow_script_errors(self, allowed: bool | None = ..., /) -> None: ...
     def answer(self, dialog: Any | None = ..., value: Any | None = ..., /) -> Any: ...
@@ -9608,6 +9616,8 @@ class Requires:
     def require(self, name: Literal["swanilda.config.window"], script: int | None = None) -> _swanilda_config_window: ...
     @overload
     def require(self, name: Literal["swanilda.oldmotion"], script: int | None = None) -> _swanilda_oldmotion: ...
+    @overload
+    def require(self, name: Literal["swanilda.plugins"], script: int | None = None) -> _swanilda_plugins: ...
     @overload
     def require(self, name: Literal["swanilda.test"], script: int | None = None) -> _swanilda_test: ...
     @overload

@@ -12,6 +12,7 @@ mod markdown;
 mod module_stubs;
 mod modules;
 mod overview;
+mod plugin_header;
 mod plugins;
 mod properties;
 mod python_stubs;
@@ -99,6 +100,7 @@ pub fn files() -> Vec<(String, String)> {
     files.push(("docs/PROPERTIES.md".to_owned(), properties::text()));
     files.push(("docs/CALLBACKS.md".to_owned(), callbacks::text()));
     files.push(("docs/PLUGINS.md".to_owned(), plugins::text()));
+    files.push(("include/swanilda_plugin.h".to_owned(), plugin_header::text()));
     files
 }
 

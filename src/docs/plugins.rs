@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{approximated::difference, modules};
+use crate::plugin::symbols;
 use crate::script::ReferenceModule;
 
 /// State of a module.
@@ -29,8 +30,8 @@ pub(super) fn text() -> String {
     let mut out = String::from(
         "# Plugins and Lua modules\n\nGenerated from the sources: `UPDATE=1 cargo test --test generated`. What `require` finds in CoppeliaSim 4.10, \
          and its state in Swanilda. `require` of a missing one raises an error that names this page; `swanilda doctor` finds such calls \
-         before a scene runs. Plugins in C++ made for CoppeliaSim cannot be loaded; Lua modules in C can, and programs in Rust add modules of their own \
-         ([EMBEDDING](EMBEDDING.md)). [Functions of the modules that are here](api/modules.md).\n",
+         before a scene runs. Plugins in C and C++ made for CoppeliaSim can be loaded ([NATIVE_PLUGINS](NATIVE_PLUGINS.md)), Lua modules in C as well, and programs \
+         in Rust add modules of their own ([EMBEDDING](EMBEDDING.md)). [Functions of the modules that are here](api/modules.md).\n",
     );
     for (kind, title) in [
         ("plugin", "Plugins"),
@@ -48,7 +49,21 @@ pub(super) fn text() -> String {
             out.push_str(&row(module, state));
         }
     }
+    out.push_str(&c_interface());
     out
+}
+
+/// Which functions native plugins can call.
+fn c_interface() -> String {
+    let missing: Vec<String> =
+        symbols().filter(|row| row.is_missing()).map(|row| format!("`{}`", row.symbol)).collect();
+    let all = symbols().count();
+    format!(
+        "\n## Functions of the C interface\n\n{} of the {all} functions that the two versions of CoppeliaSim's loaders for plugins look up \
+         are here ([NATIVE_PLUGINS](NATIVE_PLUGINS.md)). These are missing; a call fails and is named in the log:\n\n{}\n",
+        all - missing.len(),
+        missing.join(", ")
+    )
 }
 
 fn row(module: ReferenceModule, state: State) -> String {

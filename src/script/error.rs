@@ -65,6 +65,9 @@ pub enum ApiError {
     /// As Lua's own functions refuse argument `position`.
     #[error("bad argument #{position} ({reason})")]
     BadArgument { position: i32, reason: String },
+    /// The error of a native plugin's function.
+    #[error("{0} (c: simSetLastError)")]
+    Plugin(String),
     /// Words made where the error happens.
     #[error("{0}")]
     Other(String),

@@ -14,6 +14,7 @@ pub mod log;
 mod lua;
 mod lua_runtime;
 mod person;
+mod plugins;
 mod present;
 mod property;
 mod python_runtime;

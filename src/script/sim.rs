@@ -45,6 +45,10 @@ pub struct Options {
     pub resources: Option<std::path::PathBuf>,
     /// Folders `require` looks into first.
     pub package_dirs: Vec<std::path::PathBuf>,
+    /// Folders with native plugins, besides the scene's.
+    pub plugin_dirs: Vec<std::path::PathBuf>,
+    /// A file that names the function of a plugin that is running, for whoever looks at it after a crash.
+    pub plugin_note: Option<std::path::PathBuf>,
     /// Lua instructions a thread may run per millisecond of its time slice.
     pub instructions_per_ms: u64,
     /// Permissions of scripts: files, programs, the network.
@@ -74,6 +78,8 @@ impl Default for Options {
             data_dir: None,
             resources: None,
             package_dirs: Vec::new(),
+            plugin_dirs: Vec::new(),
+            plugin_note: None,
             instructions_per_ms: 100_000,
             permissions: Permissions::all(),
             stop: Arc::default(),
@@ -196,6 +202,12 @@ impl Sim {
     pub(crate) fn log(&self, level: i64, text: &str) {
         let time = self.clock.time();
         self.log_line(&LogLine { origin: "CoppeliaSim", level, text, located: None, time, status: false }, None);
+    }
+
+    /// Logs in the name of a plugin.
+    pub(in crate::script) fn log_as(&self, origin: &str, level: i64, text: &str) {
+        let time = self.clock.time();
+        self.log_line(&LogLine { origin, level, text, located: None, time, status: false }, None);
     }
 
     /// Logs what the simulation does, in the sandbox's name as the original does.

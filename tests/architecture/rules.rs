@@ -4,7 +4,7 @@
 pub const LAYERS: &[&[&str]] = &[
     &["scene"],
     &["permissions", "ui", "wire"],
-    &["dynamics", "format", "ik", "io", "perception"],
+    &["dynamics", "format", "ik", "io", "perception", "plugin"],
     &["script"],
     &["api"],
     &["modules"],
@@ -39,6 +39,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("ctrlc", "src/cli"),
     ("dejavu", "crates/imaging"),
     ("dejavu", "src/format/plot.rs"),
+    ("directories", "src/plugin/own_library.rs"),
     ("directories", "src/script/files/app_storage"),
     ("dns_lookup", "src/io/socket"),
     ("flate2", "src/view"),
@@ -67,6 +68,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("kinematics", "src/ik"),
     ("kinematics", "src/modules"),
     ("libc", "src/io/signals.rs"),
+    ("libloading", "src/plugin/ffi"),
     ("libm", "src/modules/sim_eigen"),
     ("libm", "src/perception"),
     ("libm", "crates/kinematics"),
@@ -129,6 +131,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("tempfile", "src/format"),
     ("tempfile", "src/modules/sim_remote_api"),
     ("tempfile", "src/permissions/tests.rs"),
+    ("tempfile", "src/plugin/own_library.rs"),
     ("tempfile", "src/script/files/app_storage"),
     ("tempfile", "src/testing"),
     ("thiserror", "crates"),
@@ -247,6 +250,7 @@ const SCRIPT: Rooms = &[
     ("events", &["calls", "error", "lifecycle", "log", "property", "sim", "step"]),
     ("files", &["calls", "error", "lifecycle", "log", "sim", "step"]),
     ("lifecycle", &["binding", "calls", "coverage", "error", "events", "log", "runtime", "sim"]),
+    ("plugins", &["error", "lifecycle", "log", "sim"]),
     ("property", &["binding", "error", "events", "files", "lifecycle", "log", "person", "present", "sim", "video"]),
     ("person", &["sim"]),
     ("present", &["log", "sim", "step"]),
@@ -284,7 +288,7 @@ pub const LUA_NAMES: &[&str] =
 pub const FUNCTIONS_FOR_SCRIPTS: &[&str] = &["src/api", "src/modules"];
 
 /// The edges to libraries written in C.
-pub const UNSAFE: &[&str] = &["src/script/lua", "src/io/signals.rs", "src/io/zmq/libzmq.rs"];
+pub const UNSAFE: &[&str] = &["src/script/lua", "src/plugin/ffi", "src/io/signals.rs", "src/io/zmq/libzmq.rs"];
 
 /// What a script may need a permission for, as code writes it.
 pub const SYSTEM_CALLS: &[&str] = &[

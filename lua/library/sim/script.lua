@@ -106,10 +106,9 @@ end
 --- Loads a plugin of this simulator.
 -- @api int handle = sim.loadPlugin(string name)
 -- @param name for instance simIK
--- @return handle 0
+-- @return handle 0, or -1 if it cannot be loaded, which is logged
 function M.loadPlugin(name)
-    loadPlugin(name)
-    return 0
+    return loadPlugin(name) and 0 or -1
 end
 
 --- Lets the idle loop run without pauses; it always does here, so this does nothing.

@@ -87,7 +87,7 @@ fn save_model(cx: &mut Cx, model_base_handle: Handle, #[default(None)] filename:
     }
     let file = cx.model_file(model_base_handle)?;
     let Some(filename) = filename else { return Ok(Data::Buffer(readable_bytes(&file, None)?)) };
-    cx.write_named(&file, &filename)?;
+    cx.save_model(&file, &filename)?;
     Ok(Data::Int(1))
 }
 

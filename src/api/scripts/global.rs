@@ -5,6 +5,7 @@ use std::rc::Rc;
 use api_macro::api;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
+use crate::plugin::Variable;
 use crate::scene::Data;
 use crate::script::Source;
 use crate::script::log::verbosity;
@@ -23,6 +24,7 @@ pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     print_line,
     used_module,
     load_plugin,
+    call_plugin,
     unload_plugin,
     register_code_editor_infos,
 ];
@@ -199,22 +201,49 @@ fn used_module(cx: &Cx, name: String, #[default(false)] implicit: bool) -> Resul
     Ok(())
 }
 
-/// Native plugins of CoppeliaSim cannot be loaded: this is an error.
+/// Loads a native plugin: its name, the names of its functions, and its variables as name, value and whether that is an expression.
+/// Nothing where it cannot be loaded. `loadPlugin` makes a table of functions of it.
 ///
-/// @param name the plugin
-#[api("loadPlugin")]
-fn load_plugin(cx: &mut Cx, name: String) -> Result<()> {
-    let _ = cx;
-    Err(ApiError::Other(format!("native plugins cannot be loaded in Swanilda: '{name}'.")))
+/// @param name the plugin, with or without a version: simX, simX-2
+/// @return plugin a map; nil where it cannot be loaded, which is logged
+#[api("_loadPlugin")]
+fn load_plugin(cx: &mut Cx, name: String) -> Result<Option<Data>> {
+    let Some(plugin) = cx.load_plugin(&name)? else { return Ok(None) };
+    let functions = plugin.functions().iter().map(|name| Data::text(name)).collect();
+    let variables = plugin.variables().into_iter().map(|(name, variable)| {
+        let (value, is_expression) = match variable {
+            Variable::Expression(text) => (Data::text(&text), true),
+            Variable::Value(value) => (value, false),
+        };
+        Data::map([("name", Data::text(&name)), ("value", value), ("isExpression", is_expression.into())])
+    });
+    Ok(Some(Data::map([
+        ("name", Data::text(&plugin.name)),
+        ("functions", Data::Array(functions)),
+        ("variables", Data::Array(variables.collect())),
+    ])))
 }
 
-/// The counterpart of loadPlugin.
+/// Calls a function of a native plugin.
+///
+/// @param plugin its name
+/// @param place of the function among those of the plugin, from 0
+/// @param values what the function gets
+/// @return results what the function has left on its stack
+#[api("_callPlugin")]
+fn call_plugin(cx: &mut Cx, plugin: String, place: i64, values: Rest) -> Result<Results> {
+    // A place that is none is no function of the plugin.
+    let place = usize::try_from(place).unwrap_or(usize::MAX);
+    cx.call_plugin(&plugin, place, values.0).map(Results)
+}
+
+/// Ends the use of a native plugin by this script. With its last user it is unloaded.
 ///
 /// @param name the plugin
-#[api("unloadPlugin")]
-fn unload_plugin(cx: &mut Cx, name: String) -> Result<()> {
-    let _ = cx;
-    Err(ApiError::Other(format!("native plugins cannot be loaded in Swanilda: '{name}'.")))
+/// @param force unload it although other scripts use it
+#[api("_unloadPlugin")]
+fn unload_plugin(cx: &mut Cx, name: String, #[default(false)] force: bool) -> Result<()> {
+    cx.unload_plugin(&name, force)
 }
 
 /// Accepted for scripts that describe themselves to the original's editor.

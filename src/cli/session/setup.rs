@@ -38,6 +38,9 @@ pub(in crate::cli) struct Setup {
     /// Folder for persistent data of scripts [default: the user's data folder]
     #[arg(long, value_name = "FOLDER")]
     data_dir: Option<PathBuf>,
+    /// Folder with native plugins (libsimName.so), besides the scene's; may be repeated
+    #[arg(long, value_name = "FOLDER")]
+    plugin_path: Vec<PathBuf>,
     #[command(flatten)]
     resources: ResourceArgs,
     /// Lua file to load as an add-on; may be repeated
@@ -125,6 +128,7 @@ impl Setup {
             data_dir: self.data_dir.clone(),
             resources: self.resources.folder(),
             package_dirs: scene.map(Simulator::folder_of_scene).into_iter().collect(),
+            plugin_dirs: self.plugin_path.clone(),
             stop: interrupt.flag(),
             original_errors: self.original_errors,
             ..Options::default()

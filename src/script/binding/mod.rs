@@ -111,6 +111,8 @@ pub(crate) fn error_text(error: &ApiError, stack: Stack<'_>, function: &str) -> 
     match error {
         ApiError::NotImplemented(_) => format!("{line}: {error}"),
         ApiError::BadArgument { position, reason } => stack.argument_error(*position, reason),
+        // Scripts know these words, and the function that calls all plugins in CoppeliaSim.
+        ApiError::Plugin(_) => format!("{line}: error in 'sim.genericFunctionHandler': {error}"),
         _ => format!("{line}: in {function}: {error}"),
     }
 }

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use crate::format::scene_file::{LoadedScript, SceneFile, save, write_whole};
 use crate::format::ttt::File;
 use crate::format::xml::{self, Variant};
+use crate::plugin::Moment;
 use crate::scene::object::script_object::ScriptType;
 use crate::scene::{Data, Handle, SceneError};
 use crate::script::calls::callback::SysCall;
@@ -46,6 +47,17 @@ impl Sim {
         let path = std::path::absolute(path).map_or_else(|_| path.to_owned(), |p| p.to_string_lossy().into_owned());
         self.scene.borrow_mut().modify_settings(|settings| settings.path = path);
         self.broadcast(SysCall::AfterSave, &[info]);
+        self.notify_plugins(Moment::SceneSaved, [0; 4]);
+        Ok(())
+    }
+
+    /// Writes a model to a file in the format of its name.
+    ///
+    /// # Errors
+    /// When the file may not or cannot be written, or could not be loaded again.
+    pub(crate) fn save_model(self: &Rc<Self>, model: &File, name: &str) -> ApiResult<()> {
+        self.write_named(model, name)?;
+        self.notify_plugins(Moment::ModelSaved, [0; 4]);
         Ok(())
     }
 
@@ -53,7 +65,7 @@ impl Sim {
     ///
     /// # Errors
     /// When the file may not or cannot be written, or could not be loaded again. A file of that name is as it was then.
-    pub(crate) fn write_named(&self, file: &File, name: &str) -> ApiResult<()> {
+    fn write_named(&self, file: &File, name: &str) -> ApiResult<()> {
         let (variant, path) = Variant::of_name(name);
         self.options.permissions.check_write(Path::new(path))?;
         write_whole(Path::new(path), &readable_bytes(file, variant)?)

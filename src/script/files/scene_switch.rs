@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use crate::format::scene_file::{Loaded, LoadedScript, SceneFile};
+use crate::plugin::Moment;
 use crate::scene::object::script_object::{ScriptObject, ScriptType};
 use crate::scene::{Edit, Handle, InertValues, Kind, Namespace, Settings};
 use crate::script::calls::callback::SysCall;
@@ -63,6 +64,7 @@ impl Sim {
             }
             SceneSource::File(file) => {
                 self.load_file(*file, true)?;
+                self.notify_plugins(Moment::SceneLoaded, [0; 4]);
                 self.broadcast(SysCall::AfterLoad, &[]);
             }
         }
@@ -76,6 +78,7 @@ impl Sim {
     pub(crate) fn load_model_file(self: &Rc<Self>, file: SceneFile) -> ApiResult<Option<Handle>> {
         let loaded = self.load_file(file, false)?;
         self.notify_created(&loaded.objects);
+        self.notify_plugins(Moment::ModelLoaded, [0; 4]);
         Ok(loaded.root)
     }
 

@@ -236,7 +236,7 @@ impl Sim {
     }
 
     /// Ends a script as a crash would: without its cleanup callback.
-    pub(crate) fn abort(&self, script: &Script) {
+    pub(crate) fn abort(self: &Rc<Self>, script: &Script) {
         script.set_base_state(state::ENDED);
         self.close(script);
     }
@@ -265,7 +265,8 @@ impl Sim {
 
     /// Releases the interpreter, which is closed when its last call has returned, and what belongs to the script: signals, collections,
     /// drawing objects.
-    fn close(&self, script: &Script) {
+    fn close(self: &Rc<Self>, script: &Script) {
+        self.release_plugins_of(script);
         script.runtime.replace(None);
         self.drop_signals_of(script);
         self.scene.borrow_mut().forget_owner(script.id);

@@ -11,10 +11,11 @@ pub(crate) mod wall_clock;
 use std::rc::Rc;
 
 use super::calls::callback::SysCall;
-use super::lifecycle::instance::state;
+use super::lifecycle::instance::{Script, state};
 use super::lifecycle::order::Group;
 use super::log::{status, verbosity};
 use super::sim::Sim;
+use crate::plugin::Moment;
 use crate::scene::Data;
 use crate::scene::object::script_object::ScriptType;
 use clock::SimulationState;
@@ -22,6 +23,7 @@ use clock::SimulationState;
 impl Sim {
     /// One iteration of the application's loop: idle, paused or advancing.
     pub(crate) fn loop_iteration(self: &Rc<Self>) {
+        self.notify_plugins_of_pass();
         self.run_hooks(|hooks| hooks.start_of_iteration);
         if !self.clock.state().is_advancing() {
             self.scene.borrow_mut().button_interfaces_mut().next_pass();
@@ -79,17 +81,25 @@ impl Sim {
     fn simulation_step(self: &Rc<Self>) {
         let Some(main) = self.scripts.detached(ScriptType::Main) else { return };
         if self.clock.state() == SimulationState::FirstAfterStop {
-            self.deliver(&main, SysCall::Init, &[]);
+            self.run_phase(&main, SysCall::Init, Moment::SimulationInit);
         }
         if main.base_state() != state::INITIALIZED {
             return;
         }
-        self.deliver(&main, SysCall::Actuation, &[]);
+        self.run_phase(&main, SysCall::Actuation, Moment::SimulationActuation);
         self.dispatch_events();
-        self.deliver(&main, SysCall::Sensing, &[]);
+        self.run_phase(&main, SysCall::Sensing, Moment::SimulationSensing);
         if self.clock.state() == SimulationState::LastBeforeStop {
-            self.deliver(&main, SysCall::Cleanup, &[]);
+            self.run_phase(&main, SysCall::Cleanup, Moment::SimulationCleanup);
         }
+    }
+
+    /// One callback of the main script, with a message to plugins before and after.
+    fn run_phase(self: &Rc<Self>, main: &Rc<Script>, call: SysCall, moment: Moment) {
+        let milliseconds = (self.clock.time() * 1000.0).round() as i32;
+        self.notify_plugins(moment, [0, milliseconds, 0, 0]);
+        self.deliver(main, call, &[]);
+        self.notify_plugins(moment, [1, milliseconds, 0, 0]);
     }
 
     /// Completes a simulation step: time goes on and the state changes.
@@ -141,6 +151,7 @@ impl Sim {
 
     /// The start procedure (spec: simulation 4).
     fn begin(self: &Rc<Self>) {
+        self.notify_plugins(Moment::SimulationAboutToStart, [0; 4]);
         for group in [Group::Customization, Group::AddOn, Group::Sandbox] {
             self.deliver_to(group, SysCall::BeforeSimulation, &[]);
         }
@@ -242,6 +253,7 @@ impl Sim {
 
     /// The stop procedure (spec: simulation 5).
     fn finish(self: &Rc<Self>) {
+        self.notify_plugins(Moment::SimulationAboutToEnd, [0; 4]);
         if let Some(main) = self.scripts.detached(ScriptType::Main) {
             self.reset(&main);
         }
@@ -263,6 +275,7 @@ impl Sim {
         self.restart_failed_customization_scripts();
         self.close_consoles();
         self.run_hooks(|hooks| hooks.end_of_simulation);
+        self.notify_plugins(Moment::SimulationEnded, [0; 4]);
         self.log_status(status::STOPPED);
     }
 

@@ -34,12 +34,12 @@ impl Cx<'_> {
         self.sim.save_scene(name)
     }
 
-    /// Writes a file in the format of its name: XML where it ends so, in the simple variant with `@simpleXml` behind it.
+    /// Writes a model to a file in the format of its name: XML where it ends so, in the simple variant with `@simpleXml` behind it.
     ///
     /// # Errors
     /// When the file may not or cannot be written.
-    pub(crate) fn write_named(&self, file: &File, name: &str) -> ApiResult<()> {
-        self.sim.write_named(file, name)
+    pub(crate) fn save_model(&mut self, model: &File, name: &str) -> ApiResult<()> {
+        self.sim.save_model(model, name)
     }
 
     /// Replaces the scene on behalf of the calling script. With a file, its path becomes that of the scene.

@@ -4,8 +4,36 @@ use std::rc::Rc;
 
 use super::Cx;
 use crate::io::EventLoop;
+use crate::plugin::Plugin;
+use crate::scene::Data;
+use crate::script::error::ApiResult;
 
 impl Cx<'_> {
+    /// Loads a native plugin for the calling script, unless it is loaded. None where it cannot be loaded; the log says why.
+    ///
+    /// # Errors
+    /// When native code is not allowed.
+    pub(crate) fn load_plugin(&mut self, name: &str) -> ApiResult<Option<Rc<Plugin>>> {
+        self.permissions().check_native(&format!("loading the plugin '{name}'"))?;
+        Ok(self.sim.load_plugin(self.script(), name))
+    }
+
+    /// Calls a function of a plugin, by its place.
+    ///
+    /// # Errors
+    /// The plugin's.
+    pub(crate) fn call_plugin(&mut self, plugin: &str, function: usize, args: Vec<Data>) -> ApiResult<Vec<Data>> {
+        self.sim.call_plugin(self.script(), plugin, function, args)
+    }
+
+    /// The calling script uses a plugin no longer; it is unloaded with its last user, or at once.
+    ///
+    /// # Errors
+    /// When it is not loaded, or running.
+    pub(crate) fn unload_plugin(&mut self, name: &str, is_forced: bool) -> ApiResult<()> {
+        self.sim.unload_plugin(self.script(), name, is_forced)
+    }
+
     /// The event loop of this simulator's sockets.
     ///
     /// # Errors

@@ -1,0 +1,23 @@
+//! The C header for plugins: types and constants of CoppeliaSim's plugin interface, and every function that Swanilda has, from the same
+//! rows as the functions themselves.
+
+use std::fmt::Write as _;
+
+use crate::plugin;
+
+const HEAD: &str = include_str!("plugin_header_head.h");
+const END: &str = include_str!("plugin_header_end.h");
+
+/// `include/swanilda_plugin.h`.
+pub(super) fn text() -> String {
+    let mut out = String::from(HEAD);
+    out.push_str("#define SWANILDA_FUNCTIONS(X)");
+    for row in plugin::symbols().filter(|row| !row.is_missing()) {
+        // Without the mark of double precision, as plugins call it.
+        let name = row.symbol.trim_end_matches("_D");
+        let _ = write!(out, " \\\n    X({}, {name}, \"{}\", ({}))", row.c_result(), row.symbol, row.c_params());
+    }
+    out.push_str("\n\n");
+    out.push_str(END);
+    out
+}

@@ -1,0 +1,235 @@
+//! A call of a plugin: its parameters become values, the function is called, the results are written where C wants them.
+
+use std::sync::LazyLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::current::{Frame, current};
+use super::ffi::Value;
+use super::functions::{self, Function};
+use super::signature::{self, Param, Row, Size};
+use crate::scene::Data;
+
+/// The symbols plugins may look up, one row for each.
+const SYMBOLS: &str = include_str!("symbols.tsv");
+
+/// Longest list a plugin may pass; a larger count is a mistake.
+const LONGEST: usize = Data::MAX_ITEMS;
+
+/// A symbol with the function behind it.
+struct Bound {
+    row: Row,
+    target: Target,
+}
+
+enum Target {
+    /// A function of scripts.
+    Api(&'static str),
+    Own(Function),
+    Missing,
+}
+
+static BOUND: LazyLock<Vec<Bound>> = LazyLock::new(|| {
+    let target = |row: &Row| match functions::find(row.function) {
+        Some(function) => Target::Own(function),
+        None if row.function.starts_with("sim.") => Target::Api(row.function),
+        None => Target::Missing,
+    };
+    signature::rows(SYMBOLS).into_iter().map(|row| Bound { target: target(&row), row }).collect()
+});
+
+/// All symbols.
+pub(crate) fn symbols() -> impl Iterator<Item = &'static Row> {
+    BOUND.iter().map(|bound| &bound.row)
+}
+
+/// What a function of the simulator's own gets.
+pub(super) struct Call<'a> {
+    pub frame: &'a Frame,
+    pub args: Vec<Data>,
+    /// As C passed them.
+    pub values: &'a [Value],
+}
+
+/// Performs the call of symbol `number`; its result as C returns it.
+pub(super) fn perform(number: u32, values: &mut [Value]) -> i64 {
+    let Some(bound) = BOUND.get(number as usize) else { return -1 };
+    let Some(frame) = current() else {
+        complain_of_thread(bound.row.symbol);
+        return failure(number);
+    };
+    answer(&frame, bound, values).unwrap_or_else(|reason| {
+        frame.note_failure(&bound.row, reason);
+        failure(number)
+    })
+}
+
+/// What a call that failed returns.
+pub(super) fn failure(number: u32) -> i64 {
+    let is_pointer = BOUND.get(number as usize).is_some_and(|bound| bound.row.returns_pointer());
+    if is_pointer { 0 } else { -1 }
+}
+
+/// Calls from threads of the plugin's own, or after the simulator has ended.
+fn complain_of_thread(symbol: &str) {
+    static SAID: AtomicBool = AtomicBool::new(false);
+    if !SAID.swap(true, Ordering::Relaxed) {
+        eprintln!(
+            "swanilda: a plugin called {symbol} outside of a call by the simulator, for instance from a thread of its own. Such calls fail."
+        );
+    }
+}
+
+fn answer(frame: &Frame, bound: &Bound, values: &mut [Value]) -> Result<i64, String> {
+    let row = &bound.row;
+    let args = if row.is_missing() { Vec::new() } else { read(row, values)? };
+    let results = match bound.target {
+        Target::Missing => return Err("it is not implemented in Swanilda".into()),
+        Target::Own(function) => function(&Call { frame, args, values })?,
+        Target::Api(name) => frame.host.call(name, &ordered(row, args))?,
+    };
+    write(frame, row, values, results)
+}
+
+fn ordered(row: &Row, args: Vec<Data>) -> Vec<Data> {
+    match &row.order {
+        Some(order) => order.iter().map(|&place| args.get(place).cloned().unwrap_or(Data::Nil)).collect(),
+        None => args,
+    }
+}
+
+/// The parameters that the host reads, and the counts of those that it fills.
+fn read(row: &Row, values: &[Value]) -> Result<Vec<Data>, String> {
+    let mut args = Vec::new();
+    for (param, value) in row.params.iter().zip(values) {
+        if param.is_in {
+            args.push(argument(*param, value)?);
+        } else if param.size == Size::Counted {
+            args.push(Data::Int(count_of(*param, value)? as i64));
+        }
+    }
+    Ok(args)
+}
+
+fn count_of(param: Param, value: &Value) -> Result<usize, String> {
+    match param.size {
+        Size::One => Ok(1),
+        Size::Fixed(count) => Ok(count),
+        Size::Counted => {
+            let count = usize::try_from(value.integer).ok().filter(|&count| count <= LONGEST);
+            count.ok_or_else(|| format!("{} is no number of values", value.integer))
+        }
+    }
+}
+
+fn argument(param: Param, value: &Value) -> Result<Data, String> {
+    let count = count_of(param, value)?;
+    let text = || value.address.text().map_or(Data::Nil, Data::Text);
+    Ok(match (param.ty, param.size) {
+        ('s', Size::One) => text(),
+        ('t', _) if count == 0 => text(),
+        ('s' | 't', _) => Data::Text(list::<u8>(value, count)?),
+        ('p' | 'c', _) => Data::Int(value.address.number() as i64),
+        ('i' | 'l', Size::One) => Data::Int(value.integer),
+        ('b' | 'B', Size::One) => Data::Bool(value.integer != 0),
+        ('d' | 'f', Size::One) => Data::Float(value.number),
+        // What has a fixed size is optional.
+        (_, Size::Fixed(_)) if value.address.is_null() => Data::Nil,
+        ('u', _) => Data::Buffer(list::<u8>(value, count)?),
+        ('i', _) => list::<i32>(value, count)?.into_iter().map(i64::from).collect::<Vec<_>>().into(),
+        ('l', _) => list::<i64>(value, count)?.into(),
+        ('f', _) => list::<f32>(value, count)?.into_iter().map(f64::from).collect::<Vec<_>>().into(),
+        _ => list::<f64>(value, count)?.into(),
+    })
+}
+
+fn list<T: super::ffi::Plain>(value: &Value, count: usize) -> Result<Vec<T>, String> {
+    if count == 0 {
+        return Ok(Vec::new());
+    }
+    value.address.read(count).ok_or_else(|| format!("NULL was passed for {count} values"))
+}
+
+/// Writes results to the places the plugin named; what the function returns.
+fn write(frame: &Frame, row: &Row, values: &mut [Value], results: Vec<Data>) -> Result<i64, String> {
+    if row.result == 'q' && results.first().is_none_or(|first| *first == Data::Nil) {
+        return Ok(0);
+    }
+    let mut results = results.into_iter();
+    let mut length = 0;
+    let returned = match row.result {
+        'v' | 'k' | 'q' => 1,
+        'd' => {
+            let number = results.next().as_ref().and_then(Data::as_f64).ok_or("there is no number")?;
+            values.last_mut().into_iter().for_each(|last| last.number = number);
+            1
+        }
+        'S' | 'P' | 'I' | 'D' => frame.keep(row.result, results.next(), &mut length),
+        _ => results.next().map_or(1, |first| integer(&first)),
+    };
+    let mut places = row.params.iter().zip(&*values).filter(|(param, _)| param.is_out);
+    places.try_for_each(|(param, value)| fill(frame, *param, value, &mut results, &mut length))?;
+    Ok(returned)
+}
+
+/// Writes the next result, or the length of the one before.
+fn fill(
+    frame: &Frame,
+    param: Param,
+    value: &Value,
+    results: &mut impl Iterator<Item = Data>,
+    length: &mut usize,
+) -> Result<(), String> {
+    match param.ty {
+        '#' => value.address.write(&[i32::try_from(*length).unwrap_or(i32::MAX)]),
+        'S' | 'I' | 'D' => {
+            let address = frame.keep(param.ty, results.next(), length);
+            value.address.write(&[address as usize]);
+        }
+        // What there is no result for stays as it is.
+        _ => return results.next().map_or(Ok(()), |result| fill_numbers(param, value, &result)),
+    }
+    Ok(())
+}
+
+/// Writes as many numbers as there are and as there is room for.
+fn fill_numbers(param: Param, value: &Value, result: &Data) -> Result<(), String> {
+    let items = match result {
+        Data::Nil => return Ok(()),
+        Data::Array(items) => items.as_slice(),
+        single => std::slice::from_ref(single),
+    };
+    let items = &items[..items.len().min(count_of(param, value)?)];
+    let integers = || items.iter().map(integer);
+    let numbers = || items.iter().map(|item| item.as_f64().unwrap_or_default());
+    match param.ty {
+        'u' | 'b' => value.address.write(&integers().map(|item| item as u8).collect::<Vec<_>>()),
+        'i' => value.address.write(&integers().map(|item| item as i32).collect::<Vec<_>>()),
+        'l' => value.address.write(&integers().collect::<Vec<_>>()),
+        'f' => value.address.write(&numbers().map(|item| item as f32).collect::<Vec<_>>()),
+        _ => value.address.write(&numbers().collect::<Vec<_>>()),
+    }
+    Ok(())
+}
+
+/// As C converts it; what is no number is 1, as a call that succeeded.
+pub(super) fn integer(data: &Data) -> i64 {
+    match *data {
+        Data::Int(value) => value,
+        Data::Float(value) => value as i64,
+        Data::Bool(value) => i64::from(value),
+        _ => 1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BOUND, Target};
+
+    #[test]
+    fn every_row_names_a_function_or_says_that_it_is_missing() {
+        for bound in BOUND.iter() {
+            let is_missing = matches!(bound.target, Target::Missing);
+            assert_eq!(is_missing, bound.row.is_missing(), "{}", bound.row.symbol);
+        }
+    }
+}

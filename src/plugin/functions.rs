@@ -1,0 +1,330 @@
+//! The functions of the interface that scripts do not have: stacks, memory, registration, errors, calls of scripts.
+
+use super::dispatch::Call;
+use super::stacks::{as_list, insert, item_type, place, table_info, unfolded};
+use super::{Registered, Variable};
+use crate::scene::Data;
+
+pub(super) type Answer = Result<Vec<Data>, String>;
+pub(super) type Function = fn(&Call<'_>) -> Answer;
+
+/// Added to a script's handle: a call that fails is not logged.
+const SILENT: i64 = 0x0200_0000;
+
+/// The functions by their names in the table of symbols.
+const FUNCTIONS: &[(&str, Function)] = &[
+    ("log", log),
+    ("error.set", set_error),
+    ("error.take", take_error),
+    ("buffer.create", create_buffer),
+    ("buffer.release", release_buffer),
+    ("register.function", register_function),
+    ("register.variable", register_variable),
+    ("plugin.set_info", set_info),
+    ("plugin.info", info),
+    ("plugin.call_method", call_method),
+    ("script.call", call_script),
+    ("script.execute", execute),
+    ("object.find", find_object),
+    ("sensor.read", |call| detection(call, "sim.readProximitySensor")),
+    ("sensor.handle", |call| detection(call, "sim.handleProximitySensor")),
+    ("stack.create", |call| Ok(vec![Data::Int(call.stacks().add(Vec::new()).into())])),
+    ("stack.release", |call| call.stacks().remove(call.int(0)?).map(|_| Vec::new())),
+    ("stack.copy", copy_stack),
+    ("stack.push", |call| call.push(call.arg(1).clone())),
+    ("stack.push_null", |call| call.push(Data::Nil)),
+    ("stack.push_text", |call| call.push(Data::Text(call.bytes(1)?.to_vec()))),
+    ("stack.push_buffer", |call| call.push(Data::Buffer(call.bytes(1)?.to_vec()))),
+    ("stack.push_bytes", |call| call.push(call.bytes(1)?.iter().map(|&b| i64::from(b)).collect::<Vec<_>>().into())),
+    ("stack.push_table", |call| call.push(Data::Array(Vec::new()))),
+    ("stack.insert", |call| insert(call.stacks().get(call.int(0)?)?).map(|()| Vec::new())),
+    ("stack.size", |call| Ok(vec![Data::Int(call.stacks().get(call.int(0)?)?.len() as i64)])),
+    ("stack.pop", pop),
+    ("stack.move_to_top", move_to_top),
+    ("stack.item_type", type_of_item),
+    ("stack.is_null", |call| Ok(vec![Data::Bool(*call.stacks().top(call.int(0)?)? == Data::Nil)])),
+    ("stack.bool", |call| call.found(|top| matches!(top, Data::Bool(_)).then(|| top.clone()))),
+    ("stack.int", |call| call.found(|top| rounded(top).map(Data::Int))),
+    ("stack.number", |call| call.found(|top| top.as_f64().map(Data::Float))),
+    ("stack.string", |call| Ok(vec![text_of(call.stacks().top(call.int(0)?)?).unwrap_or(Data::Nil)])),
+    ("stack.table_info", |call| Ok(vec![Data::Int(table_info(call.stacks().top(call.int(0)?)?, call.int(1)?))])),
+    ("stack.bytes", |call| call.found(bytes_of)),
+    ("stack.ints", |call| call.found(|top| list_of(top, |item| rounded(item).map(Data::Int)))),
+    ("stack.numbers", |call| call.found(|top| list_of(top, |item| item.as_f64().map(Data::Float)))),
+    ("stack.unfold", unfold),
+    ("stack.debug", debug),
+    ("stack.pack", |call| {
+        let top = call.stacks().top(call.int(0)?)?.clone();
+        call.frame.host.call("sim.packTable", &[top])
+    }),
+    ("stack.unpack", unpack),
+];
+
+/// The function of that name.
+pub(super) fn find(name: &str) -> Option<Function> {
+    FUNCTIONS.iter().find(|(known, _)| *known == name).map(|&(_, function)| function)
+}
+
+impl Call<'_> {
+    fn stacks(&self) -> std::cell::RefMut<'_, super::stacks::Stacks> {
+        self.frame.shared.stacks.borrow_mut()
+    }
+
+    fn arg(&self, place: usize) -> &Data {
+        self.args.get(place).unwrap_or(&Data::Nil)
+    }
+
+    fn int(&self, place: usize) -> Result<i64, String> {
+        match self.arg(place) {
+            Data::Int(value) => Ok(*value),
+            _ => Err(format!("parameter {} is no integer", place + 1)),
+        }
+    }
+
+    fn bytes(&self, place: usize) -> Result<&[u8], String> {
+        match self.arg(place) {
+            Data::Text(bytes) | Data::Buffer(bytes) => Ok(bytes),
+            _ => Err(format!("NULL was passed for the text that is parameter {}", place + 1)),
+        }
+    }
+
+    fn text(&self, place: usize) -> Result<String, String> {
+        self.bytes(place).map(|bytes| String::from_utf8_lossy(bytes).into_owned())
+    }
+
+    fn push(&self, item: Data) -> Answer {
+        self.stacks().get(self.int(0)?)?.push(item);
+        Ok(Vec::new())
+    }
+
+    /// 1 and what is found in the item on top, or 0.
+    fn found(&self, find: impl FnOnce(&Data) -> Option<Data>) -> Answer {
+        Ok(match find(self.stacks().top(self.int(0)?)?) {
+            Some(value) => vec![Data::Int(1), value],
+            None => vec![Data::Int(0)],
+        })
+    }
+}
+
+/// An integer as it is, a number a little off as well.
+fn rounded(data: &Data) -> Option<i64> {
+    match *data {
+        Data::Int(value) => Some(value),
+        Data::Float(value) => Some((value + 0.1_f64.copysign(value)) as i64),
+        _ => None,
+    }
+}
+
+fn text_of(data: &Data) -> Option<Data> {
+    matches!(data, Data::Text(_) | Data::Buffer(_)).then(|| data.clone())
+}
+
+fn bytes_of(data: &Data) -> Option<Data> {
+    match data {
+        Data::Text(bytes) | Data::Buffer(bytes) => {
+            Some(bytes.iter().map(|&byte| i64::from(byte)).collect::<Vec<_>>().into())
+        }
+        _ => list_of(data, |item| rounded(item).map(Data::Int)),
+    }
+}
+
+fn list_of(data: &Data, convert: impl Fn(&Data) -> Option<Data>) -> Option<Data> {
+    as_list(data)?.iter().map(convert).collect::<Option<Vec<_>>>().map(Data::Array)
+}
+
+fn log(call: &Call<'_>) -> Answer {
+    let origin = call.text(0).unwrap_or_else(|_| call.frame.plugin.name.clone());
+    call.frame.host.log(&origin, call.int(1)?, &call.text(2)?);
+    Ok(Vec::new())
+}
+
+fn set_error(call: &Call<'_>) -> Answer {
+    let text = call.text(1)?;
+    call.frame.shared.last_error.replace(Some(text.clone()));
+    call.frame.shared.raised.replace(Some(text));
+    Ok(Vec::new())
+}
+
+fn take_error(call: &Call<'_>) -> Answer {
+    let error = call.frame.shared.last_error.take();
+    Ok(vec![Data::text(error.as_deref().unwrap_or("No error."))])
+}
+
+fn create_buffer(call: &Call<'_>) -> Answer {
+    let size = call.int(0)?;
+    let size = usize::try_from(size).map_err(|_| format!("{size} is no number of bytes"))?;
+    Ok(vec![Data::Buffer(vec![0; size])])
+}
+
+fn release_buffer(call: &Call<'_>) -> Answer {
+    let released = call.frame.shared.buffers.borrow_mut().release(call.int(0)? as usize);
+    if released { Ok(Vec::new()) } else { Err("the simulator has no buffer there".into()) }
+}
+
+fn register_function(call: &Call<'_>) -> Answer {
+    let name = call.text(0)?;
+    let callback = call.values.get(2).and_then(|value| value.address.callback()).ok_or("NULL is no function")?;
+    let mut functions = call.frame.plugin.functions.borrow_mut();
+    let known = functions.iter().position(|function| function.name == name);
+    match known {
+        Some(place) => functions[place].callback = callback,
+        None => functions.push(Registered { name, callback }),
+    }
+    Ok(vec![Data::Bool(known.is_none())])
+}
+
+fn register_variable(call: &Call<'_>) -> Answer {
+    let stack = call.int(2)?;
+    let value = if stack > 0 {
+        let items = call.stacks().remove(stack)?;
+        Variable::Value(items.into_iter().next_back().unwrap_or(Data::Nil))
+    } else {
+        Variable::Expression(call.text(1)?)
+    };
+    call.frame.plugin.variables.borrow_mut().push((call.text(0)?, value));
+    Ok(vec![Data::Int(1)])
+}
+
+fn set_info(call: &Call<'_>) -> Answer {
+    let value = if call.int(1)? < 2 { call.arg(2) } else { call.arg(3) };
+    call.frame.plugin.infos.borrow_mut().insert(call.int(1)?, value.clone());
+    Ok(Vec::new())
+}
+
+fn info(call: &Call<'_>) -> Answer {
+    let name = call.text(0)?;
+    if name != call.frame.plugin.name {
+        return Err(format!("there is nothing known of the plugin {name}"));
+    }
+    match call.frame.plugin.infos.borrow().get(&call.int(1)?) {
+        Some(Data::Int(value)) => Ok(vec![Data::Nil, Data::Int(*value)]),
+        Some(text) => Ok(vec![text.clone()]),
+        None => Err("the plugin has set no such information".into()),
+    }
+}
+
+/// Plugins describe themselves by a method of the application; there are no others.
+fn call_method(call: &Call<'_>) -> Answer {
+    let name = call.text(1)?;
+    if name == "setPluginInfo" {
+        Ok(Vec::new())
+    } else {
+        Err(format!("the method {name} is not implemented in Swanilda"))
+    }
+}
+
+fn call_script(call: &Call<'_>) -> Answer {
+    let (script, name, stack) = (call.int(0)?, call.text(1)?, call.int(2)?);
+    let args = std::mem::take(call.stacks().get(stack)?);
+    let (script, is_silent) = if script >= 0 { (script & !SILENT, script & SILENT != 0) } else { (script, false) };
+    let results = call.frame.host.call_script(script, &name, &args).map_err(|reason| {
+        let text = format!("External call to simCallScriptFunction failed ('{name}'): {reason}");
+        if !is_silent {
+            call.frame.host.log(&call.frame.plugin.name, super::current::ERRORS, &text);
+        }
+        text
+    })?;
+    // The function may have released the stack.
+    *call.stacks().get(stack)? = results;
+    Ok(vec![Data::Int(0)])
+}
+
+fn execute(call: &Call<'_>) -> Answer {
+    let results = call.frame.host.execute(call.int(0)?, call.bytes(1)?)?;
+    if call.int(2)? > 0 {
+        call.stacks().get(call.int(2)?)?.extend(results);
+    }
+    Ok(vec![Data::Int(0)])
+}
+
+fn find_object(call: &Call<'_>) -> Answer {
+    let (index, proxy, flags) = (call.int(1)?, call.int(2)?, call.int(3)?);
+    let mut options = vec![("noError", Data::Bool(flags & 1 != 0))];
+    options.extend((index >= 0).then_some(("index", Data::Int(index))));
+    options.extend((proxy >= 0).then_some(("proxy", Data::Int(proxy))));
+    let options = options.into_iter().map(|(key, value)| (crate::scene::Key::Text(key.into()), value)).collect();
+    call.frame.host.call("sim.getObject", &[Data::Text(call.bytes(0)?.to_vec()), Data::Map(options)])
+}
+
+/// Whether something was detected; point and distance; the object; the normal.
+fn detection(call: &Call<'_>, function: &str) -> Answer {
+    let mut results = call.frame.host.call(function, &[call.arg(0).clone()])?.into_iter();
+    let (state, distance) = (results.next().unwrap_or(Data::Int(0)), results.next());
+    let point = match results.next() {
+        Some(Data::Array(mut point)) => {
+            point.extend(distance);
+            Data::Array(point)
+        }
+        _ => Data::Nil,
+    };
+    Ok([state, point].into_iter().chain(results).collect())
+}
+
+fn copy_stack(call: &Call<'_>) -> Answer {
+    let mut stacks = call.stacks();
+    let items = stacks.get(call.int(0)?)?.clone();
+    Ok(vec![Data::Int(stacks.add(items).into())])
+}
+
+fn pop(call: &Call<'_>) -> Answer {
+    let mut stacks = call.stacks();
+    let items = stacks.get(call.int(0)?)?;
+    let size = match call.int(1)? {
+        0 => 0,
+        count => {
+            usize::try_from(count).ok().and_then(|count| items.len().checked_sub(count)).ok_or("too many items")?
+        }
+    };
+    items.truncate(size);
+    Ok(vec![Data::Int(size as i64)])
+}
+
+fn move_to_top(call: &Call<'_>) -> Answer {
+    let mut stacks = call.stacks();
+    let items = stacks.get(call.int(0)?)?;
+    let item = items.remove(place(items, call.int(1)?)?);
+    items.push(item);
+    Ok(Vec::new())
+}
+
+fn type_of_item(call: &Call<'_>) -> Answer {
+    let mut stacks = call.stacks();
+    let items = stacks.get(call.int(0)?)?;
+    Ok(vec![Data::Int(item_type(&items[place(items, call.int(1)?)?]))])
+}
+
+fn unfold(call: &Call<'_>) -> Answer {
+    let mut stacks = call.stacks();
+    let items = stacks.get(call.int(0)?)?;
+    let parts = items.last().and_then(unfolded).ok_or("there is no table on top")?;
+    items.pop();
+    items.extend(parts);
+    Ok(Vec::new())
+}
+
+fn debug(call: &Call<'_>) -> Answer {
+    let text = format!("stack {}: {:?}", call.int(0)?, call.stacks().get(call.int(0)?)?);
+    call.frame.host.log(&call.frame.plugin.name, super::current::INFOS, &text);
+    Ok(Vec::new())
+}
+
+fn unpack(call: &Call<'_>) -> Answer {
+    let table = call.frame.host.call("sim.unpackTable", &[call.arg(0).clone()])?;
+    Ok(vec![Data::Int(call.stacks().add(table).into())])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plugin::dispatch::integer;
+
+    /// Integers are read from numbers that are a little off.
+    #[test]
+    fn integers_from_numbers() {
+        for (number, integer) in [(2.0, 2), (1.95, 2), (-1.95, -2), (2.5, 2), (f64::NAN, 0), (1e300, i64::MAX)] {
+            assert_eq!(rounded(&Data::Float(number)), Some(integer), "{number}");
+        }
+        assert_eq!(rounded(&Data::text("x")), None);
+        assert_eq!(integer(&Data::Bool(true)), 1);
+    }
+}

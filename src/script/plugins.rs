@@ -1,0 +1,241 @@
+//! Native plugins of a simulator: where they are found, which scripts use them, what they are told, what they may call.
+
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+use std::rc::{Rc, Weak};
+
+use super::error::{ApiError, ApiResult};
+use super::lifecycle::instance::Script;
+use super::log::verbosity;
+use super::sim::Sim;
+use crate::plugin::{Host, Moment, Plugin, Plugins};
+use crate::scene::Data;
+use crate::scene::object::script_object::ScriptType;
+
+/// The plugins that are loaded, and who uses them. A simulator without plugins has none of this.
+#[derive(Default)]
+struct LoadedPlugins {
+    plugins: Plugins,
+    /// The scripts that use a plugin, by its name.
+    users: RefCell<BTreeMap<String, BTreeSet<i64>>>,
+    /// What happened since the last pass, as bits.
+    changes: Cell<i32>,
+}
+
+/// Bits of [`LoadedPlugins::changes`].
+const MODEL_LOADED: i32 = 1 << 2;
+const SCENE_LOADED: i32 = 1 << 3;
+const SIMULATION_STARTED: i32 = 1 << 11;
+const SIMULATION_ENDED: i32 = 1 << 12;
+
+impl Sim {
+    /// The plugin of that name, `simX` or `simX-version`, which is loaded if it is not yet. None where it cannot be loaded; the log says
+    /// why.
+    pub(crate) fn load_plugin(self: &Rc<Self>, script: &Rc<Script>, name: &str) -> Option<Rc<Plugin>> {
+        let namespace = namespace(name);
+        let loaded = self.modules.states.get::<LoadedPlugins>();
+        let plugin = match loaded.plugins.get(namespace) {
+            Some(plugin) => Ok(plugin),
+            None => self.plugin_file(name).and_then(|file| {
+                loaded.plugins.note_calls(self.options.plugin_note.clone());
+                loaded.plugins.load(self.plugin_host(Some(script)), namespace, &file)
+            }),
+        };
+        match plugin {
+            Ok(plugin) => {
+                loaded.users.borrow_mut().entry(namespace.to_owned()).or_default().insert(script.id);
+                Some(plugin)
+            }
+            Err(reason) => {
+                self.log(verbosity::ERRORS, &format!("plugin {name}: {reason}"));
+                None
+            }
+        }
+    }
+
+    /// The library of a plugin: beside the scene, in the folders of the user, beside the program, in an installation of CoppeliaSim.
+    fn plugin_file(&self, name: &str) -> Result<PathBuf, String> {
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
+        if name.is_empty() || name.starts_with('.') || !name.chars().all(is_plain) {
+            return Err("a plugin's name consists of letters, digits, `_`, `-` and `.`".into());
+        }
+        let beside = std::env::current_exe().ok().and_then(|program| Some(program.parent()?.to_owned()));
+        let options = &self.options;
+        let folders = options.package_dirs.iter().chain(&options.plugin_dirs).chain(&beside).chain(&options.resources);
+        let file = format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+        let folders: Vec<_> = folders.collect();
+        folders.iter().map(|folder| folder.join(&file)).find(|path| path.is_file()).ok_or_else(|| {
+            let searched: Vec<_> = folders.iter().map(|folder| folder.display().to_string()).collect();
+            format!("there is no file {file} in {}; name its folder with --plugin-path", searched.join(", "))
+        })
+    }
+
+    /// Calls a function of a plugin, by its place, for a script.
+    ///
+    /// # Errors
+    /// When the plugin was unloaded, or its error.
+    pub(crate) fn call_plugin(
+        self: &Rc<Self>,
+        script: &Rc<Script>,
+        plugin: &str,
+        function: usize,
+        args: Vec<Data>,
+    ) -> ApiResult<Vec<Data>> {
+        let loaded = self.modules.states.get::<LoadedPlugins>();
+        let plugin = loaded.plugins.get(plugin);
+        let plugin = plugin.ok_or_else(|| ApiError::Other("the plugin is not loaded any more.".into()))?;
+        let object = self.object_of(script);
+        let results = loaded.plugins.call(self.plugin_host(Some(script)), &plugin, function, (script.id, object), args);
+        results.map_err(ApiError::Plugin)
+    }
+
+    /// The object that a script is attached to, or -1.
+    fn object_of(&self, script: &Script) -> i64 {
+        let scene = self.scene.borrow();
+        let parent = |handle| scene.object(handle).ok().and_then(crate::scene::Object::parent);
+        script.owner().or_else(|| script.object.and_then(parent)).map_or(-1, |object| object.raw())
+    }
+
+    /// A script uses a plugin no longer. It is unloaded with its last user, or at once if that is forced.
+    ///
+    /// # Errors
+    /// When the plugin is not loaded, or its code is running.
+    pub(crate) fn unload_plugin(self: &Rc<Self>, script: &Script, name: &str, is_forced: bool) -> ApiResult<()> {
+        let loaded = self.modules.states.get::<LoadedPlugins>();
+        let error = |text: &str| ApiError::Other(text.to_owned());
+        let plugin = loaded.plugins.get(namespace(name)).ok_or_else(|| error("the plugin is not loaded."))?;
+        if plugin.is_running() {
+            return Err(error("a function of the plugin is running."));
+        }
+        loaded.forget(&plugin.name, script.id);
+        if is_forced {
+            loaded.users.borrow_mut().remove(&plugin.name);
+        }
+        self.unload_unused(&loaded);
+        Ok(())
+    }
+
+    /// A script's state is about to end, and with it what it uses.
+    pub(super) fn release_plugins_of(self: &Rc<Self>, script: &Script) {
+        let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else { return };
+        if script.current_runtime().is_none() {
+            return;
+        }
+        self.notify_plugins(Moment::ScriptStateAboutToBeDestroyed, [script.id as i32, script.id as i32, 0, 0]);
+        let names: Vec<String> = loaded.users.borrow().keys().cloned().collect();
+        names.iter().for_each(|name| loaded.forget(name, script.id));
+        self.unload_unused(&loaded);
+    }
+
+    /// Unloads what nobody uses. A plugin whose code is running stays until the next pass.
+    fn unload_unused(self: &Rc<Self>, loaded: &LoadedPlugins) {
+        for plugin in loaded.plugins.all() {
+            let is_used = loaded.users.borrow().contains_key(&plugin.name);
+            if !is_used && !plugin.is_running() {
+                loaded.plugins.unload(self.plugin_host(None), &plugin);
+            }
+        }
+    }
+
+    /// Unloads all plugins, at the end of the simulator.
+    pub(crate) fn unload_plugins(self: &Rc<Self>) {
+        let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else { return };
+        loaded.users.borrow_mut().clear();
+        self.unload_unused(&loaded);
+    }
+
+    /// Sends a message to the plugins.
+    pub(in crate::script) fn notify_plugins(self: &Rc<Self>, moment: Moment, values: [i32; 4]) {
+        let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else { return };
+        loaded.changes.set(loaded.changes.get() | change(moment));
+        loaded.plugins.send(self.plugin_host(None), moment, values);
+    }
+
+    /// The message of each turn of the application's loop.
+    pub(in crate::script) fn notify_plugins_of_pass(self: &Rc<Self>) {
+        let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else { return };
+        self.unload_unused(&loaded);
+        let changes = loaded.changes.take();
+        self.notify_plugins(Moment::Pass, [changes, 0, 0, 0]);
+    }
+
+    fn plugin_host(self: &Rc<Self>, script: Option<&Rc<Script>>) -> Rc<dyn Host> {
+        let script = script.cloned().or_else(|| self.scripts.detached(ScriptType::Sandbox));
+        Rc::new(ScriptHost { sim: Rc::downgrade(self), script })
+    }
+}
+
+impl LoadedPlugins {
+    fn forget(&self, name: &str, script: i64) {
+        let mut users = self.users.borrow_mut();
+        let Some(scripts) = users.get_mut(name) else { return };
+        scripts.remove(&script);
+        if scripts.is_empty() {
+            users.remove(name);
+        }
+    }
+}
+
+/// The name without its version.
+fn namespace(name: &str) -> &str {
+    name.split('-').next().unwrap_or(name)
+}
+
+fn change(moment: Moment) -> i32 {
+    match moment {
+        Moment::ModelLoaded => MODEL_LOADED,
+        Moment::SceneLoaded => SCENE_LOADED,
+        Moment::SimulationAboutToStart => SIMULATION_STARTED,
+        Moment::SimulationEnded => SIMULATION_ENDED,
+        _ => 0,
+    }
+}
+
+/// The simulator as plugins see it, while they run on behalf of a script.
+struct ScriptHost {
+    sim: Weak<Sim>,
+    script: Option<Rc<Script>>,
+}
+
+impl ScriptHost {
+    fn sim(&self) -> Result<Rc<Sim>, String> {
+        self.sim.upgrade().ok_or_else(|| "the simulator is gone".to_owned())
+    }
+
+    /// The script with that handle: -1 for the sandbox, -2 for the main script.
+    fn script(&self, sim: &Rc<Sim>, handle: i64) -> Result<Rc<Script>, String> {
+        let script = match handle {
+            -1 => sim.scripts.detached(ScriptType::Sandbox),
+            -2 => sim.scripts.detached(ScriptType::Main),
+            handle => sim.script(handle),
+        };
+        script.ok_or_else(|| ApiError::NoSuchScript.to_string())
+    }
+}
+
+impl Host for ScriptHost {
+    fn call(&self, function: &str, args: &[Data]) -> Result<Vec<Data>, String> {
+        let sim = self.sim()?;
+        let script = self.script.as_ref().ok_or_else(|| ApiError::NoSuchScript.to_string())?;
+        sim.call_api(script, function, args).map_err(|error| error.to_string())
+    }
+
+    fn call_script(&self, script: i64, function: &str, args: &[Data]) -> Result<Vec<Data>, String> {
+        let sim = self.sim()?;
+        let script = self.script(&sim, script)?;
+        sim.call_function(&script, function, args).map_err(|error| error.to_string())
+    }
+
+    fn execute(&self, script: i64, text: &[u8]) -> Result<Vec<Data>, String> {
+        let sim = self.sim()?;
+        let script = self.script(&sim, script)?;
+        sim.execute_string(&script, text).map_err(|error| error.to_string())
+    }
+
+    fn log(&self, origin: &str, level: i64, text: &str) {
+        if let Ok(sim) = self.sim() {
+            sim.log_as(origin, level, text);
+        }
+    }
+}
