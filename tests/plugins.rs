@@ -262,6 +262,18 @@ fn an_exception_that_nobody_catches_ends_the_process() {
     assert!(text.contains(told) && !text.contains("still here"), "{text}");
 }
 
+#[test]
+fn a_crash_is_told_with_its_place() {
+    let folder = folder("loadPlugin('simT').func() loadPlugin('simT').crash()");
+    let ended = run_for_code(&mut command(folder.path(), &["--quiet", "--isolate"]), support::process::LIMIT);
+    let (code, text) = ended.expect("only the child ends by a signal");
+    let told = "the process of the scene has crashed in crash of the plugin simT: signal: 6 (SIGABRT)";
+    assert!(code == 70 && text.contains(told), "{code}: {text}");
+    fs::write(folder.path().join("scene.lua"), "error('on purpose')").expect("it is writable");
+    let ended = run_for_code(&mut command(folder.path(), &["--quiet", "--isolate"]), support::process::LIMIT);
+    assert_eq!(ended.expect("it ends").0, 1);
+}
+
 /// The example of the documentation.
 #[test]
 fn the_example_runs() {

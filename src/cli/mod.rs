@@ -12,6 +12,7 @@ mod export;
 mod files;
 mod init;
 mod inspect;
+mod isolated;
 mod python_uses;
 mod remote;
 mod render;

@@ -16,8 +16,8 @@ use super::session::{Reminder, Session};
 use super::setup::{Setup, seconds};
 use super::video::VideoArgs;
 use super::view::ViewArgs;
-use super::{USAGE, complain, refuse};
-use crate::{RunLimits, RunTotals, ScriptKind, SimulationState, Simulator};
+use super::{USAGE, complain, isolated, refuse};
+use crate::{Options, RunLimits, RunTotals, ScriptKind, SimulationState, Simulator};
 
 /// Exit code when a script raised an error.
 const SCRIPT_ERROR: u8 = 1;
@@ -42,6 +42,9 @@ pub(super) struct Args {
     /// Loop iterations before exiting with --no-start, or before a paused simulation is stopped
     #[arg(long, value_name = "L", default_value_t = 20, value_parser = count, allow_negative_numbers = true)]
     loops: u64,
+    /// Run in a child process, and say in which plugin it has crashed if it does
+    #[arg(long)]
+    isolate: bool,
     #[command(flatten)]
     video: VideoArgs,
     #[command(flatten)]
@@ -80,6 +83,10 @@ impl From<Kind> for ScriptKind {
 
 /// Runs the scene; the exit code reports the outcome.
 pub(super) fn run(args: &Args) -> ExitCode {
+    let plugin_note = isolated::note();
+    if args.isolate && plugin_note.is_none() {
+        return isolated::run();
+    }
     let sources = match args.setup.sources(Some(&args.scene)) {
         Ok(sources) => sources,
         Err(reason) => return refuse(&reason),
@@ -88,7 +95,8 @@ pub(super) fn run(args: &Args) -> ExitCode {
     let progress = Progress::new(args.limits(), args.setup.quiet || args.setup.json || args.no_start);
     let output = args.setup.output(&progress, &interrupt);
     let begun = Instant::now();
-    let options = args.remote.guard(args.setup.options(Some(&args.scene), &interrupt));
+    let options = args.setup.options(Some(&args.scene), &interrupt);
+    let options = args.remote.guard(Options { plugin_note, ..options });
     let mut sim = Simulator::with_console(options, Box::new(output.clone()));
     args.setup.fill(&mut sim, sources, args.kind.into(), Some(&args.scene));
     let zmq = args.remote.asks_for_zmq();
