@@ -7335,6 +7335,269 @@ class _simIM:
         sensorHandle: the sensor
         """
 
+class _simOMPL:
+    Algorithm: Any
+    StateSpaceType: Any
+    def addGoalState(self, taskHandle: str, state: Sequence[float], /) -> None:
+        """Adds a state in which paths may end.
+        taskHandle: the task
+        state: numbers of all state spaces
+        """
+    def compute(self, taskHandle: str, maxTime: float, maxSimplificationTime: float | None = ..., stateCnt: int | None = ..., /) -> tuple[bool, list[float]]:
+        """Plans, and makes the path shorter and denser: simOMPL.solve, simplifyPath, interpolatePath and getPath.
+        taskHandle: the task
+        maxTime: seconds of planning at most
+        maxSimplificationTime: seconds at most; -1: until nothing helps
+        stateCnt: how many states; 0: as dense as states are checked
+        """
+    def createStateSpace(self, name: str, type: int, objectHandle: int, boundsLow: Sequence[float], boundsHigh: Sequence[float], useForProjection: int, weight: float | None = ..., refObjectHandle: int | None = ..., /) -> str:
+        """A state space: a part of the states of a task, and the object that shows it. Type, object and dimension of the bounds are checked by simOMPL.setup.
+        name: for simOMPL.printTaskInfo
+        type: simOMPL.StateSpaceType
+        objectHandle: the object that is moved, or the joint
+        boundsLow: least values: x, y of position2d, pose2d and dubins; x, y, z of position3d and pose3d; rad or metres of joint_position; none for cyclic_joint_position
+        boundsHigh: largest values
+        useForProjection: 1: the first state space of a task that has it is its projection
+        weight: factor of its distances
+        refObjectHandle: the frame of positions; -1 for the world
+        """
+    def createStateSpaceForJoint(self, name: str, jointHandle: int, useForProjection: int | None = ..., weight: float | None = ..., /) -> str:
+        """A state space for a joint, with the limits that it has.
+        name: for simOMPL.printTaskInfo
+        jointHandle: the joint
+        useForProjection: 1: the first state space of a task that has it is its projection
+        weight: factor of its distances
+        """
+    def createTask(self, name: str, /) -> str:
+        """A new task: states without numbers, no goal, algorithm KPIECE1, resolution 0.01.
+        name: for simOMPL.printTaskInfo
+        """
+    def destroyStateSpace(self, stateSpaceHandle: str, /) -> None:
+        """Removes a state space. Tasks that have it cannot be used any more.
+        stateSpaceHandle: the state space
+        """
+    def destroyTask(self, taskHandle: str, /) -> None:
+        """Removes a task. Its state spaces stay.
+        taskHandle: the task
+        """
+    def drawPath(self, taskHandle: str, path: Sequence[float], lineSize: float | None = ..., color: Sequence[float] | None = ..., extraAttributes: int | None = ..., /) -> list[int]:
+        """Draws a path of which the projection is a position.
+        taskHandle: the task
+        path: flat list
+        lineSize: pixels
+        color: red, green, blue
+        extraAttributes: added to sim.drawing_lines
+        """
+    def drawPlannerData(self, taskHandle: str, pointSize: float | None = ..., lineSize: float | None = ..., color: Sequence[float] | None = ..., startColor: Sequence[float] | None = ..., goalColor: Sequence[float] | None = ..., /) -> list[int]:
+        """Draws what a planner has found out, of which the projection is a position.
+        taskHandle: the task
+        pointSize: metres
+        lineSize: pixels
+        color: of states and motions
+        startColor: of starts
+        goalColor: of goals
+        """
+    def enforceBounds(self, taskHandle: str, state: Sequence[float], /) -> list[float]:
+        """The nearest state within the bounds: positions clamped, angles within half a turn, quaternions of length one.
+        taskHandle: the task
+        state: the state
+        """
+    def getGoalDistance(self, taskHandle: str, /) -> float:
+        """How far the end of the path is from the goal.
+        taskHandle: the task
+        """
+    def getPath(self, taskHandle: str, /) -> list[float]:
+        """The path found, from the start to the goal.
+        taskHandle: the task
+        """
+    def getPathState(self, taskHandle: str, path: Sequence[float], index: int, /) -> list[float]:
+        """A state of a path.
+        taskHandle: the task
+        path: flat list
+        index: 1 for the first, -1 for the last
+        """
+    def getPathStateCount(self, taskHandle: str, path: Sequence[float], /) -> float:
+        """Number of states of a path.
+        taskHandle: the task
+        path: flat list
+        """
+    def getPlannerData(self, taskHandle: str, /) -> Any:
+        """The states that the planner has reached, and the motions between them.
+        taskHandle: the task
+        """
+    def getProjectedPathLength(self, taskHandle: str, path: Sequence[float], /) -> float:
+        """Length of a path in its projection.
+        taskHandle: the task
+        path: flat list
+        """
+    def getReversedPath(self, taskHandle: str, path: Sequence[float], /) -> list[float]:
+        """A path from its end to its beginning.
+        taskHandle: the task
+        path: flat list
+        """
+    def getStateSpaceDimension(self, taskHandle: str, /) -> int:
+        """Numbers of a state of a task; 0 before simOMPL.setStateSpace.
+        taskHandle: the task
+        """
+    def hasApproximateSolution(self, taskHandle: str, /) -> bool:
+        """Whether there is a path that ends near the goal only.
+        taskHandle: the task
+        """
+    def hasExactSolution(self, taskHandle: str, /) -> bool:
+        """Whether there is a path to the goal.
+        taskHandle: the task
+        """
+    def hasSolution(self, taskHandle: str, /) -> bool:
+        """Whether there is a path, to the goal or near it.
+        taskHandle: the task
+        """
+    def interpolatePath(self, taskHandle: str, stateCnt: int | None = ..., /) -> None:
+        """Adds states to the path.
+        taskHandle: the task
+        stateCnt: so many in all, distributed by length, if there are not more; 0: as dense as states are checked
+        """
+    def isStateValid(self, taskHandle: str, state: Sequence[float], /) -> bool:
+        """Whether a state is valid: without collisions, or as the callback says. Bounds do not count.
+        taskHandle: the task
+        state: the state
+        """
+    def isStateWithinBounds(self, taskHandle: str, state: Sequence[float], /) -> bool:
+        """Whether a state is within the bounds. Collisions do not count.
+        taskHandle: the task
+        state: the state
+        """
+    def printTaskInfo(self, taskHandle: str, /) -> None:
+        """Prints and logs what a task is to do.
+        taskHandle: the task
+        """
+    def projectStates(self, taskHandle: str, state: Sequence[float], /) -> list[float]:
+        """The projections of states.
+        taskHandle: the task
+        state: one state or several, one after the other
+        """
+    def projectionSize(self, taskHandle: str, /) -> int:
+        """Numbers of a projected state.
+        taskHandle: the task
+        """
+    def readState(self, taskHandle: str, /) -> list[float]:
+        """The present state of the objects of a task.
+        taskHandle: the task
+        """
+    def removeDrawingObjects(self, taskHandle: str, dwos: Sequence[int], /) -> None:
+        """Removes drawings.
+        taskHandle: the task
+        dwos: drawing objects
+        """
+    def setAlgorithm(self, taskHandle: str, algorithm: int, /) -> None:
+        """Sets the planner. It counts from the next simOMPL.setup on, which checks it.
+        taskHandle: the task
+        algorithm: simOMPL.Algorithm
+        """
+    def setCollisionPairs(self, taskHandle: str, collisionPairHandles: Sequence[int], /) -> None:
+        """Sets which entities must not collide in a valid state. They are looked up at each check.
+        taskHandle: the task
+        collisionPairHandles: objects or collections, two by two; the second may be sim.handle_all. A pair whose first handle is negative is left out
+        """
+    def setDubinsParams(self, stateSpaceHandle: str, turningRadius: float, isSymmetric: bool, /) -> None:
+        """Sets how a state space of type dubins turns. It counts from the next simOMPL.setup on.
+        stateSpaceHandle: the state space
+        turningRadius: metres
+        isSymmetric: whether the car may also drive backwards, all the way
+        """
+    def setGoal(self, taskHandle: str, robotDummy: int, goalDummy: int, tolerance: float | None = ..., metric: Sequence[float] | None = ..., refDummy: int | None = ..., /) -> None:
+        """Sets a pose as the goal: a dummy of the robot is to come to another one. Planners that begin at the goal as well refuse it.
+        taskHandle: the task
+        robotDummy: the dummy of the robot
+        goalDummy: where it is to come to
+        tolerance: at most so far away, in the metric
+        metric: factors of x, y, z and the angle between both; an angle with 0 does not count
+        refDummy: the frame of x, y and z; -1 for the world
+        """
+    def setGoalCallback(self, taskHandle: str, callback: Callable[..., Any] | str, /) -> None:
+        """Sets a function that says which states are the goal. Planners that begin at the goal as well refuse it.
+        taskHandle: the task
+        callback: satisfied, distance = f(state)
+        """
+    def setGoalState(self, taskHandle: str, state: Sequence[float], /) -> None:
+        """Sets the state in which paths end, instead of all goals so far.
+        taskHandle: the task
+        state: numbers of all state spaces
+        """
+    def setGoalStates(self, taskHandle: str, states: Sequence[Any], /) -> None:
+        """Sets the states in which paths may end, instead of all goals so far.
+        taskHandle: the task
+        states: a list of numbers for each
+        """
+    def setProjectionEvaluationCallback(self, taskHandle: str, callback: Callable[..., Any] | str, projectionSize: int, /) -> None:
+        """Sets a function that maps states to a few numbers, in which planners see how far they have spread.
+        taskHandle: the task
+        callback: projection = f(state); an empty name for the position of the first state space that is used for it
+        projectionSize: how many numbers
+        """
+    def setStartState(self, taskHandle: str, state: Sequence[float], /) -> None:
+        """Sets the state in which paths begin. It counts from the next simOMPL.setup on; with PRM and PRMstar at once, and their roadmap stays.
+        taskHandle: the task
+        state: numbers of all state spaces
+        """
+    def setStateSpace(self, taskHandle: str, stateSpaceHandles: Sequence[str], /) -> None:
+        """Sets what the states of a task consist of.
+        taskHandle: the task
+        stateSpaceHandles: the state spaces, in the order of their numbers in a state
+        """
+    def setStateSpaceForJoints(self, taskHandle: str, jointHandles: Sequence[int], useForProjection: Sequence[int] | None = ..., weight: Sequence[float] | None = ..., /) -> None:
+        """The positions of joints as the states of a task.
+        taskHandle: the task
+        jointHandles: the joints
+        useForProjection: of each joint: 1 for the one that is the projection
+        weight: of each joint: factors of distances
+        """
+    def setStateValidationCallback(self, taskHandle: str, callback: Callable[..., Any] | str, /) -> None:
+        """Sets a function that says which states are valid, instead of collision checks. The objects are not moved for it.
+        taskHandle: the task
+        callback: valid = f(state); an empty name for collision checks
+        """
+    def setStateValidityCheckingResolution(self, taskHandle: str, resolution: float, /) -> None:
+        """Sets how closely motions are checked. It counts from the next simOMPL.setup on, which checks it.
+        taskHandle: the task
+        resolution: the longest part, as a fraction of the extent of each state space: above 0 and below 1
+        """
+    def setValidStateSamplerCallback(self, taskHandle: str, callback: Callable[..., Any] | str, callbackNear: Callable[..., Any] | str, /) -> None:
+        """Sets functions that draw valid states, for planners that ask for such. What they return is not checked.
+        taskHandle: the task
+        callback: state = f()
+        callbackNear: state = f(state, distance): one that is not further away
+        """
+    def setVerboseLevel(self, taskHandle: str, verboseLevel: int, /) -> None:
+        """Sets how much is logged.
+        taskHandle: the task
+        verboseLevel: 0 nothing, 1 results, 2 also what begins
+        """
+    def setup(self, taskHandle: str, /) -> None:
+        """Reads all that a task is to do, and begins anew. What is changed later counts from the next setup on, except for collision pairs and callbacks.
+        taskHandle: the task
+        """
+    def simplifyPath(self, taskHandle: str, maxSimplificationTime: float | None = ..., /) -> None:
+        """Makes the path shorter: leaves out states, cuts corners, and rounds them.
+        taskHandle: the task
+        maxSimplificationTime: seconds at most, counted as 20000 checks each; -1: until nothing helps
+        """
+    def solve(self, taskHandle: str, maxTime: float, /) -> bool:
+        """Plans, or goes on planning. Most planners end with the first path; those that make it shorter use the time.
+        taskHandle: the task
+        maxTime: seconds at most, counted as 20000 checks and iterations each
+        """
+    def stateDistance(self, taskHandle: str, a: Sequence[float], b: Sequence[float], /) -> float:
+        """The distance of two states: the sum over the state spaces, each with its weight.
+        taskHandle: the task
+        a: from
+        b: to
+        """
+    def writeState(self, taskHandle: str, state: Sequence[float], /) -> None:
+        """Moves the objects of a task.
+        taskHandle: the task
+        state: where to
+        """
+
 class _simQHull:
     def compute(self, vertices: Sequence[float], generateIndices: bool, /) -> tuple[list[float], list[int]]:
         """The convex hull of points.
@@ -9568,6 +9831,8 @@ class Requires:
     def require(self, name: Literal["simIK"], script: int | None = None) -> _simIK: ...
     @overload
     def require(self, name: Literal["simIM"], script: int | None = None) -> _simIM: ...
+    @overload
+    def require(self, name: Literal["simOMPL"], script: int | None = None) -> _simOMPL: ...
     @overload
     def require(self, name: Literal["simQHull"], script: int | None = None) -> _simQHull: ...
     @overload

@@ -33,7 +33,7 @@ const AREAS: &[(&str, &[&str])] = &[
 const NAMED: usize = 6;
 
 /// The plugins that public code uses most, in that order.
-const WANTED: [&str; 3] = ["simROS2", "simROS", "simOMPL"];
+const WANTED: [&str; 2] = ["simROS2", "simROS"];
 
 /// README with the table between its marks brought up to date; None where the marks are missing.
 pub fn with_overview(readme: &str) -> Option<String> {

@@ -11,6 +11,7 @@ mod sim_eigen;
 mod sim_geom;
 mod sim_ik;
 mod sim_im;
+mod sim_ompl;
 pub(crate) mod sim_remote_api;
 mod sim_subprocess;
 mod sim_ui;
@@ -45,6 +46,7 @@ pub(crate) static ALL: &[&Module] = &[
     &sim_geom::MODULE,
     &sim_ik::MODULE,
     &sim_im::MODULE,
+    &sim_ompl::MODULE,
     &sim_remote_api::MODULE,
     &sim_subprocess::MODULE,
     &sim_ui::MODULE,

@@ -26,7 +26,7 @@ impl Perception {
         let mut shortest: Option<Shortest> = None;
         for (object, body) in pairs.first(index) {
             let limit = shortest.map_or(below, |found| found.distance);
-            pairs.nearest_first(index, (object, body), limit, |other, other_body, limit| {
+            pairs.nearest_first((scene, index), (object, body), limit, |other, other_body, limit| {
                 let Some(Closest { points, distance }) = closest(body, other_body, limit) else { return limit };
                 shortest = Some(Shortest { objects: [object, other], points, distance });
                 distance

@@ -10,8 +10,7 @@ use crate::scene::{Handle, Scene};
 const NEIGHBOURS: [u64; 6] = [1, 10, 100, 1000, 10_000, 100_000];
 
 /// The pairs of two entities.
-pub(super) struct Pairs<'a> {
-    scene: &'a Scene,
+pub(super) struct Pairs {
     purpose: Purpose,
     /// The objects of the first entity, in the order of the scene.
     first: Vec<Handle>,
@@ -22,8 +21,8 @@ pub(super) struct Pairs<'a> {
     is_self: bool,
 }
 
-impl<'a> Pairs<'a> {
-    pub(super) fn of(scene: &'a Scene, purpose: Purpose, [first, second]: [Entity; 2]) -> Self {
+impl Pairs {
+    pub(super) fn of(scene: &Scene, purpose: Purpose, [first, second]: [Entity; 2]) -> Self {
         let objects = first.objects(scene, purpose);
         let group = first.opponents(scene, second, purpose);
         let shared = match &group {
@@ -34,7 +33,7 @@ impl<'a> Pairs<'a> {
             Group::All { .. } => BTreeSet::new(),
         };
         let is_self = first == second;
-        Self { scene, purpose, first: objects, second: group, shared, is_self }
+        Self { purpose, first: objects, second: group, shared, is_self }
     }
 
     /// The bodies of the first entity.
@@ -45,41 +44,38 @@ impl<'a> Pairs<'a> {
     /// The bodies that `object` is compared with, as far as their boxes overlap, in the order of the scene.
     pub(super) fn overlapping<'i>(
         &self,
-        index: &'i Index,
+        (scene, index): (&Scene, &'i Index),
         (object, body): (Handle, &Body),
     ) -> impl Iterator<Item = (Handle, &'i Body)> {
-        let others = index.overlapping(&self.second, (self.scene, self.purpose), &body.bounds);
-        others.into_iter().filter(move |&(other, _)| self.is_compared(object, other))
+        let others = index.overlapping(&self.second, (scene, self.purpose), &body.bounds);
+        others.into_iter().filter(move |&(other, _)| self.is_compared(scene, object, other))
     }
 
     /// Visits the bodies that `object` is compared with by ascending distance of their boxes, as long as it is smaller than the limit.
     pub(super) fn nearest_first(
         &self,
-        index: &Index,
+        (scene, index): (&Scene, &Index),
         (object, body): (Handle, &Body),
         limit: f64,
         mut visit: impl FnMut(Handle, &Body, f64) -> f64,
     ) {
         let distance = |bounds: &proximity::Bounds| bounds.distance(&body.bounds);
-        let purpose = (self.scene, self.purpose);
+        let purpose = (scene, self.purpose);
         index.nearest_first(&self.second, purpose, distance, limit, |other, body, limit| {
-            if self.is_compared(object, other) { visit(other, body, limit) } else { limit }
+            if self.is_compared(scene, object, other) { visit(other, body, limit) } else { limit }
         });
     }
 
     /// Whether a pair counts: not an object with itself, and no pair twice.
-    fn is_compared(&self, object: Handle, other: Handle) -> bool {
+    fn is_compared(&self, scene: &Scene, object: Handle, other: Handle) -> bool {
         let both = self.shared.contains(&object) && self.shared.contains(&other);
-        let is_second_time = || self.created(other) < self.created(object);
-        object != other && !(both && is_second_time()) && !(self.is_self && self.are_neighbours(object, other))
+        let created = |object| scene.object(object).ok().map(crate::scene::Object::uid);
+        let is_second_time = || created(other) < created(object);
+        object != other && !(both && is_second_time()) && !(self.is_self && are_neighbours(scene, object, other))
     }
+}
 
-    fn created(&self, object: Handle) -> Option<i64> {
-        self.scene.object(object).ok().map(crate::scene::Object::uid)
-    }
-
-    fn are_neighbours(&self, object: Handle, other: Handle) -> bool {
-        let indicator = |object| self.scene.object(object).map_or(0, |object| object.self_collision_indicator);
-        NEIGHBOURS.contains(&indicator(object).abs_diff(indicator(other)))
-    }
+fn are_neighbours(scene: &Scene, object: Handle, other: Handle) -> bool {
+    let indicator = |object| scene.object(object).map_or(0, |object| object.self_collision_indicator);
+    NEIGHBOURS.contains(&indicator(object).abs_diff(indicator(other)))
 }

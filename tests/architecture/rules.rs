@@ -91,6 +91,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("openh264", "src/format/video"),
     ("parry3d", "crates/geometry"),
     ("parry3d", "src/scene/voxels"),
+    ("planning", "src/modules/sim_ompl"),
     ("plotters", "src/format/plot.rs"),
     ("plotters", "src/testing/golden/plot.rs"),
     ("proc_macro2", "crates/api-macro"),

@@ -117,11 +117,9 @@ fn join(problem: &mut Problem<'_>, states: &mut Vec<State>, places: [f64; 2]) ->
     if problem.space.distance(&from, &to) > 0.999 * around || !problem.is_motion_valid(&from, &to) {
         return false;
     }
-    // On curves that cannot be divided, the pieces that are left may lie elsewhere.
-    let is_curved = !problem.space.is_symmetric();
-    if is_curved
-        && !(problem.is_motion_valid(&states[first].clone(), &from)
-            && problem.is_motion_valid(&to, &states[last + 1].clone()))
+    // What is left of the pieces is checked at other places than the whole was.
+    if !problem.is_motion_valid(&states[first].clone(), &from)
+        || !problem.is_motion_valid(&to, &states[last + 1].clone())
     {
         return false;
     }

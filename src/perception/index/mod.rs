@@ -32,6 +32,8 @@ pub(crate) struct Index {
     /// By the numbers of the handles.
     tree: BoundsTree,
     meshes: Meshes,
+    /// Bodies that were placed where their objects stood for a query only.
+    displaced: Vec<Handle>,
 }
 
 /// Changes since the last query.
@@ -47,6 +49,30 @@ struct News {
 impl Index {
     /// Brings the index up to date. Takes time in proportion to what changed.
     pub(crate) fn update(&mut self, scene: &Scene) {
+        self.read_journal(scene);
+        for handle in std::mem::take(&mut self.displaced) {
+            self.place(handle, scene);
+        }
+    }
+
+    /// Brings the index up to date, and places bodies whose objects stand elsewhere for the length of a query: the next one places them again.
+    pub(super) fn place_displaced(&mut self, scene: &Scene, bodies: &[Handle]) {
+        if self.displaced == bodies {
+            self.read_journal(scene);
+        } else {
+            self.update(scene);
+            self.displaced = bodies.to_vec();
+        }
+        bodies.iter().for_each(|&handle| self.place(handle, scene));
+    }
+
+    /// The objects with a body among some and all that are below them.
+    pub(super) fn bodies_below(&self, scene: &Scene, roots: impl IntoIterator<Item = Handle>) -> Vec<Handle> {
+        let below: BTreeSet<Handle> = roots.into_iter().flat_map(|root| scene.subtree(root)).collect();
+        below.into_iter().filter(|handle| self.bodies.contains_key(handle)).collect()
+    }
+
+    fn read_journal(&mut self, scene: &Scene) {
         let cursor = self.cursor.get_or_insert_with(|| scene.journal().follow(TOPICS));
         match scene.journal().read(cursor) {
             Unread::Everything => self.rebuild(scene),

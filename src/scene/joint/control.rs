@@ -192,15 +192,18 @@ impl Scene {
     /// # Errors
     /// For spherical joints and positions that are no number.
     pub fn set_joint_position(&mut self, handle: Handle, position: f64) -> SceneResult<bool> {
+        let Some(position) = self.accepted_position(handle, position)? else { return Ok(false) };
+        self.move_joint(handle, position)?;
+        Ok(true)
+    }
+
+    /// Where a joint goes that a script sets to a position; None for one that is moving towards a target.
+    pub(in crate::scene) fn accepted_position(&self, handle: Handle, position: f64) -> SceneResult<Option<f64>> {
         let joint = self.object(handle)?.joint()?;
         joint.single_axis()?;
         [position].finite().ok_or(SceneError::InvalidData)?;
-        if joint.motion.is_some() {
-            return Ok(false);
-        }
         let position = if joint.dependency.is_some() { position } else { joint.limited(position) };
-        self.move_joint(handle, position)?;
-        Ok(true)
+        Ok(joint.motion.is_none().then_some(position))
     }
 
     /// Sets the mode of a joint.

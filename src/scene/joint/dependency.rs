@@ -66,17 +66,26 @@ impl Scene {
 
     /// Puts a joint at `position` as it is (rad, m), and the joints that follow it where they belong.
     pub fn move_joint(&mut self, handle: Handle, position: f64) -> SceneResult<()> {
-        self.refresh_dependent_joints();
-        let mut pending = vec![(handle, position)];
-        while let Some((handle, position)) = pending.pop() {
+        for (handle, position) in self.positions_with_followers(handle, position) {
             self.try_modify(handle, Field::JointPosition, |object| {
                 object.joint_mut()?.position = position;
                 Ok(())
             })?;
-            let followers = self.dependent_joints.of(handle).iter();
-            pending.extend(followers.map(|(follower, law)| (*follower, law.position(position))));
         }
         Ok(())
+    }
+
+    /// The position of a joint, and those that the joints take which follow it.
+    pub(in crate::scene) fn positions_with_followers(&mut self, handle: Handle, position: f64) -> Vec<(Handle, f64)> {
+        self.refresh_dependent_joints();
+        let mut positions = vec![(handle, position)];
+        let mut next = 0;
+        while let Some(&(handle, position)) = positions.get(next) {
+            let followers = self.dependent_joints.of(handle).iter();
+            positions.extend(followers.map(|(follower, law)| (*follower, law.position(position))));
+            next += 1;
+        }
+        positions
     }
 
     /// Moves the joints that follow `handle` and that the physics does not move itself.

@@ -108,7 +108,13 @@ impl Scene {
     }
 
     /// The pose in the parent's frame that `placement` means.
-    fn local_pose_of(&self, handle: Handle, placement: Placement, frame: Frame, joint_base: bool) -> SceneResult<Pose> {
+    pub(super) fn local_pose_of(
+        &self,
+        handle: Handle,
+        placement: Placement,
+        frame: Frame,
+        joint_base: bool,
+    ) -> SceneResult<Pose> {
         let object = self.object(handle)?;
         let to_local = self.frame_to_parent(handle, frame, joint_base)?.unwrap_or_else(Pose::identity);
         let inverse = frame == Frame::Inverse;

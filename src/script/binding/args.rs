@@ -219,6 +219,11 @@ scalars! {
     Handles, "int[]", |args| args.integers().map(Handles);
     Vec<f64>, "float[]", |args| args.numbers();
     Vec<i64>, "int[]", |args| args.integers();
+    Vec<String>, "string[]", |args| match args.source.data(args.position)? {
+        Data::Array(items) => items.into_iter().map(text).collect(),
+        Data::Map(entries) if entries.is_empty() => Ok(Vec::new()),
+        _ => Err(args.not_a("table")),
+    };
     Table, "table", |args| match args.source.data(args.position)? {
         data @ (Data::Array(_) | Data::Map(_)) => Ok(Table(data)),
         _ => Err(args.not_a("table")),
@@ -234,6 +239,14 @@ scalars! {
     };
     LuaNumber, "float", |args| args.number().map(LuaNumber).map_err(|_| args.expected("number"));
     Rest, "any...", |args| (args.position..=args.count).map(|at| args.source.data(at)).collect::<Result<_, _>>().map(Rest);
+}
+
+/// An element of a list of strings.
+fn text(item: Data) -> ApiResult<String> {
+    match item {
+        Data::Text(bytes) | Data::Buffer(bytes) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
+        _ => Err(ApiError::NotA { position: -1, expected: "string" }),
+    }
 }
 
 macro_rules! number_arrays {

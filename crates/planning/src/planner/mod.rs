@@ -16,6 +16,8 @@ use crate::{Problem, Refusal, Solution, State};
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PlannerData {
     pub states: Vec<State>,
+    /// Of each state: 1 for a tree from the starts, 2 for one from the goals, where there are both; else 0.
+    pub tags: Vec<u32>,
     /// Pairs of places.
     pub edges: Vec<(usize, usize)>,
     pub starts: Vec<usize>,
@@ -29,6 +31,9 @@ pub trait Planner {
     /// # Errors
     /// When there is nothing to plan.
     fn solve(&mut self, problem: &mut Problem<'_>, iterations: u64) -> Result<Option<Solution>, Refusal>;
+
+    /// Forgets starts, goals and the path. Only a roadmap is worth keeping then (`Algorithm::keeps_roadmap`): others know nothing but ways from the start.
+    fn clear_query(&mut self) {}
 
     /// What was found out.
     fn data(&self) -> PlannerData;
@@ -101,6 +106,11 @@ impl Algorithm {
             self,
             A::BitStar | A::CForest | A::LazyPrmStar | A::LbtRrt | A::PrmStar | A::RrtStar | A::Spars | A::SparsTwo
         )
+    }
+
+    /// Whether it keeps a roadmap from one start to the next.
+    pub fn keeps_roadmap(self) -> bool {
+        matches!(self, Self::Prm | Self::PrmStar)
     }
 
     /// Whether it needs a projection.

@@ -108,6 +108,12 @@ impl Planner for Roadmap {
         Ok(self.best.clone())
     }
 
+    fn clear_query(&mut self) {
+        self.starts.clear();
+        self.goals.clear();
+        self.best = None;
+    }
+
     fn data(&self) -> PlannerData {
         data_of(&self.graph, &self.starts, &self.goals)
     }
@@ -118,6 +124,7 @@ pub(super) fn data_of(graph: &Graph, starts: &[usize], goals: &[usize]) -> Plann
     let edges = graph.edges.iter().enumerate();
     PlannerData {
         states: graph.states.clone(),
+        tags: vec![0; graph.states.len()],
         edges: edges.flat_map(|(from, to)| to.keys().map(move |&to| (from, to))).filter(|(a, b)| a < b).collect(),
         starts: starts.to_vec(),
         goals: goals.to_vec(),

@@ -129,6 +129,7 @@ pub(super) fn data_of(tree: &Tree) -> PlannerData {
     let vertices = || tree.vertices.iter().enumerate();
     PlannerData {
         states: tree.vertices.iter().map(|vertex| vertex.state.clone()).collect(),
+        tags: vec![0; tree.len()],
         edges: vertices().filter_map(|(place, vertex)| Some((vertex.parent?, place))).collect(),
         starts: vertices().filter(|(_, vertex)| vertex.parent.is_none()).map(|(place, _)| place).collect(),
         goals: Vec::new(),
@@ -139,6 +140,7 @@ pub(super) fn data_of(tree: &Tree) -> PlannerData {
 pub(super) fn data_of_both(start: &Tree, goal: &Tree) -> PlannerData {
     let (mut data, other) = (data_of(start), data_of(goal));
     let count = data.states.len();
+    data.tags = [vec![1; count], vec![2; other.states.len()]].concat();
     data.states.extend(other.states);
     data.edges.extend(other.edges.into_iter().map(|(from, to)| (to + count, from + count)));
     data.goals = other.starts.into_iter().map(|place| place + count).collect();

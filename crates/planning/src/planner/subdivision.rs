@@ -232,6 +232,7 @@ impl Planner for Subdivision {
         let parents = self.motions.iter().enumerate();
         PlannerData {
             states: self.motions.iter().map(|motion| motion.to.clone()).collect(),
+            tags: vec![0; self.motions.len()],
             edges: parents.filter_map(|(place, motion)| Some((motion.parent?, place))).collect(),
             starts: (0..self.motions.len()).filter(|&place| self.motions[place].parent.is_none()).collect(),
             goals: Vec::new(),

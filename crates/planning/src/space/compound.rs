@@ -3,6 +3,9 @@
 use super::{Component, State, StateSpace};
 use crate::Random;
 
+/// Parts of a motion at most: more would not end.
+const MOST_PARTS: f64 = 1e5;
+
 /// Components one after the other, each with a weight: distances are the weighted sums of theirs.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CompoundSpace {
@@ -83,7 +86,7 @@ impl StateSpace for CompoundSpace {
     fn parts(&self, from: &[f64], to: &[f64], fraction: f64) -> usize {
         let parts = self.each(from, to).map(|(component, _, from, to)| {
             let longest = fraction * component.extent();
-            if longest > 0.0 { (component.distance(from, to) / longest).ceil() as usize } else { 1 }
+            if longest > 0.0 { (component.distance(from, to) / longest).ceil().min(MOST_PARTS) as usize } else { 1 }
         });
         parts.max().unwrap_or(1).max(1)
     }

@@ -37,7 +37,7 @@ pub trait StateSpace {
     /// Moves a state to the nearest one within the bounds.
     fn enforce_bounds(&self, state: &mut [f64]);
 
-    /// The number of equal parts a motion is checked at, if they are to be as long as `fraction` of the extent in each component.
+    /// The number of equal parts a motion is checked at, if they are to be as long as `fraction` of the extent in each component; a hundred thousand at most.
     fn parts(&self, from: &[f64], to: &[f64], fraction: f64) -> usize;
 
     /// Whether the way back has the same states.

@@ -12,6 +12,11 @@ impl Cx<'_> {
         query(&mut self.sim.perception.borrow_mut(), &self.sim.scene.borrow())
     }
 
+    /// The same where objects are displaced for the query (`Scene::displace`).
+    pub(crate) fn query_displaced<R>(&mut self, query: impl FnOnce(&mut Perception, &mut Scene) -> R) -> R {
+        query(&mut self.sim.perception.borrow_mut(), &mut self.sim.scene.borrow_mut())
+    }
+
     /// Handles a proximity sensor that is tagged for explicit handling: detects, calls its scripts, stores the result.
     ///
     /// # Errors
