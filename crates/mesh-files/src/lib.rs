@@ -1,0 +1,56 @@
+//! Mesh files as plain values: read with limits, and written.
+//!
+//! This crate knows no scene and opens no file. What a file refers to (materials, textures, buffers) the caller looks up ([`Resolve`]), so the
+//! caller decides what may be opened.
+//!
+//! | format | read | written |
+//! |---|---|---|
+//! | OBJ with MTL | polygons, groups, materials, textures | yes |
+//! | STL | text and binary, also binary files that begin with `solid` | text, binary |
+//! | PLY | text and binary of both byte orders; lists, strips | text, binary |
+//! | COLLADA | visual scene with its transforms, materials, textures, unit and up axis | yes |
+//! | glTF, GLB | the scene with its transforms, materials, textures; no compression (Draco, meshopt) | GLB |
+//! | 3DS | meshes, materials, textures | |
+//! | DXF | `3DFACE`, polyface and polygon meshes of a text file | |
+//!
+//! Coordinates are `f64` in the file's own frame and unit; [`MeshFile::unit`] and [`MeshFile::up`] say which, [`MeshFile::turn_up`] and
+//! [`MeshFile::scale`] change them. Normals and texture coordinates belong to the corners of triangles, so vertices merge by position alone.
+//!
+//! Counts in a file are compared with its length before anything is allocated, and what instances add up to is limited ([`Limits`]): memory is
+//! bounded by a multiple of the file's length and these limits. Any input is read or refused; nothing panics.
+//!
+//! ```
+//! use mesh_files::{Format, Limits, read};
+//!
+//! let text = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+//! let file = read(text, Format::Obj, Limits::default(), &mut |name| Err(format!("{name}: not looked for")))?;
+//! assert_eq!(file.parts[0].vertices.len(), 4);
+//! assert_eq!(file.parts[0].triangles.len(), 2);
+//! # Ok::<(), mesh_files::ReadError>(())
+//! ```
+
+mod bytes;
+mod collada;
+mod corners;
+mod dxf;
+mod error;
+mod format;
+mod gltf;
+mod limits;
+mod mesh_file;
+mod obj;
+mod ply;
+mod polygon;
+mod stl;
+mod text;
+mod three_ds;
+mod transform;
+mod weld;
+
+pub use error::{Place, ReadError, WriteError};
+pub use format::{ExportFormat, Format, Written, read, write};
+pub use limits::Limits;
+pub use mesh_file::{Material, MeshFile, Part, Texture, UpAxis};
+
+/// Looks up a file that the mesh file names, by the name as written there: its bytes, or why it cannot be had.
+pub type Resolve<'a> = &'a mut dyn FnMut(&str) -> Result<Vec<u8>, String>;
