@@ -1,0 +1,12 @@
+//! Any bytes as a glTF file, JSON or binary, and for each file it names: it is read or refused, and what is read is sound and can be written.
+//!
+//! `cargo fuzz run mesh_gltf fuzz/corpus/mesh_gltf`
+#![no_main]
+
+#[path = "../mesh_check.rs"]
+mod mesh_check;
+
+use libfuzzer_sys::fuzz_target;
+use mesh_files::Format;
+
+fuzz_target!(|bytes: &[u8]| mesh_check::check(bytes, Format::Gltf));
