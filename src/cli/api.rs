@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::process::ExitCode;
 
-use super::{refuse, say};
+use super::{Outcome, say};
 use crate::docs::{self, Function};
 
 /// Largest edit distance of a suggested name.
@@ -18,22 +18,22 @@ pub(super) struct Args {
     name: Option<String>,
 }
 
-pub(super) fn api(args: &Args) -> ExitCode {
+pub(super) fn api(args: &Args) -> Outcome {
     let mut functions = docs::functions();
     let Some(name) = &args.name else {
         say(list(&functions).as_bytes());
-        return ExitCode::SUCCESS;
+        return Ok(ExitCode::SUCCESS);
     };
     functions.extend(docs::module_functions());
     if docs::module_names().contains(name) {
         say(list_module(name, &functions).as_bytes());
-        return ExitCode::SUCCESS;
+        return Ok(ExitCode::SUCCESS);
     }
     if let Some(function) = functions.iter().find(|function| function.name == *name || function.member() == name) {
         say(docs::function_text(function).as_bytes());
-        return ExitCode::SUCCESS;
+        return Ok(ExitCode::SUCCESS);
     }
-    refuse(&unknown(name, &functions))
+    Err(unknown(name, &functions))
 }
 
 /// Names with their summaries, by category.

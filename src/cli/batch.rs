@@ -3,14 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::IsTerminal;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::Outcome;
 use super::interrupt::Interrupt;
 use super::permissions::PermissionArgs;
-use super::refuse;
 use super::resources::ResourceArgs;
 use super::setup::{named_param, seconds};
 use crate::Options;
@@ -72,13 +71,11 @@ pub(super) struct Args {
 struct Seeds(Vec<u32>);
 
 /// Runs the batch; the exit code reports the outcome.
-pub(super) fn batch(args: &Args) -> ExitCode {
+pub(super) fn batch(args: &Args) -> Outcome {
     let interrupt = Interrupt::install(INTERRUPTED);
-    match run(args, &interrupt) {
-        // At once: a run that could not be ended may still keep a thread.
-        Ok(code) => std::process::exit(i32::from(code)),
-        Err(reason) => refuse(&reason),
-    }
+    let code = run(args, &interrupt)?;
+    // At once: a run that could not be ended may still keep a thread.
+    std::process::exit(i32::from(code))
 }
 
 fn run(args: &Args, interrupt: &Interrupt) -> Result<u8, String> {

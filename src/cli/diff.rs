@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use super::{files, refuse, say};
+use super::{Outcome, files, say};
 use crate::format::scene_outline::{Outline, differences};
 
 /// Exit code when the scenes differ.
@@ -18,15 +18,10 @@ pub(super) struct Args {
 }
 
 /// Exit codes as for `diff`: 0 if equal, 1 if different.
-pub(super) fn diff(args: &Args) -> ExitCode {
-    let both = outline(&args.old).and_then(|old| Ok((old, outline(&args.new)?)));
-    let (old, new) = match both {
-        Ok(both) => both,
-        Err(reason) => return refuse(&reason),
-    };
-    let report = differences(&old, &new);
+pub(super) fn diff(args: &Args) -> Outcome {
+    let report = differences(&outline(&args.old)?, &outline(&args.new)?);
     say(report.as_bytes());
-    if report.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(DIFFERENT) }
+    Ok(if report.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(DIFFERENT) })
 }
 
 pub(super) fn outline(path: &Path) -> Result<Outline, String> {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use super::{python_uses, refuse, say};
+use super::{Outcome, python_uses, say};
 use crate::docs::{self, Support, Use};
 use crate::format::{scene_file, script_file};
 use crate::permissions::read_bounded;
@@ -33,7 +33,7 @@ pub(super) struct Args {
 }
 
 /// Checks everything; the exit code reports whether all of it is supported.
-pub(super) fn doctor(args: &Args) -> ExitCode {
+pub(super) fn doctor(args: &Args) -> Outcome {
     let mut report = Report { deprecated: args.deprecated, ..Report::default() };
     let mut unreadable = Vec::new();
     for path in &args.paths {
@@ -48,9 +48,9 @@ pub(super) fn doctor(args: &Args) -> ExitCode {
         say(if args.json { report.json() } else { report.text() }.as_bytes());
     }
     if !unreadable.is_empty() {
-        return refuse(&unreadable.join("\nswanilda: "));
+        return Err(unreadable.join("\nswanilda: "));
     }
-    if report.all_works() { ExitCode::SUCCESS } else { ExitCode::from(NOT_ALL_WORKS) }
+    Ok(if report.all_works() { ExitCode::SUCCESS } else { ExitCode::from(NOT_ALL_WORKS) })
 }
 
 /// The file, or those below the folder that are scripts or scenes, sorted.

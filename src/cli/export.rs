@@ -7,8 +7,8 @@ use std::process::ExitCode;
 
 use serde_json::Value;
 
+use super::Outcome;
 use super::graphs;
-use super::refuse;
 use crate::format::graph_file::GraphData;
 use crate::format::scene_file::WholeFile;
 use crate::view::mcap;
@@ -34,11 +34,8 @@ pub(super) struct Args {
     output: Option<PathBuf>,
 }
 
-pub(super) fn export(args: &Args) -> ExitCode {
-    match args.export() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(reason) => refuse(&reason),
-    }
+pub(super) fn export(args: &Args) -> Outcome {
+    args.export().map(|()| ExitCode::SUCCESS)
 }
 
 impl Args {

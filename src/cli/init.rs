@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use serde_json::json;
 
-use super::{refuse, say};
+use super::{Outcome, say};
 use crate::docs;
 
 /// Where the stubs go, seen from the folder.
@@ -23,21 +23,19 @@ pub(super) struct Args {
     force: bool,
 }
 
-pub(super) fn init(args: &Args) -> ExitCode {
+pub(super) fn init(args: &Args) -> Outcome {
     let stubs = docs::stubs().into_iter().map(|(path, text)| (args.folder.join(STUBS).join(path), text));
     let files: Vec<_> = std::iter::once((args.folder.join(".luarc.json"), settings())).chain(stubs).collect();
     if let Some((path, _)) = files.iter().find(|(path, _)| path.exists() && !args.force) {
-        return refuse(&format!("{} exists; --force overwrites it", path.display()));
+        return Err(format!("{} exists; --force overwrites it", path.display()));
     }
     for (path, text) in &files {
-        if let Err(error) = write(path, text) {
-            return refuse(&format!("cannot write {}: {error}", path.display()));
-        }
+        write(path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     }
     let folder = args.folder.join(STUBS);
     let line = format!("wrote {} and {} files below {}\n", files[0].0.display(), files.len() - 1, folder.display());
     say(line.as_bytes());
-    ExitCode::SUCCESS
+    Ok(ExitCode::SUCCESS)
 }
 
 fn write(path: &Path, text: &str) -> std::io::Result<()> {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use super::doctor::uses_of;
-use super::{files, refuse, say};
+use super::{Outcome, files, say};
 use crate::docs::Support;
 use crate::format::scene_file::{SceneFile, ScriptCode};
 use crate::format::scene_outline::{Item, Outline};
@@ -27,21 +27,15 @@ pub(super) struct Args {
 }
 
 /// The exit code reports whether everything the scripts use is supported.
-pub(super) fn inspect(args: &Args) -> ExitCode {
-    let report = match Report::new(args) {
-        Ok(report) => report,
-        Err(reason) => return refuse(&reason),
-    };
+pub(super) fn inspect(args: &Args) -> Outcome {
+    let report = Report::new(args)?;
     if args.textconv {
         say(report.outline.text().as_bytes());
-        return ExitCode::SUCCESS;
+        return Ok(ExitCode::SUCCESS);
     }
     say(if args.json { report.json() } else { report.text() }.as_bytes());
-    if report.needs.values().all(|support| *support == Support::Works) {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::from(NOT_ALL_WORKS)
-    }
+    let all_works = report.needs.values().all(|support| *support == Support::Works);
+    Ok(if all_works { ExitCode::SUCCESS } else { ExitCode::from(NOT_ALL_WORKS) })
 }
 
 struct Report {

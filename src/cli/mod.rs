@@ -29,7 +29,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use session::{graphs, interrupt, live, output, permissions, progress, recording, resources, setup, video};
+use session::{graphs, interrupt, launch, live, output, permissions, progress, recording, resources, setup, video};
 
 /// Exit code for a wrong command line or a file that cannot be read or written; clap uses the same.
 const USAGE: u8 = 2;
@@ -92,15 +92,18 @@ fn parse() -> Result<Cli, ExitCode> {
     })
 }
 
+/// The exit code of a command, or why it cannot do what it is asked to: exit code [`USAGE`].
+type Outcome = Result<ExitCode, String>;
+
 impl Command {
     fn execute(self) -> ExitCode {
-        match self {
+        let outcome = match self {
             Self::Run(args) => run::run(&args),
             Self::Export(args) => export::export(&args),
             Self::Render(args) => render::render(&args),
             Self::View(args) => view::view(&args),
             Self::Serve(args) => serve::serve(&args),
-            Self::Test(args) => test::test(&args),
+            Self::Test(args) => Ok(test::test(&args)),
             Self::Batch(args) => batch::batch(&args),
             Self::Api(args) => api::api(&args),
             Self::Doctor(args) => doctor::doctor(&args),
@@ -113,16 +116,14 @@ impl Command {
                 let mut script = Vec::new();
                 clap_complete::generate(shell, &mut Cli::command(), "swanilda", &mut script);
                 say(&script);
-                ExitCode::SUCCESS
+                Ok(ExitCode::SUCCESS)
             }
-        }
+        };
+        outcome.unwrap_or_else(|reason| {
+            complain(&reason);
+            ExitCode::from(USAGE)
+        })
     }
-}
-
-/// Prints an error about the request; returns its exit code.
-fn refuse(reason: &str) -> ExitCode {
-    complain(reason);
-    ExitCode::from(USAGE)
 }
 
 /// Writes to standard error, in the name of the program. A closed pipe is not an error.

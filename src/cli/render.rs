@@ -4,11 +4,12 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use super::interrupt::Interrupt;
+use super::launch::Launch;
 use super::progress::Progress;
 use super::run::Kind;
 use super::setup::{Setup, seconds};
 use super::video::picture_size;
-use super::{refuse, say};
+use super::{Outcome, say};
 use crate::format::picture::{self, Layout, PictureError};
 use crate::format::scene_file::write_whole;
 use crate::perception::vision::first_camera;
@@ -54,27 +55,19 @@ pub(super) struct Args {
 }
 
 /// Writes the picture; the exit code reports the outcome.
-pub(super) fn render(args: &Args) -> ExitCode {
-    let sources = match args.setup.sources(Some(&args.scene)) {
-        Ok(sources) => sources,
-        Err(reason) => return refuse(&reason),
-    };
-    let interrupt = Interrupt::of_scripts_here();
+pub(super) fn render(args: &Args) -> Outcome {
     let limits = RunLimits { steps: None, time: Some(args.time), idle: 0, once: false };
     let mut progress = Progress::new(limits, args.setup.quiet || args.setup.json || args.time == 0.0);
-    let output = args.setup.output(&progress, &interrupt);
-    let mut sim = Simulator::with_console(args.setup.options(Some(&args.scene), &interrupt), Box::new(output.clone()));
-    args.setup.fill(&mut sim, sources, args.kind.into(), Some(&args.scene));
+    let mut launch = Launch::new(&args.setup, None, Some(&args.scene), &progress, None)?;
+    launch.fill(args.kind.into());
+    let Launch { mut sim, interrupt, .. } = launch;
     args.simulate(&mut sim, &interrupt, &mut progress);
     progress.finish();
     if interrupt.is_requested() {
-        return ExitCode::from(interrupt.exit_code());
+        return Ok(ExitCode::from(interrupt.exit_code()));
     }
-    match args.write(&sim) {
-        Err(reason) => refuse(&reason),
-        Ok(()) if sim.errors() > 0 => ExitCode::from(SCRIPT_ERROR),
-        Ok(()) => ExitCode::SUCCESS,
-    }
+    args.write(&sim)?;
+    Ok(if sim.errors() > 0 { ExitCode::from(SCRIPT_ERROR) } else { ExitCode::SUCCESS })
 }
 
 impl Args {

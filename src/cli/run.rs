@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use super::graphs::GraphArgs;
 use super::interrupt::Interrupt;
+use super::launch::Launch;
 use super::live::Live;
 use super::progress::Progress;
 use super::recording::RecordArgs;
@@ -16,8 +17,9 @@ use super::session::{Reminder, Session};
 use super::setup::{Setup, seconds};
 use super::video::VideoArgs;
 use super::view::ViewArgs;
-use super::{USAGE, complain, isolated, refuse};
-use crate::{Options, RunLimits, RunTotals, ScriptKind, SimulationState, Simulator};
+use super::{Outcome, USAGE, complain, isolated};
+use crate::view::Viewer;
+use crate::{RunLimits, RunTotals, ScriptKind, SimulationState, Simulator};
 
 /// Exit code when a script raised an error.
 const SCRIPT_ERROR: u8 = 1;
@@ -82,54 +84,32 @@ impl From<Kind> for ScriptKind {
 }
 
 /// Runs the scene; the exit code reports the outcome.
-pub(super) fn run(args: &Args) -> ExitCode {
+pub(super) fn run(args: &Args) -> Outcome {
     let plugin_note = isolated::note();
     if args.isolate && plugin_note.is_none() {
-        return isolated::run();
+        return Ok(isolated::run());
     }
-    let sources = match args.setup.sources(Some(&args.scene)) {
-        Ok(sources) => sources,
-        Err(reason) => return refuse(&reason),
-    };
-    let interrupt = Interrupt::of_scripts_here();
     let progress = Progress::new(args.limits(), args.setup.quiet || args.setup.json || args.no_start);
-    let output = args.setup.output(&progress, &interrupt);
+    let mut launch = Launch::new(&args.setup, Some(&args.remote), Some(&args.scene), &progress, plugin_note)?;
     let begun = Instant::now();
-    let options = args.setup.options(Some(&args.scene), &interrupt);
-    let options = args.remote.guard(Options { plugin_note, ..options });
-    let mut sim = Simulator::with_console(options, Box::new(output.clone()));
-    args.setup.fill(&mut sim, sources, args.kind.into(), Some(&args.scene));
-    let zmq = args.remote.asks_for_zmq();
-    if let Err(reason) = args.remote.serve(zmq, &args.setup, &mut sim, &output, &interrupt) {
-        return refuse(&reason);
-    }
-    let recorder = match args.record.start(&sim) {
-        Ok(recorder) => recorder,
-        Err(reason) => return refuse(&reason),
-    };
+    launch.fill(args.kind.into());
+    launch.serve(&args.remote, args.remote.asks_for_zmq())?;
+    let Launch { mut sim, output, interrupt, .. } = launch;
+    let recorder = args.record.start(&sim)?;
     args.video.start(&mut sim, &args.scene);
-    let viewer = match args.view.start(&sim, &args.remote, &output) {
-        Ok(viewer) => viewer,
-        Err(reason) => return refuse(&reason),
-    };
-    let failed_to_load = sim.errors() > 0;
-    // Remote clients and --no-start end a run their own way.
-    let reminder = Reminder::new(args.has_end() || args.no_start || zmq || args.setup.json);
-    let mut session = Session { interrupt: &interrupt, progress, output: &output, reminder };
-    let totals = if let Some(viewer) = viewer {
-        args.run_viewed(&mut sim, Live::new(Some(viewer)), &interrupt)
-    } else if args.no_start {
-        sim.loop_freely(args.loops, &mut session)
-    } else if failed_to_load && !args.has_end() {
-        // Without its script the run might never end.
-        output.note("A script failed while it was loaded: the simulation is not started.", 0.0);
-        RunTotals::default()
-    } else {
-        sim.run(args.limits(), &mut session)
-    };
+    let viewer = args.view.start(&sim, &args.remote, &output)?;
+    let mut session = Session { interrupt: &interrupt, progress, output: &output, reminder: args.reminder() };
+    let totals = args.simulate(&mut sim, viewer, &mut session);
     session.progress.finish();
     let recorded = args.record.finish(&sim, recorder);
     let written = args.video.finish(&mut sim).and(args.graphs.write(&sim)).and(recorded);
+    let (errors, code) = end(sim, &written, &interrupt);
+    output.summary(totals, begun.elapsed(), errors, code);
+    Ok(ExitCode::from(code))
+}
+
+/// Ends a run; the number of script errors, and the exit code.
+fn end(mut sim: Simulator, written: &Result<(), String>, interrupt: &Interrupt) -> (u64, u8) {
     if interrupt.is_requested() {
         sim.request_stop();
         // Scripts that outlive a run clean up when their scene is closed.
@@ -137,7 +117,7 @@ pub(super) fn run(args: &Args) -> ExitCode {
     }
     let errors = sim.errors();
     drop(sim);
-    if let Err(reason) = &written {
+    if let Err(reason) = written {
         complain(reason);
     }
     let code = match (interrupt.is_requested(), written, errors) {
@@ -146,8 +126,7 @@ pub(super) fn run(args: &Args) -> ExitCode {
         (_, _, 0) => 0,
         _ => SCRIPT_ERROR,
     };
-    output.summary(totals, begun.elapsed(), errors, code);
-    ExitCode::from(code)
+    (errors, code)
 }
 
 /// A whole number, zero or more.
@@ -158,6 +137,25 @@ fn count(text: &str) -> Result<u64, String> {
 impl Args {
     fn limits(&self) -> RunLimits {
         RunLimits { steps: self.steps, time: self.time, idle: self.loops, once: false }
+    }
+
+    /// Remote clients and --no-start end a run their own way.
+    fn reminder(&self) -> Reminder {
+        Reminder::new(self.has_end() || self.no_start || self.remote.asks_for_zmq() || self.setup.json)
+    }
+
+    fn simulate(&self, sim: &mut Simulator, viewer: Option<Viewer>, session: &mut Session) -> RunTotals {
+        if let Some(viewer) = viewer {
+            self.run_viewed(sim, Live::new(Some(viewer)), session.interrupt)
+        } else if self.no_start {
+            sim.loop_freely(self.loops, session)
+        } else if sim.errors() > 0 && !self.has_end() {
+            // Without its script the run might never end.
+            session.output.note("A script failed while it was loaded: the simulation is not started.", 0.0);
+            RunTotals::default()
+        } else {
+            sim.run(self.limits(), session)
+        }
     }
 
     /// The same with pages that look on, which may pause and resume the simulation as long as they like.

@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use super::interrupt::Interrupt;
+use super::Outcome;
+use super::launch::Launch;
 use super::live::Live;
 use super::progress::Progress;
-use super::refuse;
 use super::remote::Remote;
 use super::setup::Setup;
 use super::view::ViewArgs;
-use crate::{RunLimits, ScriptKind, Simulator};
+use crate::{RunLimits, ScriptKind};
 
 /// Start a simulator that remote API clients control
 #[derive(clap::Args)]
@@ -29,28 +29,13 @@ pub(super) struct Args {
 }
 
 /// Serves until ctrl-c, SIGTERM or `quitSimulator()`.
-pub(super) fn serve(args: &Args) -> ExitCode {
-    let scene = args.scene.as_deref();
-    let sources = match args.setup.sources(scene) {
-        Ok(sources) => sources,
-        Err(reason) => return refuse(&reason),
-    };
-    let interrupt = Interrupt::of_scripts_here();
-    let output = args.setup.output(&Progress::new(RunLimits::default(), true), &interrupt);
-    let options = args.remote.guard(args.setup.options(scene, &interrupt));
-    let mut sim = Simulator::with_console(options, Box::new(output.clone()));
-    args.setup.fill(&mut sim, sources, ScriptKind::Customization, scene);
-    if let Err(reason) = args.remote.serve(!args.no_remote_api, &args.setup, &mut sim, &output, &interrupt) {
-        return refuse(&reason);
-    }
-    let mut live = match args.view.start(&sim, &args.remote, &output) {
-        Ok(viewer) => Live::new(viewer),
-        Err(reason) => return refuse(&reason),
-    };
-    while !interrupt.is_requested() && !sim.quit_requested() {
-        live.iterate(&mut sim);
-    }
-    sim.stop();
-    sim.clear_scene();
-    ExitCode::SUCCESS
+pub(super) fn serve(args: &Args) -> Outcome {
+    let progress = Progress::new(RunLimits::default(), true);
+    let mut launch = Launch::new(&args.setup, Some(&args.remote), args.scene.as_deref(), &progress, None)?;
+    launch.fill(ScriptKind::Customization);
+    launch.serve(&args.remote, !args.no_remote_api)?;
+    let Launch { mut sim, output, interrupt, .. } = launch;
+    let viewer = args.view.start(&sim, &args.remote, &output)?;
+    Live::new(viewer).run(&mut sim, &interrupt);
+    Ok(ExitCode::SUCCESS)
 }

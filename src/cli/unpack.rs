@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use super::{files, refuse};
+use super::{Outcome, files};
 use crate::format::scene_file::{SceneFile, save, write_whole};
 use crate::format::scene_folder;
 use crate::format::ttt::File;
@@ -29,20 +29,20 @@ pub(super) struct PackArgs {
     file: PathBuf,
 }
 
-pub(super) fn unpack(args: &UnpackArgs) -> ExitCode {
-    done(files::file(&args.file).and_then(|file| scene_folder::unpack(&file, &args.folder)))
+pub(super) fn unpack(args: &UnpackArgs) -> Outcome {
+    scene_folder::unpack(&files::file(&args.file)?, &args.folder)?;
+    Ok(ExitCode::SUCCESS)
 }
 
-pub(super) fn pack(args: &PackArgs) -> ExitCode {
-    let written = files::file(&args.folder).and_then(|file| {
-        let (variant, path) = Variant::of_name(args.file.to_str().unwrap_or_default());
-        let (path, bytes) = match variant {
-            Some(variant) => (Path::new(path), xml::write(&as_saved(file)?, variant).into_bytes()),
-            None => (args.file.as_path(), readable_bytes(&file, None).map_err(|error| error.to_string())?),
-        };
-        write_whole(path, &bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))
-    });
-    done(written)
+pub(super) fn pack(args: &PackArgs) -> Outcome {
+    let file = files::file(&args.folder)?;
+    let (variant, path) = Variant::of_name(args.file.to_str().unwrap_or_default());
+    let (path, bytes) = match variant {
+        Some(variant) => (Path::new(path), xml::write(&as_saved(file)?, variant).into_bytes()),
+        None => (args.file.as_path(), readable_bytes(&file, None).map_err(|error| error.to_string())?),
+    };
+    write_whole(path, &bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    Ok(ExitCode::SUCCESS)
 }
 
 /// XML has elements for what CoppeliaSim saves today, not for data of older versions.
@@ -57,8 +57,4 @@ fn as_saved(file: File) -> Result<File, String> {
         None => save::scene(&scene, &loaded.scripts),
     };
     saved.map_err(|error| damaged(&error))
-}
-
-fn done(result: Result<(), String>) -> ExitCode {
-    result.map_or_else(|reason| refuse(&reason), |()| ExitCode::SUCCESS)
 }

@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Duration;
 
+use super::Outcome;
 use super::interrupt::Interrupt;
+use super::launch::Launch;
 use super::live::Live;
 use super::output::Output;
 use super::progress::Progress;
-use super::refuse;
 use super::remote::Remote;
 use super::run::Kind;
 use super::setup::Setup;
@@ -86,43 +87,25 @@ fn start(sim: &Simulator, mode: Mode, port: u16, remote: &Remote, output: &Outpu
 }
 
 /// Shows the scene until ctrl-c, SIGTERM or `quitSimulator()`.
-pub(super) fn view(args: &Args) -> ExitCode {
+pub(super) fn view(args: &Args) -> Outcome {
     let scene = args.scene.as_deref();
     if let Some(recording) = scene.filter(|scene| is_recording(scene)) {
-        return view_recording(args, recording).unwrap_or_else(|reason| refuse(&reason));
+        return view_recording(args, recording);
     }
-    let sources = match args.setup.sources(scene) {
-        Ok(sources) => sources,
-        Err(reason) => return refuse(&reason),
-    };
-    let interrupt = Interrupt::of_scripts_here();
-    let output = args.setup.output(&Progress::new(RunLimits::default(), true), &interrupt);
-    let options = args.remote.guard(args.setup.options(scene, &interrupt));
-    let mut sim = Simulator::with_console(options, Box::new(output.clone()));
+    let progress = Progress::new(RunLimits::default(), true);
+    let mut launch = Launch::new(&args.setup, Some(&args.remote), scene, &progress, None)?;
     // Before the scripts, so that pages have their first lines as well.
-    let viewer = match start(&sim, args.view, args.port, &args.remote, &output) {
-        Ok(viewer) => viewer,
-        Err(reason) => return refuse(&reason),
-    };
-    args.setup.fill(&mut sim, sources, args.kind.into(), scene);
-    let zmq = args.remote.asks_for_zmq();
-    if let Err(reason) = args.remote.serve(zmq, &args.setup, &mut sim, &output, &interrupt) {
-        return refuse(&reason);
-    }
+    let viewer = start(&launch.sim, args.view, args.port, &args.remote, &launch.output)?;
+    launch.fill(args.kind.into());
+    launch.serve(&args.remote, args.remote.asks_for_zmq())?;
+    let Launch { mut sim, interrupt, .. } = launch;
     sim.set_pace(args.speed);
-    if !args.no_open && !args.setup.json {
-        open_browser(&viewer.url());
-    }
+    args.open_browser(&viewer.url());
     if !args.paused {
         sim.start();
     }
-    let mut live = Live::new(Some(viewer));
-    while !interrupt.is_requested() && !sim.quit_requested() {
-        live.iterate(&mut sim);
-    }
-    sim.stop();
-    sim.clear_scene();
-    ExitCode::SUCCESS
+    Live::new(Some(viewer)).run(&mut sim, &interrupt);
+    Ok(ExitCode::SUCCESS)
 }
 
 fn is_recording(path: &Path) -> bool {
@@ -130,7 +113,7 @@ fn is_recording(path: &Path) -> bool {
 }
 
 /// Shows a recording until ctrl-c or SIGTERM.
-fn view_recording(args: &Args, path: &Path) -> Result<ExitCode, String> {
+fn view_recording(args: &Args, path: &Path) -> Outcome {
     let recording = super::export::open(path)?;
     let interrupt = Interrupt::of_scripts_here();
     let output = args.setup.output(&Progress::new(RunLimits::default(), true), &interrupt);
@@ -138,13 +121,19 @@ fn view_recording(args: &Args, path: &Path) -> Result<ExitCode, String> {
     let listener = TcpListener::bind((args.remote.address(), args.port)).map_err(failed)?;
     let viewer = RecordedViewer::start(recording, listener).map_err(failed)?;
     output.viewing(&viewer.url());
-    if !args.no_open && !args.setup.json {
-        open_browser(&viewer.url());
-    }
+    args.open_browser(&viewer.url());
     while !interrupt.is_requested() {
         std::thread::sleep(NAP);
     }
     Ok(ExitCode::SUCCESS)
+}
+
+impl Args {
+    fn open_browser(&self, url: &str) {
+        if !self.no_open && !self.setup.json {
+            open_browser(url);
+        }
+    }
 }
 
 /// Opens the page where there is a desktop. Without one, or when that fails, the address has been printed.

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use super::interrupt::Interrupt;
 use crate::Simulator;
 use crate::view::Viewer;
 
@@ -20,6 +21,15 @@ pub(in crate::cli) struct Live {
 impl Live {
     pub(in crate::cli) fn new(viewer: Option<Viewer>) -> Self {
         Self { viewer }
+    }
+
+    /// Iterates until ctrl-c, SIGTERM or `quitSimulator()`, then ends the simulation and closes the scene.
+    pub(in crate::cli) fn run(mut self, sim: &mut Simulator, interrupt: &Interrupt) {
+        while !interrupt.is_requested() && !sim.quit_requested() {
+            self.iterate(sim);
+        }
+        sim.stop();
+        sim.clear_scene();
     }
 
     /// One loop iteration, then a rest until there is something to do.

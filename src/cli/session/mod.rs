@@ -2,6 +2,7 @@
 
 pub(super) mod graphs;
 pub(super) mod interrupt;
+pub(super) mod launch;
 pub(super) mod live;
 pub(super) mod output;
 pub(super) mod permissions;

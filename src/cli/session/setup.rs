@@ -83,6 +83,7 @@ enum Scene {
 }
 
 /// The files of the command line, read.
+#[derive(Default)]
 pub(in crate::cli) struct Sources {
     scene: Option<Scene>,
     add_ons: Vec<Source>,

@@ -1,0 +1,60 @@
+//! What the commands with a simulation do first: read the files, make the simulator, fill its scene, listen to programs outside.
+
+use std::path::{Path, PathBuf};
+
+use super::interrupt::Interrupt;
+use super::output::Output;
+use super::progress::Progress;
+use super::setup::{Setup, Sources};
+use crate::cli::remote::Remote;
+use crate::{Options, ScriptKind, Simulator};
+
+/// A simulator of the command line, and what reports about it.
+pub(in crate::cli) struct Launch<'a> {
+    setup: &'a Setup,
+    scene: Option<&'a Path>,
+    sources: Sources,
+    pub sim: Simulator,
+    pub output: Output,
+    pub interrupt: Interrupt,
+}
+
+impl<'a> Launch<'a> {
+    /// Reads the files, and makes a simulator without a scene. Without `remote`, nothing listens, and scripts may do everything. `plugin_note`: see
+    /// [`Options::plugin_note`].
+    ///
+    /// # Errors
+    /// When a file cannot be read.
+    pub(in crate::cli) fn new(
+        setup: &'a Setup,
+        remote: Option<&Remote>,
+        scene: Option<&'a Path>,
+        progress: &Progress,
+        plugin_note: Option<PathBuf>,
+    ) -> Result<Self, String> {
+        let sources = setup.sources(scene)?;
+        let interrupt = Interrupt::of_scripts_here();
+        let output = setup.output(progress, &interrupt);
+        let options = Options { plugin_note, ..setup.options(scene, &interrupt) };
+        let options = match remote {
+            Some(remote) => remote.guard(options),
+            None => options,
+        };
+        let sim = Simulator::with_console(options, Box::new(output.clone()));
+        Ok(Self { setup, scene, sources, sim, output, interrupt })
+    }
+
+    /// Fills the scene; `kind` is that of a script that is the scene.
+    pub(in crate::cli) fn fill(&mut self, kind: ScriptKind) {
+        let sources = std::mem::take(&mut self.sources);
+        self.setup.fill(&mut self.sim, sources, kind, self.scene);
+    }
+
+    /// Starts the remote APIs: ZeroMQ if `zmq`, the others on request.
+    ///
+    /// # Errors
+    /// When a port is not free.
+    pub(in crate::cli) fn serve(&mut self, remote: &Remote, zmq: bool) -> Result<(), String> {
+        remote.serve(zmq, self.setup, &mut self.sim, &self.output, &self.interrupt)
+    }
+}
