@@ -3,9 +3,13 @@
 //! Elsewhere than on Unix there are none: the end is asked for by ctrl-c, and threads cannot be interrupted.
 
 #[cfg(not(unix))]
-pub(crate) use elsewhere::{InterruptibleThread, last_request, note_requests, run_on_crash, standard_output_is_closed};
+pub(crate) use elsewhere::{
+    InterruptibleThread, last_request, note_requests, reserve_standard_output, run_on_crash, standard_output_is_closed,
+};
 #[cfg(unix)]
-pub(crate) use unix::{InterruptibleThread, last_request, note_requests, run_on_crash, standard_output_is_closed};
+pub(crate) use unix::{
+    InterruptibleThread, last_request, note_requests, reserve_standard_output, run_on_crash, standard_output_is_closed,
+};
 
 /// The number of the signal that ctrl-c sends.
 pub(crate) const INTERRUPT: i32 = 2;
@@ -15,7 +19,9 @@ pub(crate) const CLOSED_PIPE: i32 = 13;
 #[cfg(unix)]
 mod unix {
     use std::ffi::{CString, OsString};
+    use std::fs::File;
     use std::mem::MaybeUninit;
+    use std::os::fd::AsFd;
     use std::os::unix::ffi::OsStringExt;
     use std::ptr;
     use std::sync::OnceLock;
@@ -148,10 +154,24 @@ mod unix {
         unsafe { libc::raise(signal) };
     }
 
-    /// Whether nobody reads standard output any more.
-    pub(crate) fn standard_output_is_closed() -> bool {
+    /// Standard output for lines of the program's own. What native code and scripts write there by themselves goes to standard error from now
+    /// on. None where that is not possible.
+    pub(crate) fn reserve_standard_output() -> Option<&'static File> {
+        static RESERVED: OnceLock<Option<File>> = OnceLock::new();
+        let reserve = || {
+            // Processes that are started do not get it.
+            let own = rustix::io::fcntl_dupfd_cloexec(std::io::stdout(), 3).ok()?;
+            rustix::stdio::dup2_stdout(std::io::stderr()).ok()?;
+            Some(File::from(own))
+        };
+        RESERVED.get_or_init(reserve).as_ref()
+    }
+
+    /// Whether nobody reads standard output any more, or that which was reserved.
+    pub(crate) fn standard_output_is_closed(reserved: Option<&File>) -> bool {
         let stdout = std::io::stdout();
-        let mut polled = [PollFd::new(&stdout, PollFlags::empty())];
+        let output = reserved.map_or_else(|| stdout.as_fd(), AsFd::as_fd);
+        let mut polled = [PollFd::from_borrowed_fd(output, PollFlags::empty())];
         let at_once = Timespec { tv_sec: 0, tv_nsec: 0 };
         poll(&mut polled, Some(&at_once)).is_ok() && polled[0].revents().contains(PollFlags::ERR)
     }
@@ -159,6 +179,8 @@ mod unix {
 
 #[cfg(not(unix))]
 mod elsewhere {
+    use std::fs::File;
+
     pub(crate) fn note_requests() {}
 
     pub(crate) fn last_request() -> i32 {
@@ -167,7 +189,11 @@ mod elsewhere {
 
     pub(crate) fn run_on_crash(_: String, _: Vec<std::ffi::OsString>) {}
 
-    pub(crate) fn standard_output_is_closed() -> bool {
+    pub(crate) fn reserve_standard_output() -> Option<&'static File> {
+        None
+    }
+
+    pub(crate) fn standard_output_is_closed(_: Option<&File>) -> bool {
         false
     }
 

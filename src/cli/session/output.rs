@@ -1,6 +1,7 @@
 //! Output of a run: prints to stdout, the log to stderr; or everything as JSON lines on stdout.
 
 use std::cell::Cell;
+use std::fs::File;
 use std::io::Write;
 use std::net::SocketAddr;
 use std::rc::Rc;
@@ -10,7 +11,7 @@ use indicatif::ProgressBar;
 use serde_json::{Value, json};
 
 use super::interrupt::Interrupt;
-use crate::io::signals::standard_output_is_closed;
+use crate::io::signals::{reserve_standard_output, standard_output_is_closed};
 use crate::script::log::{status, verbosity};
 use crate::{Console, LogLine, RunTotals};
 
@@ -36,6 +37,8 @@ pub(in crate::cli) struct Output {
     aftermath: Rc<Cell<Aftermath>>,
     /// Requested when nobody reads standard output any more.
     interrupt: Interrupt,
+    /// Standard output, where nothing but lines of ours may be.
+    reserved: Option<&'static File>,
 }
 
 /// A script error pauses the simulation, and a run that nobody resumes is then stopped. Of the four lines about that, people read one.
@@ -52,7 +55,8 @@ enum Aftermath {
 
 impl Output {
     pub(in crate::cli) fn new(format: Format, quiet: bool, bar: ProgressBar, interrupt: Interrupt) -> Self {
-        Self { format, quiet, bar, aftermath: Rc::new(Cell::new(Aftermath::None)), interrupt }
+        let reserved = (format == Format::Json).then(reserve_standard_output).flatten();
+        Self { format, quiet, bar, aftermath: Rc::new(Cell::new(Aftermath::None)), interrupt, reserved }
     }
 
     /// A message of the command line itself, under the simulator's name in the log.
@@ -179,8 +183,11 @@ impl Output {
 
     /// Writes a line to standard output. When nobody reads it any more, the program ends.
     fn write_line(&self, line: &[u8]) {
-        let mut out = std::io::stdout().lock();
-        let written = out.write_all(line).and_then(|()| out.write_all(b"\n")).and_then(|()| out.flush());
+        let line = [line, b"\n"].concat();
+        let written = match self.reserved {
+            Some(mut out) => out.write_all(&line),
+            None => std::io::stdout().lock().write_all(&line).and_then(|()| std::io::stdout().flush()),
+        };
         if written.is_err_and(|error| error.kind() == std::io::ErrorKind::BrokenPipe) {
             self.interrupt.request_quietly();
         }
@@ -203,7 +210,7 @@ impl Console for Output {
     }
 
     fn pipe_closed(&mut self) {
-        if standard_output_is_closed() {
+        if standard_output_is_closed(self.reserved) {
             self.interrupt.request_quietly();
         }
     }
