@@ -69,6 +69,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("kinematics", "src/ik"),
     ("kinematics", "src/modules"),
     ("libc", "src/io/signals.rs"),
+    ("libloading", "crates/plugin/src/interface.rs"),
     ("libloading", "src/plugin/ffi"),
     ("libm", "src/modules/sim_eigen"),
     ("libm", "src/perception"),
@@ -295,7 +296,13 @@ pub const LUA_NAMES: &[&str] =
 pub const FUNCTIONS_FOR_SCRIPTS: &[&str] = &["src/api", "src/modules"];
 
 /// The edges to libraries written in C.
-pub const UNSAFE: &[&str] = &["src/script/lua", "src/plugin/ffi", "src/io/signals.rs", "src/io/zmq/libzmq.rs"];
+pub const UNSAFE: &[&str] = &[
+    "src/script/lua",
+    "src/plugin/ffi",
+    "crates/plugin/src/interface.rs",
+    "src/io/signals.rs",
+    "src/io/zmq/libzmq.rs",
+];
 
 /// What a script may need a permission for, as code writes it.
 pub const SYSTEM_CALLS: &[&str] = &[
