@@ -42,7 +42,9 @@ fn run(code: &str) -> String {
 
 fn assert_prints(code: &str, expected: &[&str]) {
     let output = run(&format!("local simT = loadPlugin('simT')\n{code}"));
-    let lines: Vec<&str> = output.lines().filter(|line| !line.contains("the plugin has")).collect();
+    // Its own lines, and warnings about functions that are old for scripts.
+    let is_expected = |line: &&str| !line.contains("the plugin has") && !line.contains(" is deprecated. ");
+    let lines: Vec<&str> = output.lines().filter(is_expected).collect();
     assert_eq!(lines, expected, "of {code}");
 }
 
@@ -96,6 +98,19 @@ fn variables_and_names() {
 }
 
 #[test]
+fn modules_stand_in_for_plugins_and_wrap_them() {
+    let folder = folder(
+        "print(loadPlugin('simIK') == require 'simIK', sim.loadPlugin('simConvex'))
+        local simT = require 'simT'
+        print(simT.func(), require 'simT' == simT, simT.twice('a'))",
+    );
+    let wrapper = "local simT = loadPlugin 'simT' function simT.twice(x) return simT.echo(x, x) end return simT";
+    fs::write(folder.path().join("simT.lua"), wrapper).expect("it is writable");
+    let output = run_bounded(&mut command(folder.path(), &["--quiet"])).expect("it ends");
+    assert!(output.contains("true, 0\n") && output.contains("Hello to you too!, true, a, a\n"), "{output}");
+}
+
+#[test]
 fn errors_of_plugins() {
     assert_prints(
         "print(pcall(simT.fail))
@@ -146,6 +161,24 @@ fn functions_of_the_simulator() {
         print(simT.moveObject(dummy))
         print(sim.getObjectPosition(dummy))",
         &["2, {1., 2., 3.}, dummy, true, -1., 1, -1, 71, 0", "{1., 2., 3.}"],
+    );
+}
+
+#[test]
+fn several_results_of_one_function() {
+    assert_prints(
+        "local shape = sim.createPrimitiveShape(sim.primitiveshape_cuboid, {1, 1, 1})
+        local sensor = sim.createVisionSensor(1, {16, 16, 0, 0}, {0.01, 1, 1, 0.1, 0.1, 0.1, 0, 0, 0, 0, 0})
+        sim.handleVisionSensor(sensor)
+        local _, values = sim.readVisionSensor(sensor)
+        local vertices, indices, normals = sim.getShapeMesh(shape)
+        local r = {simT.manyResults({shape, sensor})}
+        local function same(a, b) return table.concat(a, ' ') == table.concat(b, ' ') end
+        print(r[1], same(r[2], vertices), same(r[3], indices), same(r[4], normals))
+        print(r[5], r[6])
+        print(r[7], r[8], #values == 15 and same(r[9], values))
+        print(r[10], r[11], r[12], #r[13], r[13]:gsub('\\0', ','), r[14], r[15], r[16])",
+        &["1, true, true, true", "1, {24, 36}", "0, {1, 15}, true", "0.25, true, false, 8, one,two,, 2, 0, -1"],
     );
 }
 
@@ -272,6 +305,18 @@ fn a_crash_is_told_with_its_place() {
     fs::write(folder.path().join("scene.lua"), "error('on purpose')").expect("it is writable");
     let ended = run_for_code(&mut command(folder.path(), &["--quiet", "--isolate"]), support::process::LIMIT);
     assert_eq!(ended.expect("it ends").0, 1);
+}
+
+#[test]
+fn what_a_plugin_prints_itself_is_no_line_of_json() {
+    let folder = folder("loadPlugin('simT').shout() print('Hello')");
+    let output = command(folder.path(), &["--json"]).output().expect("the command starts");
+    let (lines, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    let is_json = |line: &str| serde_json::from_str::<serde_json::Value>(line).is_ok();
+    assert!(lines.contains("Hello") && lines.lines().all(is_json), "{lines}");
+    assert!(errors.contains("written by the plugin itself"), "{errors}");
+    let output = run("loadPlugin('simT').shout()");
+    assert!(output.contains("written by the plugin itself"), "{output}");
 }
 
 /// The example of the documentation.

@@ -3,7 +3,8 @@
 
 use std::fmt::Write as _;
 
-use crate::plugin;
+use crate::script::pairs;
+use crate::{api, plugin};
 
 const HEAD: &str = include_str!("plugin_header_head.h");
 const END: &str = include_str!("plugin_header_end.h");
@@ -11,6 +12,12 @@ const END: &str = include_str!("plugin_header_end.h");
 /// `include/swanilda_plugin.h`.
 pub(super) fn text() -> String {
     let mut out = String::from(HEAD);
+    out.push_str("/* The constants of scripts: sim.handle_all is sim_handle_all. */\nenum {\n");
+    for (name, value) in pairs(api::SIM.constants) {
+        let _ = writeln!(out, "    sim_{name} = {value},");
+    }
+    out.push_str("};\n\n");
+    out.push_str("/* X(result, name, symbol, parameters) for every function. A parameter n... is the number of values of the one before it. */\n");
     out.push_str("#define SWANILDA_FUNCTIONS(X)");
     for row in plugin::symbols().filter(|row| !row.is_missing()) {
         // Without the mark of double precision, as plugins call it.

@@ -68,27 +68,6 @@ enum {
     sim_message_eventcallback_simulationcleanup = 343
 };
 
-/* Types of the items of stacks. */
-enum {
-    sim_stackitem_null = 0,
-    sim_stackitem_double = 1,
-    sim_stackitem_bool = 2,
-    sim_stackitem_string = 3,
-    sim_stackitem_table = 4,
-    sim_stackitem_integer = 9
-};
-
 /* What simGetStackTableInfo returns for what is no list. */
 enum { sim_stack_table_map = -2, sim_stack_table_not_table = -3 };
 
-/* Levels of simAddLog. */
-enum {
-    sim_verbosity_errors = 200,
-    sim_verbosity_warnings = 300,
-    sim_verbosity_scripterrors = 420,
-    sim_verbosity_scriptwarnings = 430,
-    sim_verbosity_scriptinfos = 450,
-    sim_verbosity_infos = 500
-};
-
-/* X(result, name, symbol, parameters) for every function. A parameter n... is the number of values of the one before it. */

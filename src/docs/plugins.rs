@@ -75,3 +75,18 @@ fn row(module: ReferenceModule, state: State) -> String {
     };
     format!("| `{name}` | {purpose} | {state} | {instead} |\n")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::plugin::symbols;
+    use crate::script::Member;
+
+    #[test]
+    fn every_function_of_scripts_that_plugins_call_is_there() {
+        let registry = crate::modules::registry();
+        for row in symbols().filter(|row| row.function.starts_with("sim.")) {
+            let is_there = matches!(registry.find(row.function), Some(Member::Native(_) | Member::Lua { .. }));
+            assert!(is_there, "{} of {}", row.function, row.symbol);
+        }
+    }
+}

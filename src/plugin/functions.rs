@@ -2,7 +2,7 @@
 
 use super::dispatch::Call;
 use super::stacks::{as_list, insert, item_type, place, table_info, unfolded};
-use super::{Registered, Variable};
+use super::{Registered, Variable, scene_functions};
 use crate::scene::Data;
 
 pub(super) type Answer = Result<Vec<Data>, String>;
@@ -25,9 +25,6 @@ const FUNCTIONS: &[(&str, Function)] = &[
     ("plugin.call_method", call_method),
     ("script.call", call_script),
     ("script.execute", execute),
-    ("object.find", find_object),
-    ("sensor.read", |call| detection(call, "sim.readProximitySensor")),
-    ("sensor.handle", |call| detection(call, "sim.handleProximitySensor")),
     ("stack.create", |call| Ok(vec![Data::Int(call.stacks().add(Vec::new()).into())])),
     ("stack.release", |call| call.stacks().remove(call.int(0)?).map(|_| Vec::new())),
     ("stack.copy", copy_stack),
@@ -62,7 +59,8 @@ const FUNCTIONS: &[(&str, Function)] = &[
 
 /// The function of that name.
 pub(super) fn find(name: &str) -> Option<Function> {
-    FUNCTIONS.iter().find(|(known, _)| *known == name).map(|&(_, function)| function)
+    let mut functions = FUNCTIONS.iter().chain(scene_functions::FUNCTIONS);
+    functions.find(|(known, _)| *known == name).map(|&(_, function)| function)
 }
 
 impl Call<'_> {
@@ -70,18 +68,18 @@ impl Call<'_> {
         self.frame.shared.stacks.borrow_mut()
     }
 
-    fn arg(&self, place: usize) -> &Data {
+    pub(super) fn arg(&self, place: usize) -> &Data {
         self.args.get(place).unwrap_or(&Data::Nil)
     }
 
-    fn int(&self, place: usize) -> Result<i64, String> {
+    pub(super) fn int(&self, place: usize) -> Result<i64, String> {
         match self.arg(place) {
             Data::Int(value) => Ok(*value),
             _ => Err(format!("parameter {} is no integer", place + 1)),
         }
     }
 
-    fn bytes(&self, place: usize) -> Result<&[u8], String> {
+    pub(super) fn bytes(&self, place: usize) -> Result<&[u8], String> {
         match self.arg(place) {
             Data::Text(bytes) | Data::Buffer(bytes) => Ok(bytes),
             _ => Err(format!("NULL was passed for the text that is parameter {}", place + 1)),
@@ -235,29 +233,6 @@ fn execute(call: &Call<'_>) -> Answer {
         call.stacks().get(call.int(2)?)?.extend(results);
     }
     Ok(vec![Data::Int(0)])
-}
-
-fn find_object(call: &Call<'_>) -> Answer {
-    let (index, proxy, flags) = (call.int(1)?, call.int(2)?, call.int(3)?);
-    let mut options = vec![("noError", Data::Bool(flags & 1 != 0))];
-    options.extend((index >= 0).then_some(("index", Data::Int(index))));
-    options.extend((proxy >= 0).then_some(("proxy", Data::Int(proxy))));
-    let options = options.into_iter().map(|(key, value)| (crate::scene::Key::Text(key.into()), value)).collect();
-    call.frame.host.call("sim.getObject", &[Data::Text(call.bytes(0)?.to_vec()), Data::Map(options)])
-}
-
-/// Whether something was detected; point and distance; the object; the normal.
-fn detection(call: &Call<'_>, function: &str) -> Answer {
-    let mut results = call.frame.host.call(function, &[call.arg(0).clone()])?.into_iter();
-    let (state, distance) = (results.next().unwrap_or(Data::Int(0)), results.next());
-    let point = match results.next() {
-        Some(Data::Array(mut point)) => {
-            point.extend(distance);
-            Data::Array(point)
-        }
-        _ => Data::Nil,
-    };
-    Ok([state, point].into_iter().chain(results).collect())
 }
 
 fn copy_stack(call: &Call<'_>) -> Answer {

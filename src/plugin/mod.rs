@@ -12,6 +12,7 @@ mod dispatch;
 mod ffi;
 mod functions;
 mod own_library;
+mod scene_functions;
 mod signature;
 mod stacks;
 

@@ -11,7 +11,7 @@
 //!   points to three numbers, `d#` to as many as the next parameter says; `u`, `f` are bytes and floats. `>` before them: the host
 //!   writes there. `=`: it reads and writes. `>#`: the length of what is returned. `>S`, `>I`, `>D`: what is returned, by pointer.
 //! - Functions: `sim.name` is called with the parameters, or with those that are listed after it, counted from 0; `-` is missing;
-//!   everything else is in `functions`.
+//!   everything else is in `functions` or `scene_functions`.
 
 /// A symbol of the C interface.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,8 +10,8 @@ use super::lifecycle::instance::Script;
 use super::log::verbosity;
 use super::sim::Sim;
 use crate::plugin::{Host, Moment, Plugin, Plugins};
-use crate::scene::Data;
 use crate::scene::object::script_object::ScriptType;
+use crate::scene::{Data, Journal, Mark, Topic, Topics};
 
 /// The plugins that are loaded, and who uses them. A simulator without plugins has none of this.
 #[derive(Default)]
@@ -21,11 +21,37 @@ struct LoadedPlugins {
     users: RefCell<BTreeMap<String, BTreeSet<i64>>>,
     /// What happened since the last pass, as bits.
     changes: Cell<i32>,
+    marks: RefCell<Marks>,
+}
+
+/// Changes of the scene that plugins are told of, with their bits.
+struct Marks([(Mark, i32); 3]);
+
+impl Default for Marks {
+    fn default() -> Self {
+        let mark = |topic| Mark::new(Topics::NONE.with(topic));
+        Self([
+            (mark(Topic::Removed), OBJECTS_REMOVED),
+            (mark(Topic::Added), OBJECTS_ADDED),
+            (mark(Topic::Selection), SELECTION_CHANGED),
+        ])
+    }
+}
+
+impl Marks {
+    /// The bits of what has changed since the last call.
+    fn changes(&mut self, journal: &Journal) -> i32 {
+        let changed = self.0.iter_mut().filter_map(|(mark, bit)| journal.changed_since(mark).then_some(*bit));
+        changed.fold(0, |bits, bit| bits | bit)
+    }
 }
 
 /// Bits of [`LoadedPlugins::changes`].
+const OBJECTS_REMOVED: i32 = 1;
+const OBJECTS_ADDED: i32 = 1 << 1;
 const MODEL_LOADED: i32 = 1 << 2;
 const SCENE_LOADED: i32 = 1 << 3;
+const SELECTION_CHANGED: i32 = 1 << 9;
 const SIMULATION_STARTED: i32 = 1 << 11;
 const SIMULATION_ENDED: i32 = 1 << 12;
 
@@ -52,6 +78,11 @@ impl Sim {
                 None
             }
         }
+    }
+
+    /// Whether a plugin of CoppeliaSim is a module here, and no library of that name is to be found.
+    pub(crate) fn has_module_for_plugin(&self, name: &str) -> bool {
+        self.modules.registry.module(namespace(name)).is_some() && self.plugin_file(name).is_err()
     }
 
     /// The library of a plugin: beside the scene, in the folders of the user, beside the program, in an installation of CoppeliaSim.
@@ -156,7 +187,7 @@ impl Sim {
     pub(in crate::script) fn notify_plugins_of_pass(self: &Rc<Self>) {
         let Some(loaded) = self.modules.states.existing::<LoadedPlugins>() else { return };
         self.unload_unused(&loaded);
-        let changes = loaded.changes.take();
+        let changes = loaded.changes.take() | loaded.marks.borrow_mut().changes(self.scene.borrow().journal());
         self.notify_plugins(Moment::Pass, [changes, 0, 0, 0]);
     }
 

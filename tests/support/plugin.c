@@ -4,6 +4,7 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -136,6 +137,44 @@ static void moveObject(SScriptCallBack* p) {
     simPushInt32OntoStack(p->stackID, simGetInt32Signal("nobody", &value));
 }
 
+/* A shape and a vision sensor: what comes back by several pointers. */
+static void manyResults(SScriptCallBack* p) {
+    int handles[2], counts[4] = {0}, *indices = NULL, *packets = NULL;
+    double *vertices = NULL, *normals = NULL, *values = NULL;
+    int contact[2];
+    bool known = true;
+    double box[24];
+    for (int i = 0; i < 24; i++) box[i] = (i / 3 >> i % 3) & 1;
+    simGetStackInt32Table(p->stackID, handles, 2);
+    pop_all(p);
+    int s = p->stackID;
+    simPushInt32OntoStack(s, simGetShapeMesh(handles[0], &vertices, counts, &indices, counts + 1, &normals));
+    simPushDoubleTableOntoStack(s, vertices, counts[0]);
+    simPushInt32TableOntoStack(s, indices, counts[1]);
+    simPushDoubleTableOntoStack(s, normals, counts[1] * 3);
+    simReleaseBuffer(vertices), simReleaseBuffer(indices), simReleaseBuffer(normals);
+    simPushInt32OntoStack(s, simGetQHull(box, 24, &vertices, counts, &indices, counts + 1, 0, NULL));
+    simPushInt32TableOntoStack(s, counts, 2);
+    simReleaseBuffer(vertices), simReleaseBuffer(indices);
+    simPushInt32OntoStack(s, simReadVisionSensor(handles[1], &values, &packets));
+    simPushInt32TableOntoStack(s, packets, 2);
+    simPushDoubleTableOntoStack(s, values, packets[1]);
+    simReleaseBuffer(values), simReleaseBuffer(packets);
+    simSetEngineFloatParam(sim_bullet_body_friction, handles[0], NULL, 0.25);
+    simPushDoubleOntoStack(s, simGetEngineFloatParam(sim_bullet_body_friction, handles[0], NULL, &known));
+    simPushBoolOntoStack(s, known);
+    simGetEngineInt32Param(-77, handles[0], NULL, &known);
+    simPushBoolOntoStack(s, known);
+    simWriteCustomDataBlock(handles[0], "one", "1", 1);
+    simWriteCustomDataBlock(handles[0], "two", "2", 1);
+    char* names = simReadCustomDataBlockTags(handles[0], counts);
+    simPushStringOntoStack(s, names, 8);
+    simPushInt32OntoStack(s, counts[0]);
+    simReleaseBuffer(names);
+    simPushInt32OntoStack(s, simGetContactInfo(sim_handle_all, handles[0], 0, contact, box));
+    simPushInt32OntoStack(s, simGetScriptHandleEx(sim_scripttype_customization, -1, "/nobody"));
+}
+
 static void version(SScriptCallBack* p) {
     int number = 0;
     pop_all(p);
@@ -198,6 +237,12 @@ static void crash(SScriptCallBack* p) {
     abort();
 }
 
+static void shout(SScriptCallBack* p) {
+    pop_all(p);
+    puts("written by the plugin itself");
+    fflush(stdout);
+}
+
 static void* from_thread(void* result) {
     *(double*)result = simGetSimulationTime();
     return NULL;
@@ -223,7 +268,7 @@ SIM_DLLEXPORT int simInit(SSimInit* info) {
         {"func", func}, {"echo", echo}, {"mixed", mixed}, {"fail", fail}, {"failInTheOldWay", failInTheOldWay},
         {"tableInfos", tableInfos}, {"unfold", unfold}, {"rotate", rotate}, {"readInt", readInt}, {"tables", tables},
         {"callScript", callScript}, {"messageCounts", messageCounts}, {"moveObject", moveObject}, {"version", version},
-        {"misuse", misuse}, {"missing", missing}, {"fromThread", fromThread}, {"crash", crash}, {"in.a.table", func},
+        {"misuse", misuse}, {"missing", missing}, {"fromThread", fromThread}, {"crash", crash}, {"in.a.table", func}, {"shout", shout}, {"manyResults", manyResults},
     };
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
         if (simRegisterScriptCallbackFunction(functions[i].name, NULL, functions[i].function) != 1) return 0;

@@ -31,6 +31,8 @@ function M.loadPlugin(name)
     if known then return known end
     local plugin = loadNative(name)
     if not plugin then return end
+    -- What is a plugin of CoppeliaSim and a module here.
+    if type(plugin) == 'string' then return require(namespace(plugin)) end
     local members = {}
     for place, functionName in ipairs(plugin.functions) do
         put(members, functionName, function(...) return callNative(plugin.name, place - 1, ...) end)

@@ -202,12 +202,15 @@ fn used_module(cx: &Cx, name: String, #[default(false)] implicit: bool) -> Resul
 }
 
 /// Loads a native plugin: its name, the names of its functions, and its variables as name, value and whether that is an expression.
-/// Nothing where it cannot be loaded. `loadPlugin` makes a table of functions of it.
+/// Nothing where it cannot be loaded. `loadPlugin` makes a table of functions of it. Only the name where the plugin is a module here.
 ///
 /// @param name the plugin, with or without a version: simX, simX-2
-/// @return plugin a map; nil where it cannot be loaded, which is logged
+/// @return plugin a map, or the name; nil where it cannot be loaded, which is logged
 #[api("_loadPlugin")]
 fn load_plugin(cx: &mut Cx, name: String) -> Result<Option<Data>> {
+    if cx.has_module_for_plugin(&name) {
+        return Ok(Some(Data::text(&name)));
+    }
     let Some(plugin) = cx.load_plugin(&name)? else { return Ok(None) };
     let functions = plugin.functions().iter().map(|name| Data::text(name)).collect();
     let variables = plugin.variables().into_iter().map(|(name, variable)| {

@@ -9,6 +9,11 @@ use crate::scene::Data;
 use crate::script::error::ApiResult;
 
 impl Cx<'_> {
+    /// Whether a plugin of CoppeliaSim is a module here, and no library of that name is to be found.
+    pub(crate) fn has_module_for_plugin(&self, name: &str) -> bool {
+        self.sim.has_module_for_plugin(name)
+    }
+
     /// Loads a native plugin for the calling script, unless it is loaded. None where it cannot be loaded; the log says why.
     ///
     /// # Errors
