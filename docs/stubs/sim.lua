@@ -733,6 +733,15 @@ function sim.executeLuaCode(code) end
 ---@return any ... 0, then what the code gave, or an empty table if nothing
 function sim.executeScriptString(stringToExecute, scriptHandle) end
 
+--- Writes meshes to a file.
+---@param fileformat integer 0: OBJ, 3: STL, text, 4: STL, binary, 5: COLLADA, 6: PLY, text, 7: PLY, binary
+---@param pathAndFilename string the file
+---@param options integer not used
+---@param scalingFactor number of all coordinates; 0 for 1
+---@param vertices table for each mesh a table of three coordinates each
+---@param indices table for each mesh a table of three vertices per triangle, from 0
+function sim.exportMesh(fileformat, pathAndFilename, options, scalingFactor, vertices, indices) end
+
 --- Lets the idle loop run without pauses; it always does here, so this does nothing.
 ---@param enable boolean ignored
 function sim.fastIdleLoop(enable) end
@@ -2174,6 +2183,27 @@ function sim.handleVarious() end
 ---@param sensorHandle integer a sensor, sim.handle_all or sim.handle_all_except_explicit
 ---@return any result packets number of sensors that were triggered, and the packets of numbers of a single sensor, at least two
 function sim.handleVisionSensor(sensorHandle) end
+
+--- The meshes of a file: OBJ, STL, PLY, COLLADA, glTF, 3DS or DXF.
+---@param fileformat integer not used: the name's extension says it
+---@param pathAndFilename string the file
+---@param options integer 1: identical vertices stay, 128: the up axis of the file is ignored
+---@param identicalVerticeTolerance number not used: vertices of the same coordinates become one
+---@param scalingFactor number of all coordinates, beside the unit of the file; 0 for 1
+---@return any vertices for each mesh a table of three coordinates each, metres
+---@return any indices for each mesh a table of three vertices per triangle, from 0
+function sim.importMesh(fileformat, pathAndFilename, options, identicalVerticeTolerance, scalingFactor) end
+
+--- A new shape from a mesh file: OBJ, STL, PLY, COLLADA, glTF, 3DS or DXF; its frame is the world's. Several meshes are one compound.
+---
+--- axis of the file is ignored
+---@param fileformat integer not used: the name's extension says it
+---@param pathAndFilename string the file
+---@param options integer 1: identical vertices stay, 8: without colours, 16: with textures, 32: bounding box along the axes of the world, 128: the up
+---@param identicalVerticeTolerance number not used: vertices of the same coordinates become one
+---@param scalingFactor number of all coordinates, beside the unit of the file; 0 for 1
+---@return integer shapeHandle the shape, static and not respondable
+function sim.importShape(fileformat, pathAndFilename, options, identicalVerticeTolerance, scalingFactor) end
 
 --- Runs a file, given by its path relative to the folder of the scene. Where there is none, '/lua/name.lua' is the module of that name.
 ---@param path string of a Lua file

@@ -2633,6 +2633,15 @@ class _sim:
         stringToExecute: the code; from the last `@` on it is the name of a language, not code
         scriptHandle: the script
         """
+    def exportMesh(self, fileformat: int, pathAndFilename: str, options: int, scalingFactor: float, vertices: Sequence[Any] | Mapping[Any, Any], indices: Sequence[Any] | Mapping[Any, Any], /) -> None:
+        """Writes meshes to a file.
+        fileformat: 0: OBJ, 3: STL, text, 4: STL, binary, 5: COLLADA, 6: PLY, text, 7: PLY, binary
+        pathAndFilename: the file
+        options: not used
+        scalingFactor: of all coordinates; 0 for 1
+        vertices: for each mesh a table of three coordinates each
+        indices: for each mesh a table of three vertices per triangle, from 0
+        """
     def fastIdleLoop(self, enable: bool, /) -> None:
         """Lets the idle loop run without pauses; it always does here, so this does nothing.
         enable: ignored
@@ -3776,6 +3785,24 @@ class _sim:
     def handleVisionSensor(self, sensorHandle: int, /) -> Any:
         """Takes pictures with vision sensors and lets their scripts look at them (`sysCall_vision`). A sensor alone must be handled explicitly.
         sensorHandle: a sensor, sim.handle_all or sim.handle_all_except_explicit
+        """
+    def importMesh(self, fileformat: int, pathAndFilename: str, options: int, identicalVerticeTolerance: float, scalingFactor: float, /) -> tuple[Any, Any]:
+        """The meshes of a file: OBJ, STL, PLY, COLLADA, glTF, 3DS or DXF.
+        fileformat: not used: the name's extension says it
+        pathAndFilename: the file
+        options: 1: identical vertices stay, 128: the up axis of the file is ignored
+        identicalVerticeTolerance: not used: vertices of the same coordinates become one
+        scalingFactor: of all coordinates, beside the unit of the file; 0 for 1
+        """
+    def importShape(self, fileformat: int, pathAndFilename: str, options: int, identicalVerticeTolerance: float, scalingFactor: float, /) -> int:
+        """A new shape from a mesh file: OBJ, STL, PLY, COLLADA, glTF, 3DS or DXF; its frame is the world's. Several meshes are one compound.
+
+        axis of the file is ignored
+        fileformat: not used: the name's extension says it
+        pathAndFilename: the file
+        options: 1: identical vertices stay, 8: without colours, 16: with textures, 32: bounding box along the axes of the world, 128: the up
+        identicalVerticeTolerance: not used: vertices of the same coordinates become one
+        scalingFactor: of all coordinates, beside the unit of the file; 0 for 1
         """
     def include(self, path: str, /) -> Any:
         """Runs a file, given by its path relative to the folder of the scene. Where there is none, '/lua/name.lua' is the module of that name.
@@ -5394,6 +5421,57 @@ class _sim:
         yaw: about z, first
         pitch: about the new y
         roll: about the new x
+        """
+
+class _simAssimp:
+    upVector: Any
+    def exportMeshes(self, allVertices: Sequence[Any] | Mapping[Any, Any], allIndices: Sequence[Any] | Mapping[Any, Any], filename: str, formatId: str, scaling: float | None = ..., upVector: int | None = ..., options: int | None = ..., /) -> None:
+        """Writes meshes to a file.
+        allVertices: for each mesh a table of three coordinates each
+        allIndices: for each mesh a table of three vertices per triangle, from 0
+        filename: the file
+        formatId: see simAssimp.getExportFormat
+        scaling: of all coordinates; 0 for 1
+        upVector: simAssimp.upVector.z or .y: the axis of the file that points up
+        options: not used
+        """
+    def exportShapes(self, shapeHandles: Sequence[int], filename: str, formatId: str, scaling: float | None = ..., upVector: int | None = ..., options: int | None = ..., /) -> None:
+        """Writes shapes to a file.
+
+        shape instead of the world's
+        shapeHandles: the shapes; other objects are left out
+        filename: the file
+        formatId: see simAssimp.getExportFormat
+        scaling: of all coordinates; 0 for 1
+        upVector: simAssimp.upVector.z or .y: the axis of the file that points up
+        options: 1: without textures, 2: without colours, 4: without normals, 8: only visible shapes, 256: not used, 512: in the frame of the first
+        """
+    def getExportFormat(self, index: int, /) -> tuple[str, str, str]:
+        """A format that is written.
+        index: from 0
+        """
+    def getImportFormat(self, index: int, /) -> tuple[str, str]:
+        """A format that is read.
+        index: from 0
+        """
+    def importMeshes(self, filenames: str, scaling: float | None = ..., upVector: int | None = ..., options: int | None = ..., /) -> tuple[Any, Any]:
+        """The meshes of files.
+
+        ignored
+        filenames: the files, with `;` between them
+        scaling: of all coordinates, beside the unit of the file; 0 for 1
+        upVector: simAssimp.upVector.auto: what the file says, .z, .y
+        options: 8: meshes that look the same stay apart, 16: identical vertices stay, 32: one mesh for each file, 128: the up axis of the file is
+        """
+    def importShapes(self, filenames: str, maxTextureSize: int | None = ..., scaling: float | None = ..., upVector: int | None = ..., options: int | None = ..., /) -> list[int]:
+        """New shapes from mesh files; the frames of all are the world's.
+
+        32: one shape for each file, 64: bounding boxes along the axes of the world, 128: the up axis of the file is ignored, 256: no warnings
+        filenames: the files, with `;` between them
+        maxTextureSize: pixels on a side; larger textures are made smaller
+        scaling: of all coordinates, beside the unit of the file; 0 for 1
+        upVector: simAssimp.upVector.auto: what the file says, .z, .y
+        options: 1: without textures, 2: without colours, 4: opaque, 8: meshes that look the same stay apart, 16: identical vertices stay,
         """
 
 class _simCBOR:
@@ -9817,6 +9895,8 @@ class Requires:
     def require(self, name: Literal["remote.ws"], script: int | None = None) -> _remote_ws: ...
     @overload
     def require(self, name: Literal["sim"], script: int | None = None) -> _sim: ...
+    @overload
+    def require(self, name: Literal["simAssimp"], script: int | None = None) -> _simAssimp: ...
     @overload
     def require(self, name: Literal["simCBOR"], script: int | None = None) -> _simCBOR: ...
     @overload

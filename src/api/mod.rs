@@ -12,7 +12,7 @@ mod old;
 mod parameters;
 mod scripts;
 mod sensors;
-mod shapes;
+pub(crate) mod shapes;
 
 use crate::script::{Hooks, Module};
 
@@ -43,6 +43,7 @@ const CATEGORIES: &[(&str, &[ApiFn])] = &[
     ("Mass of shapes", shapes::mass::FUNCTIONS),
     ("Groups of shapes", shapes::group::FUNCTIONS),
     ("Convex and extruded shapes", shapes::convex::FUNCTIONS),
+    ("Mesh files", shapes::mesh_file::FUNCTIONS),
     ("Colours", shapes::colour::FUNCTIONS),
     ("Textures", shapes::texture::FUNCTIONS),
     ("Joints", motion::joint::FUNCTIONS),

@@ -1,6 +1,7 @@
 //! Files of other programs.
 
 pub(crate) mod graph_file;
+pub(crate) mod mesh_file;
 pub(crate) mod picture;
 #[cfg(feature = "plots")]
 pub(crate) mod plot;

@@ -6,6 +6,7 @@ mod cbor;
 mod lfs;
 mod mime;
 pub(crate) mod remote;
+mod sim_assimp;
 mod sim_convex;
 mod sim_eigen;
 mod sim_geom;
@@ -41,6 +42,7 @@ pub(crate) static ALL: &[&Module] = &[
     &remote::WS,
     &remote::ZMQ,
     &cbor::SIM_CBOR,
+    &sim_assimp::MODULE,
     &sim_convex::MODULE,
     &sim_eigen::MODULE,
     &sim_geom::MODULE,

@@ -80,6 +80,9 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("memchr", "src/format/xml"),
     ("memchr", "src/io/socket"),
     ("memchr", "src/wire/mime"),
+    ("mesh_files", "src/api/shapes/mesh_file.rs"),
+    ("mesh_files", "src/format/mesh_file"),
+    ("mesh_files", "src/modules/sim_assimp"),
     ("mlua", "src/lib.rs"),
     ("mlua", "src/script/lua"),
     ("mlua", "src/script/lua_runtime"),
@@ -209,6 +212,7 @@ const PERCEPTION: Rooms = &[
 
 const FORMAT: Rooms = &[
     ("picture", &[]),
+    ("mesh_file", &["picture", "scene_file"]),
     ("ttt", &[]),
     ("xml", &["picture", "ttt"]),
     ("scene_file", &["ttt", "xml"]),

@@ -34,6 +34,7 @@ impl World {
         fs::write(folder.join("secret.lua"), "return 'the secret'").expect("our own folder is writable");
         fs::write(folder.join("victim"), "alive").expect("our own folder is writable");
         fs::create_dir(folder.join("empty")).expect("our own folder is writable");
+        fs::write(folder.join("mesh.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("our own folder is writable");
         for (name, file) in [("scene.ttt", "world.ttt"), ("model.ttm", "part.ttm"), ("scene.xml", "kinds.simscene.xml")]
         {
             let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");

@@ -77,6 +77,10 @@ pub const READS: &[Route] = &[
     route("sim.loadModel", "return require('sim').loadModel(FOLDER .. '/model.ttm') >= 0"),
     route("sim.loadImage", "return #require('sim').loadImage(0, FOLDER .. '/picture.png') == 12"),
     route("simIM.read", "local simIM = require 'simIM' return simIM.size(simIM.read(FOLDER .. '/picture.png'))[1] == 2"),
+    route("sim.importMesh", "return #require('sim').importMesh(0, FOLDER .. '/mesh.obj', 0, 0, 1) == 1"),
+    route("sim.importShape", "return require('sim').importShape(0, FOLDER .. '/mesh.obj', 0, 0, 1) >= 0"),
+    route("simAssimp.importShapes", "return #require('simAssimp').importShapes(FOLDER .. '/mesh.obj') == 1"),
+    route("simAssimp.importMeshes", "return #require('simAssimp').importMeshes(FOLDER .. '/mesh.obj') == 1"),
     route("sim.createTexture", "return require('sim').createTexture(FOLDER .. '/picture.png', 0) >= 0"),
 ];
 
@@ -116,6 +120,14 @@ pub const WRITES: &[Route] = &[
     route(
         "simIM.write",
         "local simIM = require 'simIM' simIM.write(simIM.create(2, 2), FOLDER .. '/new.png') return true",
+    ),
+    route(
+        "sim.exportMesh",
+        "require('sim').exportMesh(0, FOLDER .. '/new.obj', 0, 1, {{0,0,0, 1,0,0, 0,1,0}}, {{0,1,2}}) return true",
+    ),
+    route(
+        "simAssimp.exportMeshes",
+        "require('simAssimp').exportMeshes({{0,0,0, 1,0,0, 0,1,0}}, {{0,1,2}}, FOLDER .. '/new.obj', 'obj') return true",
     ),
     route("sim.saveImage", "require('sim').saveImage(('a'):rep(12), {2, 2}, 0, FOLDER .. '/new.png') return true"),
     route(

@@ -41,6 +41,20 @@ impl Shape {
     }
 }
 
+impl Shape {
+    /// A compound of shapes that have the same frame; a single one stays as it is.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn compound(mut shapes: Vec<Shape>) -> SceneResult<Shape> {
+        if shapes.len() == 1 {
+            return shapes.pop().ok_or(SceneError::OperationFailed);
+        }
+        let placed: Vec<(Pose, &Shape)> = shapes.iter().map(|shape| (Pose::identity(), shape)).collect();
+        grouped(&placed, shapes.last().ok_or(SceneError::OperationFailed)?)
+    }
+}
+
 impl Scene {
     /// Makes one shape of several; the last one gives its pose, place in the tree, name and flags. With `merge` the result is one
     /// mesh, with colour and mass of the last one; otherwise a compound with the mass of all. The originals are still there.

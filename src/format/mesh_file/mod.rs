@@ -1,0 +1,124 @@
+//! Mesh files of other programs: OBJ, STL, PLY, COLLADA, glTF, 3DS, DXF, as shapes and as lists of numbers.
+//!
+//! The formats are read and written by the crate `mesh_files`; here are paths, permissions, options, and the way to and from shapes.
+
+mod lists;
+mod shapes;
+
+use std::path::{Path, PathBuf};
+
+pub(crate) use lists::{to_lists, to_parts};
+use mesh_files::{ExportFormat, Format, Limits, MeshFile, UpAxis};
+pub(crate) use shapes::{Looks, ShapeParts, to_shapes};
+
+use super::scene_file::write_whole;
+use crate::permissions::Permissions;
+
+/// What is read for scripts: their tables, and the physics, could not hold more.
+const LIMITS: Limits = Limits { vertices: 12_000_000, triangles: 4_000_000, parts: 10_000 };
+
+/// Why a mesh file is not read or written.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum MeshFileError {
+    #[error("file does not exist.")]
+    NotFound,
+    #[error("invalid file format.")]
+    UnknownFormat,
+    #[error("cannot read {0}: {1}.")]
+    Read(String, std::io::Error),
+    #[error("cannot write {0}: {1}.")]
+    Write(String, std::io::Error),
+    #[error("{0}: {1}.")]
+    Damaged(String, mesh_files::ReadError),
+    #[error("{0}: {1}.")]
+    NotWritable(String, mesh_files::WriteError),
+}
+
+/// Which axis of the file points up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Up {
+    /// What the file or its format says; z if it says nothing.
+    OfFile,
+    Y,
+    Z,
+}
+
+/// How a file is read.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ImportOptions {
+    /// Factor of all coordinates, beside the unit of the file.
+    pub(crate) scaling: f64,
+    pub(crate) up: Up,
+    pub(crate) keep_identical: bool,
+    /// Joins parts that look the same.
+    pub(crate) merge_parts: bool,
+    pub(crate) textures: bool,
+}
+
+/// Reads a mesh file and what it refers to, as far as permitted: metres, z up.
+pub(crate) fn load(name: &str, options: ImportOptions, permissions: &Permissions) -> Result<MeshFile, MeshFileError> {
+    let format = Format::of_name(name).ok_or(MeshFileError::UnknownFormat)?;
+    let path = Path::new(name);
+    let bytes = permissions.read_file(path).map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => MeshFileError::NotFound,
+        _ => MeshFileError::Read(name.into(), error),
+    })?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut resolve = |reference: &str| beside(folder, reference, options.textures, permissions);
+    let file = mesh_files::read(&bytes, format, LIMITS, &mut resolve);
+    let mut file = file.map_err(|error| MeshFileError::Damaged(name.into(), error))?;
+    file.scale(file.unit.unwrap_or(1.0) * options.scaling);
+    match options.up {
+        Up::OfFile => file.turn_up(file.up.unwrap_or(UpAxis::Z)),
+        Up::Y => file.turn_up(UpAxis::Y),
+        Up::Z => {}
+    }
+    if options.merge_parts {
+        file.merge_parts();
+    }
+    if !options.keep_identical {
+        file.merge_identical();
+    }
+    Ok(file)
+}
+
+/// A file that a mesh file names: at its path, else of the same name beside the mesh file, since paths come from other machines.
+fn beside(folder: &Path, reference: &str, with_textures: bool, permissions: &Permissions) -> Result<Vec<u8>, String> {
+    let path = reference.replace('\\', "/");
+    let is_geometry = ["bin", "mtl"].iter().any(|kind| path.to_lowercase().ends_with(&format!(".{kind}")));
+    if !with_textures && !is_geometry {
+        return Err("left out".into());
+    }
+    let paths: [PathBuf; 2] = [folder.join(&path), folder.join(path.rsplit('/').next().unwrap_or(&path))];
+    let found = permissions.read_file(&paths[0]).or_else(|first| permissions.read_file(&paths[1]).map_err(|_| first));
+    found.map_err(|error| error.to_string())
+}
+
+/// Writes a mesh file, and beside it the materials and textures it refers to.
+pub(crate) fn store(
+    file: &MeshFile,
+    format: ExportFormat,
+    name: &str,
+    permissions: &Permissions,
+) -> Result<(), MeshFileError> {
+    let path = Path::new(name);
+    let last = path.file_name().unwrap_or_default().to_string_lossy();
+    let written =
+        mesh_files::write(file, format, &last).map_err(|error| MeshFileError::NotWritable(name.into(), error))?;
+    for (number, file) in written.iter().enumerate() {
+        let path = if number == 0 { path.to_owned() } else { path.with_file_name(&file.name) };
+        let written = permissions.check_write(&path).map_err(Into::into).and_then(|()| write_whole(&path, &file.bytes));
+        written.map_err(|error| MeshFileError::Write(path.to_string_lossy().into_owned(), error))?;
+    }
+    Ok(())
+}
+
+/// Turns what is z-up so that y points up: (x, y, z) becomes (x, z, -y).
+pub(crate) fn turn_to_y_up(file: &mut MeshFile) {
+    let turn = |[x, y, z]: [f64; 3]| [x, z, -y];
+    for part in &mut file.parts {
+        part.vertices.iter_mut().for_each(|vertex| *vertex = turn(*vertex));
+        part.normals.as_flattened_mut().iter_mut().for_each(|normal| *normal = turn(*normal));
+    }
+    file.up = Some(UpAxis::Y);
+}
