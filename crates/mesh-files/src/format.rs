@@ -67,8 +67,9 @@ pub struct Written {
 ///
 /// Where the file is damaged, exceeds the limits, or has no triangles.
 pub fn read(bytes: &[u8], format: Format, limits: Limits, resolve: Resolve) -> Result<MeshFile> {
-    if u32::try_from(bytes.len()).is_err() {
-        return Err(ReadError::new(Place::File, "file", "4 GiB or more"));
+    let largest = largest_file(format);
+    if bytes.len() > largest {
+        return Err(ReadError::new(Place::File, "file", format!("larger than {} MiB", largest >> 20)));
     }
     let file = match format {
         Format::Obj => obj::read(bytes, limits, resolve)?,
@@ -80,6 +81,14 @@ pub fn read(bytes: &[u8], format: Format, limits: Limits, resolve: Resolve) -> R
         Format::Dxf => dxf::read(bytes, limits)?,
     };
     file.checked()
+}
+
+/// Bytes of the largest file that is read: what has a structure of its own takes up to twenty times as much memory.
+fn largest_file(format: Format) -> usize {
+    match format {
+        Format::Collada | Format::Gltf | Format::Dxf => 256 << 20,
+        Format::Obj | Format::Stl | Format::Ply | Format::ThreeDs => 2 << 30,
+    }
 }
 
 /// Writes a mesh file of a name: itself first, then the files it refers to (materials, textures). Coordinates are written as they are.

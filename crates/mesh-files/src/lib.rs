@@ -16,8 +16,8 @@
 //! Coordinates are `f64` in the file's own frame and unit; [`MeshFile::unit`] and [`MeshFile::up`] say which, [`MeshFile::turn_up`] and
 //! [`MeshFile::scale`] change them. Normals and texture coordinates belong to the corners of triangles, so vertices merge by position alone.
 //!
-//! Counts in a file are compared with its length before anything is allocated, and what instances add up to is limited ([`Limits`]): memory is
-//! bounded by a multiple of the file's length and these limits. Any input is read or refused; nothing panics.
+//! Counts in a file are compared with its length before anything is allocated, what instances add up to is limited ([`Limits`]), and so is the
+//! length (256 MiB for COLLADA, glTF and DXF, else 2 GiB): memory is bounded by a multiple of the file's length and these limits. Any input is read or refused; nothing panics.
 //!
 //! ```
 //! use mesh_files::{Format, Limits, read};
