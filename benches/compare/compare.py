@@ -25,7 +25,8 @@ DOCS = os.path.join(HERE, "../../docs")
 COLORS = {"Swanilda": "#c2410c", "MuJoCo": "#2563eb", "PyBullet": "#16a34a"}
 # How often the speed is measured; the best counts, since other programs only slow down.
 ROUNDS = 3
-WATCH_ALL = ("pendulum", "double pendulum", "gyroscope", "four-bar")
+WATCH_ALL = ("pendulum", "double pendulum", "gyroscope", "four-bar", "chain of 30")
+FEET = "58 kg on feet of 5, 1, 0.3 and 0.1 kg"
 PICTURED = 300
 
 
@@ -104,10 +105,21 @@ def end_states(results):
         ("arm of seven joints", "first joint after 4 s, rad", 0.3,
          each("arm of seven joints", lambda rows: first_joint(rows)[-1])),
         ("gyroscope", "angular momentum, change in 60 s", 0.0, each("gyroscope", momentum_change)),
+        ("quadruped", "way in 10 s, m", 0.0, each("quadruped", lambda rows: np.hypot(*(body(rows, 0)[0][-1, :2])))),
+        ("humanoid", "largest tilt of the torso in 10 s, rad", 0.0, each("humanoid", lambda rows: tilt(rows, 1).max())),
     ]
+    for i, foot in enumerate(it for it in SCENES[FEET]["bodies"] if "foot" in it["name"]):
+        lines.append(("58 kg on a foot", f"a foot of {foot['mass']:g} kg sinks by, mm", 0.0,
+                      each(FEET, lambda rows, i=i: 20 - 1e3 * body(rows, 2 * i + 1)[0][-1, 2])))
     energies = [(name, "energy, largest change", 0.0, each(name, lambda rows, name=name: drift(SCENES[name], rows)))
                 for name in WATCH_ALL]
     return lines + energies
+
+
+def tilt(rows, index):
+    """Angle of the z axis of a body to the vertical."""
+    q = body(rows, index)[1]
+    return np.arccos(np.clip(1 - 2 * (q[:, 0] ** 2 + q[:, 1] ** 2), -1, 1))
 
 
 def momentum_change(rows):
@@ -138,7 +150,7 @@ def table(results, best):
         out.append(f"| {name} | sub-steps/s | | " + " | ".join(f"{values[e]:,.0f}" for e in ENGINES) + " |")
     versions = ", ".join(f"{package} {version(package)}" for package in ("mujoco", "pybullet"))
     out += ["", f"{versions}, Python {platform.python_version()}, {os.cpu_count()} x {processor()}; "
-            f"best of {ROUNDS} runs.", ""]
+            f"best of {ROUNDS} runs; {os.getloadavg()[1]:.1f} programs running meanwhile, this one among them.", ""]
     return "\n".join(out)
 
 

@@ -60,19 +60,25 @@ def mjcf(scene):
     numbers = lambda values: " ".join(map(repr, map(float, values)))
     friction = f'friction="{scene["friction"]} 0 0"'
     world, placed, servos, ties = [], {}, [], []
+    linked = {it["name"] for it in scene["bodies"] if "joint" in it} | {it.get("parent") for it in scene["bodies"]}
 
     def element(it, origin):
         at = np.subtract(it["at"], origin)
-        solid = "" if scene["floor"] else ' contype="0" conaffinity="0"'
+        # Those of joints collide with what is free, not with each other.
+        kind = (2, 1) if it["name"] in linked else (1, 3)
+        solid = ' contype="%d" conaffinity="%d"' % (kind if scene["floor"] and not it.get("ghost") else (0, 0))
         text = f'<body name="{it["name"]}" pos="{numbers(at)}">'
-        if "joint" in it:
+        if it.get("joint", {}).get("kind") == "weld":
+            pass
+        elif "joint" in it:
             joint = it["joint"]
             text += (f'<joint name="j_{it["name"]}" type="hinge" pos="{numbers(np.subtract(joint["at"], it["at"]))}" '
                      f'axis="{numbers(joint["axis"])}"/>')
         else:
             text += f'<freejoint name="j_{it["name"]}"/>'
         half = numbers(np.multiply(it["size"], 0.5))
-        text += f'<geom type="box" size="{half}" mass="{it["mass"]}" {friction}{solid}/>'
+        form = "sphere" if it.get("round") else "box"
+        text += f'<geom type="{form}" size="{half}" mass="{it["mass"]}" {friction}{solid}/>'
         text += "".join(element(child, it["at"]) for child in scene["bodies"] if child.get("parent") == it["name"])
         if "target" in it:
             servos.append(f'<position joint="j_{it["name"]}" kp="{STIFFNESS}" kv="{DAMPING}" forcerange="-{FORCE} {FORCE}"/>')
@@ -80,7 +86,7 @@ def mjcf(scene):
         return text + "</body>"
 
     if scene["floor"]:
-        world.append(f'<geom type="plane" size="50 50 1" {friction}/>')
+        world.append(f'<geom type="plane" size="50 50 1" conaffinity="3" {friction}/>')
     world += [element(it, (0, 0, 0)) for it in scene["bodies"] if not it.get("parent")]
     for first, second, at in scene["ties"]:
         anchor = numbers(np.subtract(at, placed[first]["at"]))
@@ -96,6 +102,8 @@ def in_mujoco(scene, watched):
     model = mujoco.MjModel.from_xml_string(mjcf(scene))
     data = mujoco.MjData(model)
     for it in scene["bodies"]:
+        if it.get("joint", {}).get("kind") == "weld":
+            continue
         start = model.joint("j_" + it["name"]).dofadr[0]
         if "joint" in it:
             data.qvel[start] = np.dot(it.get("spin", (0, 0, 0)), it["joint"]["axis"])
@@ -117,28 +125,66 @@ def in_mujoco(scene, watched):
     return samples(scene, lambda: mujoco.mj_step(model, data, SUBSTEPS), row, watched)
 
 
-def bullet_chain(scene, chain):
-    """A fixed base with the links of `chain`; gives the places of the bodies."""
-    box = lambda it: p.createCollisionShape(p.GEOM_BOX, halfExtents=np.multiply(it["size"], 0.5)) if scene["floor"] else -1
-    index = {None: 0, **{it["name"]: i + 1 for i, it in enumerate(chain)}}
-    where = {None: (0, 0, 0), **{it["name"]: it["at"] for it in chain}}
-    zero, none, n = [0, 0, 0], [0, 0, 0, 1], len(chain)
+def bullet_form(scene, it):
+    """The collision shape of a body; -1 for one that collides with nothing."""
+    if not scene["floor"] or it.get("ghost"):
+        return -1
+    if it.get("round"):
+        return p.createCollisionShape(p.GEOM_SPHERE, radius=it["size"][0] / 2)
+    return p.createCollisionShape(p.GEOM_BOX, halfExtents=np.multiply(it["size"], 0.5))
+
+
+def inertia(it):
+    a, b, c = np.square(it["size"]) * it["mass"] / 12
+    return [2 * b * 0.6] * 3 if it.get("round") else [b + c, a + c, a + b]
+
+
+def bullet_tree(scene, root, links):
+    """A free body, or a fixed base for None, with the links that hang on it; gives the places of the bodies."""
+    index = {it["name"]: i for i, it in enumerate(links)}
+    origin = {it["name"]: it["joint"]["at"] for it in links}
+    zero, none, n = [0, 0, 0], [0, 0, 0, 1], len(links)
+    base = {"baseMass": 0, "basePosition": zero}
+    if root:
+        base = {"baseMass": root["mass"], "basePosition": root["at"], "baseCollisionShapeIndex": bullet_form(scene, root)}
+    kinds = {"hinge": p.JOINT_REVOLUTE, "weld": p.JOINT_FIXED}
+    # A link's frame is its joint; the base's is its centre.
+    where = lambda it: origin.get(it["parent"], base["basePosition"])
     body = p.createMultiBody(
-        baseMass=0, linkMasses=[it["mass"] for it in chain], linkCollisionShapeIndices=[box(it) for it in chain],
+        linkMasses=[it["mass"] for it in links], linkCollisionShapeIndices=[bullet_form(scene, it) for it in links],
         linkVisualShapeIndices=[-1] * n, linkOrientations=[none] * n, linkInertialFrameOrientations=[none] * n,
-        linkPositions=[np.subtract(it["joint"]["at"], where[it["parent"]]).tolist() for it in chain],
-        linkInertialFramePositions=[np.subtract(it["at"], it["joint"]["at"]).tolist() for it in chain],
-        linkParentIndices=[index[it["parent"]] for it in chain], linkJointTypes=[p.JOINT_REVOLUTE] * n,
-        linkJointAxis=[it["joint"]["axis"] for it in chain], basePosition=zero)
-    for i, it in enumerate(chain):
-        a, b, c = np.square(it["size"]) * it["mass"] / 12
-        p.changeDynamics(body, i, localInertiaDiagonal=[b + c, a + c, a + b])
+        linkPositions=[np.subtract(it["joint"]["at"], where(it)).tolist() for it in links],
+        linkInertialFramePositions=[np.subtract(it["at"], it["joint"]["at"]).tolist() for it in links],
+        linkParentIndices=[index.get(it["parent"], -1) + 1 for it in links],
+        linkJointTypes=[kinds[it["joint"]["kind"]] for it in links], linkJointAxis=[it["joint"]["axis"] for it in links], **base)
+    if root:
+        p.changeDynamics(body, -1, localInertiaDiagonal=inertia(root))
+        p.resetBaseVelocity(body, root.get("velocity", zero), root.get("spin", zero))
+    for i, it in enumerate(links):
+        p.changeDynamics(body, i, localInertiaDiagonal=inertia(it))
+        if it["joint"]["kind"] == "weld":
+            continue
         p.resetJointState(body, i, 0, np.dot(it.get("spin", zero), it["joint"]["axis"]))
         if "target" in it:
             p.setJointMotorControl2(body, i, p.POSITION_CONTROL, targetPosition=it["target"], force=FORCE)
         else:
             p.setJointMotorControl2(body, i, p.VELOCITY_CONTROL, force=0)
-    return {it["name"]: (body, i) for i, it in enumerate(chain)}
+    return ({root["name"]: (body, -1)} if root else {}) | {it["name"]: (body, i) for i, it in enumerate(links)}
+
+
+def trees(scene):
+    """Every body that hangs on nothing, or None for the world, and what hangs on it."""
+    bodies = {it["name"]: it for it in scene["bodies"]}
+
+    def top(it):
+        while it.get("parent"):
+            it = bodies[it["parent"]]
+        return it["name"]
+
+    for name in dict.fromkeys(map(top, scene["bodies"])):
+        members = [it for it in scene["bodies"] if top(it) == name]
+        root = members[0] if "joint" not in members[0] else None
+        yield root, members[1:] if root else members
 
 
 def bullet_world(scene):
@@ -148,14 +194,8 @@ def bullet_world(scene):
     places = {}
     if scene["floor"]:
         places["floor"] = (p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE)), -1)
-    for it in (it for it in scene["bodies"] if "joint" not in it):
-        form = p.createCollisionShape(p.GEOM_BOX, halfExtents=np.multiply(it["size"], 0.5))
-        body = p.createMultiBody(it["mass"], form, basePosition=it["at"])
-        p.resetBaseVelocity(body, it.get("velocity", [0, 0, 0]), it.get("spin", [0, 0, 0]))
-        places[it["name"]] = (body, -1)
-    chain = [it for it in scene["bodies"] if "joint" in it]
-    if chain:
-        places |= bullet_chain(scene, chain)
+    for root, links in trees(scene):
+        places |= bullet_tree(scene, root, links)
     where = {it["name"]: it["at"] for it in scene["bodies"]}
     for first, second, at in scene["ties"]:
         (a, i), (b, j) = places[first], places[second]

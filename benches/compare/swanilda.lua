@@ -5,10 +5,11 @@ local handles = {}
 local AXIS <const> = {x = {0, math.pi / 2, 0}, y = {-math.pi / 2, 0, 0}, z = {0, 0, 0}}
 
 local function shape(it, dynamic)
-    local handle = sim.createPrimitiveShape(sim.primitiveshape_cuboid, it.size)
+    local handle = sim.createPrimitiveShape(it.round and sim.primitiveshape_spheroid or sim.primitiveshape_cuboid, it.size)
     sim.setObjectPosition(handle, it.at)
     sim.setBoolProperty(handle, 'dynamic', dynamic)
-    sim.setBoolProperty(handle, 'respondable', SCENE.floor)
+    sim.setBoolProperty(handle, 'respondable', SCENE.floor and not it.ghost)
+    sim.setObjectInt32Param(handle, sim.shapeintparam_respondable_mask, 0xff00)
     -- Frictions multiply.
     sim.setEngineFloatParam(sim.bullet_body_oldfriction, handle, math.sqrt(SCENE.friction))
     for i, velocity in ipairs{'x', 'y', 'z'} do
@@ -22,6 +23,12 @@ end
 
 local function jointOf(it, anchor)
     local joint = it.joint
+    if joint.kind == 'weld' then
+        local sensor = sim.createForceSensor(0, {0, 1, 10, 0, 0}, {0.02, 100, 10, 0, 0})
+        sim.setObjectPosition(sensor, joint.at)
+        sim.setObjectParent(sensor, handles[it.parent], true)
+        return sensor
+    end
     local name = joint.axis[1] == 1 and 'x' or joint.axis[2] == 1 and 'y' or 'z'
     local handle = sim.createJoint(sim.joint_revolute, sim.jointmode_dynamic, 0)
     sim.setObjectPosition(handle, joint.at)
