@@ -1,6 +1,6 @@
 """Inverse kinematics of a UR5 and a Panda by other solvers: the tasks of crates/kinematics/benches.
 
-    python3 -m venv target/venv && target/venv/bin/pip install numpy pin optik-py pytracik ikpy mink
+    python3 -m venv target/venv && target/venv/bin/pip install numpy pin optik-py pytracik ikpy mink "qpsolvers[daqp]" roboticstoolbox-python
     target/venv/bin/python benches/compare/kinematics.py [number of poses]
 
 Poses are those of random postures within the limits; the start is the middle of the limits. Every answer is checked at 0.1 mm and 1 mrad and for the limits
@@ -66,6 +66,17 @@ class Arm:
         file.close()
         return file.name
 
+    def mjcf(self):
+        """Bodies in bodies. All fixed transforms turn about x only."""
+        text, ends = '<mujoco><compiler angle="radian"/><worldbody>', ""
+        for before, low, high in zip(self.before, self.low, self.high):
+            text += (f'<body pos="{before[0, 3]} {before[1, 3]} {before[2, 3]}" euler="{math.atan2(before[2, 1], before[1, 1])} 0 0">'
+                     f'<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><joint axis="0 0 1" range="{low} {high}" limited="true"/>')
+            ends += "</body>"
+        m = self.to_tip
+        return text + (f'<site name="tip" pos="{m[0, 3]} {m[1, 3]} {m[2, 3]}" euler="{math.atan2(m[2, 1], m[1, 1])} 0 0"/>'
+                       f"{ends}</worldbody></mujoco>")
+
 
 def ur5():
     rows = [(0.089159, 0, Q), (0, -0.425, 0), (0, -0.39225, 0), (0.10915, 0, Q), (0.09465, 0, -Q), (0.0823, 0, 0)]
@@ -122,6 +133,45 @@ def pinocchio(arm):
     return solve
 
 
+def roboticstoolbox(arm):
+    from roboticstoolbox import ET, ETS
+
+    steps = []
+    for before, limits in zip(arm.before, zip(arm.low, arm.high)):
+        steps += [ET.SE3(before), ET.Rz(qlim=limits)]
+    robot = ETS(steps + [ET.SE3(arm.to_tip)])
+
+    def solve(goal, start):
+        """Levenberg-Marquardt in C++, at most 100 searches of 30 iterations."""
+        found = robot.ik_LM(goal, q0=start, tol=1e-10, joint_limits=True)
+        return found.q if found.success else None
+
+    return solve
+
+
+def mink(arm):
+    import mink as m
+    import mujoco
+
+    model = mujoco.MjModel.from_xml_string(arm.mjcf())
+    configuration = m.Configuration(model)
+    task = m.FrameTask("tip", "site", position_cost=1.0, orientation_cost=1.0)
+    limits = [m.ConfigurationLimit(model)]
+
+    def solve(goal, start):
+        """Steps of differential kinematics with limits (a quadratic programme each) from one start, at most 50."""
+        configuration.update(start.copy())
+        task.set_target(m.SE3.from_matrix(goal))
+        for _ in range(50):
+            if np.linalg.norm(task.compute_error(configuration)) < 1e-5:
+                break
+            velocity = m.solve_ik(configuration, [task], 1.0, "daqp", 1e-6, limits=limits)
+            configuration.integrate_inplace(velocity, 1.0)
+        return configuration.q.copy()
+
+    return solve
+
+
 def ikpy(arm):
     from ikpy.chain import Chain
 
@@ -141,7 +191,7 @@ def main():
         random = np.random.default_rng(2024)
         goals = [arm.forward(arm.low + random.random(len(arm.low)) * (arm.high - arm.low)) for _ in range(count)]
         start = (arm.low + arm.high) / 2
-        for make, share in ((optik, 1), (trac_ik, 1), (pinocchio, 0.2), (ikpy, 0.02)):
+        for make, share in ((optik, 1), (trac_ik, 1), (roboticstoolbox, 1), (pinocchio, 0.2), (mink, 0.2), (ikpy, 0.02)):
             try:
                 solve = make(arm)
             except ImportError:
