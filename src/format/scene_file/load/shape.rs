@@ -189,10 +189,8 @@ fn convexity(node: &MeshNode, data: &MeshData, mesh: Rc<Mesh>) -> (Rc<Mesh>, boo
     if is_nearly_convex(&mesh) {
         return (mesh, true);
     }
-    match Mesh::convex_hull(&mesh.vertices).filter(|_| claimed) {
-        Some(hull) => (Rc::new(hull), true),
-        None => (mesh, false),
-    }
+    let hull = if claimed { Mesh::convex_hull(&mesh.vertices) } else { None };
+    hull.map_or((mesh, false), |hull| (Rc::new(hull), true))
 }
 
 /// The box along the axes of the frame: of the mesh where there is one, of the shape where there are several.
