@@ -227,24 +227,24 @@ function math.randomseed(x, ...)
     return seed(x, ...)
 end
 
--- Scripts up to 4.7 used matrices without asking for them.
-local function matrixClass(name)
-    local stub
-    local function class()
-        if rawget(_G, name) == stub then
-            quietRequire('matrix')
-            addLog(WARNING, "module 'matrix' was implicitly loaded.")
-            addLog(WARNING, '"matrix" module is deprecated.')
-        end
-        return _G[name]
+-- Scripts up to 4.7 used matrices without asking for them. The names share their functions: every script has them.
+local MatrixName = {} -- a metatable, and the key of the name
+
+local function matrixClass(stub)
+    local name = rawget(stub, MatrixName)
+    if rawget(_G, name) == stub then
+        quietRequire('matrix')
+        addLog(WARNING, "module 'matrix' was implicitly loaded.")
+        addLog(WARNING, '"matrix" module is deprecated.')
     end
-    stub = setmetatable({}, {
-        __index = function(_, key) return class()[key] end,
-        __call = function(_, ...) return class()(...) end,
-    })
-    _G[name] = stub
+    return _G[name]
 end
-for _, name in ipairs {'Matrix', 'Vector', 'Vector3', 'Vector4', 'Vector7', 'Matrix3x3', 'Matrix4x4'} do matrixClass(name) end
+
+function MatrixName.__index(stub, key) return matrixClass(stub)[key] end
+function MatrixName.__call(stub, ...) return matrixClass(stub)(...) end
+for _, name in ipairs {'Matrix', 'Vector', 'Vector3', 'Vector4', 'Vector7', 'Matrix3x3', 'Matrix4x4'} do
+    _G[name] = setmetatable({[MatrixName] = name}, MatrixName)
+end
 
 ---------------------------------------------------------------- the thread of a script
 

@@ -27,8 +27,9 @@ function sysCall_init() sim.handleSimulationStart() end
 function sysCall_actuation()
     tellScripts(ACTUATION)
     handleJointMotion()
-    handlePath(NOT_EXPLICIT, getTimeStep())
-    handleDynamics(getTimeStep(), NOT_EXPLICIT)
+    local dt = getTimeStep()
+    handlePath(NOT_EXPLICIT, dt)
+    handleDynamics(dt, NOT_EXPLICIT)
 end
 
 function sysCall_sensing()
