@@ -95,8 +95,8 @@ pub(crate) fn read_buffer(stack: Stack<'_>, table: c_int) -> Option<Vec<u8>> {
 }
 
 fn read_entries(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) -> ApiResult<Data> {
-    if let Some(numbers) = stack.list_of_numbers(table) {
-        return Ok(Data::Array(numbers.into_iter().map(from_scalar).collect()));
+    if let Some(numbers) = stack.list_of_numbers(table, from_scalar) {
+        return Ok(Data::Array(numbers));
     }
     let len = stack.raw_len(table);
     // A table with holes may claim any length.

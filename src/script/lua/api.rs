@@ -217,9 +217,9 @@ impl<'a> Stack<'a> {
         true
     }
 
-    /// The items of the table at `index`, when it holds numbers 1, 2, 3 and so on and nothing else. Nothing runs meanwhile that could
-    /// change it.
-    pub(crate) fn list_of_numbers(self, index: c_int) -> Option<Vec<Scalar>> {
+    /// The items of the table at `index`, converted, when its keys are 1, 2, 3 and so on, and all its values are numbers. Nothing runs
+    /// meanwhile that could change it.
+    pub(crate) fn list_of_numbers<T>(self, index: c_int, convert: impl Fn(Scalar) -> T) -> Option<Vec<T>> {
         let table = self.table(index);
         let len = lua_rawlen(self, Slot(table.0)) as usize;
         if len == 0 {
@@ -234,7 +234,7 @@ impl<'a> Stack<'a> {
                 lua_settop(self, Occupied(key - 1));
                 return None;
             };
-            items.push(item);
+            items.push(convert(item));
             lua_settop(self, Occupied(key));
         }
         (items.len() == len).then_some(items)
