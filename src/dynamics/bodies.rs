@@ -14,6 +14,7 @@ use super::colliders;
 use super::convert::{from_pose, to_matrix, to_pose, to_vector};
 use super::plan::{BodyBuild, BodyPlan, FrictionRule, Surface, is_far};
 use super::world::{ALL_HOOKS, World};
+use crate::scene::shape::Velocity;
 use crate::scene::{Field, Handle, Pose, Scene};
 
 /// A static body that moved less than this between two calls has not moved: metres and radians.
@@ -44,6 +45,10 @@ pub(super) struct Body {
     pub local: Pose,
     /// Where a static body goes during this call: from, to.
     sweep: Option<(Pose, Pose)>,
+    /// Velocity of the surface of a static body, which stays where it is: the initial velocity that scripts set.
+    drift: Velocity,
+    /// Where a body stands whose surface moves or moved: the engine has it a little further.
+    standing: Option<Pose>,
     /// Whether it slept at the last report to the scene.
     pub slept: bool,
 }
@@ -96,11 +101,11 @@ impl Bodies {
         let mut old: BTreeMap<Handle, Body> = std::mem::take(&mut self.all).into_iter().collect();
         self.places = plan.iter().enumerate().map(|(place, (shape, _))| (*shape, place)).collect();
         for (shape, plan) in plan {
-            let is_unchanged = |body: &Body| body.build == plan.build && !wants_rebuild(scene, shape, body);
+            let is_unchanged = |body: &Body| body.build == plan.build && !wants_rebuild(scene, shape, body, world);
             // Bodies that no longer exist stay in `old`, to be removed from the engine.
             let existing = if old.get(&shape).is_some_and(is_unchanged) { old.remove(&shape) } else { None };
             let body = match existing {
-                Some(body) => body.with_surface(shape, plan.surface, world),
+                Some(body) => body.with_surface(shape, plan.surface, world).with_drift(shape, scene),
                 None => Body::insert(shape, plan, world, scene),
             };
             self.all.push((shape, body));
@@ -111,9 +116,14 @@ impl Bodies {
     }
 }
 
-fn wants_rebuild(scene: &Scene, shape: Handle, body: &Body) -> bool {
-    let moved = |object: &crate::scene::Object| body.build.dynamic && object.pose() != body.local;
-    scene.object(shape).is_ok_and(|object| object.dynamics_reset || moved(object))
+/// A static body that is reset stays, with its contacts, unless it was moved: then it is elsewhere at once, without a way there.
+fn wants_rebuild(scene: &Scene, shape: Handle, body: &Body, world: &World) -> bool {
+    let Ok(object) = scene.object(shape) else { return false };
+    if body.build.dynamic {
+        return object.dynamics_reset || object.pose() != body.local;
+    }
+    let stands = body.standing.or_else(|| body.pose(world));
+    object.dynamics_reset && stands.zip(scene.world_pose(shape).ok()).is_none_or(|(from, to)| has_moved(&from, &to))
 }
 
 impl Body {
@@ -122,9 +132,9 @@ impl Body {
         let pose = scene.world_pose(shape).unwrap_or_else(|_| Pose::identity());
         let local = scene.object(shape).map(|object| object.pose()).unwrap_or(pose);
         let mut rigid = rigid_body(&plan, &pose);
-        if let Ok(velocity) = take_initial_velocity(scene, shape)
-            && plan.build.dynamic
-        {
+        let velocity = take_initial_velocity(scene, shape).unwrap_or_default();
+        let drift = if plan.build.dynamic { Velocity::default() } else { velocity };
+        if plan.build.dynamic {
             rigid.set_linvel(to_vector(velocity.linear), true);
             rigid.set_angvel(to_vector(velocity.angular), true);
             if plan.asleep && velocity == Default::default() {
@@ -133,7 +143,8 @@ impl Body {
         }
         let rigid = world.bodies.insert(rigid);
         let (build, surface) = (plan.build, plan.surface);
-        let mut body = Self { rigid, colliders: Vec::new(), build, surface, local, sweep: None, slept: false };
+        let (sweep, standing, slept) = (None, None, false);
+        let mut body = Self { rigid, colliders: Vec::new(), build, surface, local, sweep, drift, standing, slept };
         body.insert_colliders(shape, world);
         // rapier would only know the mass during the first step, mechanisms need it before.
         if let Some(rigid) = world.bodies.get_mut(rigid) {
@@ -185,6 +196,19 @@ impl Body {
         self
     }
 
+    /// A static body that was reset has the surface velocity that it carries now.
+    fn with_drift(mut self, shape: Handle, scene: &mut Scene) -> Self {
+        let is_reset = scene.object(shape).is_ok_and(|object| object.dynamics_reset);
+        if is_reset && !self.build.dynamic {
+            self.drift = take_initial_velocity(scene, shape).unwrap_or_default();
+        }
+        self
+    }
+
+    fn drifts(&self) -> bool {
+        self.drift != Velocity::default() && self.drift.linear.iter().chain(&self.drift.angular).all(|x| x.is_finite())
+    }
+
     /// Whether the engine still has the body.
     pub(super) fn pose(&self, world: &World) -> Option<Pose> {
         world.bodies.get(self.rigid).map(|rigid| from_pose(rigid.position()))
@@ -233,7 +257,7 @@ impl Bodies {
     }
 }
 
-fn take_initial_velocity(scene: &mut Scene, shape: Handle) -> crate::scene::SceneResult<crate::scene::shape::Velocity> {
+fn take_initial_velocity(scene: &mut Scene, shape: Handle) -> crate::scene::SceneResult<Velocity> {
     let object = scene.object(shape)?;
     let velocity = object.shape()?.dynamics.initial_velocity;
     if object.dynamics_reset || velocity != Default::default() {
@@ -251,8 +275,12 @@ impl Bodies {
     pub(super) fn plan_sweeps(&mut self, world: &mut World, scene: &Scene) {
         self.sweeping.clear();
         for (place, (shape, body)) in self.all.iter_mut().enumerate().filter(|(_, (_, body))| !body.build.dynamic) {
-            let (Some(from), Ok(to)) = (body.pose(world), scene.world_pose(*shape)) else { continue };
-            body.sweep = (has_moved(&from, &to) && to.is_finite()).then_some((from, to));
+            body.stop_drift(world);
+            let (Some(held), Ok(to)) = (body.pose(world), scene.world_pose(*shape)) else { continue };
+            let from = body.standing.unwrap_or(held);
+            let moves = has_moved(&from, &to) || body.drifts();
+            body.sweep = (moves && to.is_finite()).then_some((from, to));
+            body.standing = body.sweep.filter(|_| body.drifts()).map(|_| from);
             if body.sweep.is_some() {
                 self.sweeping.push(place);
                 body.let_move(world);
@@ -260,13 +288,20 @@ impl Bodies {
         }
     }
 
-    /// Moves the static bodies to `fraction` of their way.
-    pub(super) fn sweep(&self, fraction: f64, world: &mut World) {
-        for body in self.sweeping.iter().filter_map(|&place| Some(&self.all.get(place)?.1)) {
-            let Some((from, to)) = &body.sweep else { continue };
-            if let Some(rigid) = world.bodies.get_mut(body.rigid) {
-                rigid.set_next_kinematic_position(to_pose(&interpolate(from, to, fraction)));
-            }
+    /// Moves the static bodies to `fraction` of their way, in a sub-step of so many seconds. Those whose surface moves begin where they
+    /// stand and go as far as their surface does: contacts only know velocities of bodies.
+    pub(super) fn sweep(&mut self, fraction: f64, step: f64, world: &mut World) {
+        for &place in &self.sweeping {
+            let Some((_, body)) = self.all.get_mut(place) else { continue };
+            let (Some((from, to)), Some(rigid)) = (&body.sweep, world.bodies.get_mut(body.rigid)) else { continue };
+            let next = interpolate(from, to, fraction);
+            let Some(standing) = &mut body.standing else {
+                rigid.set_next_kinematic_position(to_pose(&next));
+                continue;
+            };
+            rigid.set_position(to_pose(standing), false);
+            rigid.set_next_kinematic_position(to_pose(&drifted(&next, &body.drift, step)));
+            *standing = next;
         }
     }
 
@@ -291,6 +326,16 @@ impl Bodies {
 }
 
 impl Body {
+    /// Puts a body back to where it stands whose surface does not move any more.
+    fn stop_drift(&mut self, world: &mut World) {
+        if !self.drifts()
+            && let Some(standing) = self.standing.take()
+            && let Some(rigid) = world.bodies.get_mut(self.rigid)
+        {
+            rigid.set_position(to_pose(&standing), true);
+        }
+    }
+
     /// A static body that begins to move pushes others, and leaves others without support.
     fn let_move(&self, world: &mut World) {
         if let Some(rigid) = world.bodies.get_mut(self.rigid)
@@ -300,6 +345,14 @@ impl Body {
             rigid.set_body_type(RigidBodyType::KinematicPositionBased, true);
         }
     }
+}
+
+/// Where a body would go with a velocity, seconds later.
+fn drifted(pose: &Pose, velocity: &Velocity, seconds: f64) -> Pose {
+    let [linear, angular] = [velocity.linear, velocity.angular].map(nalgebra::Vector3::from);
+    let shift = nalgebra::Translation3::from(linear * seconds);
+    let turn = nalgebra::UnitQuaternion::from_scaled_axis(angular * seconds);
+    Pose::from_parts(shift * pose.translation, turn * pose.rotation)
 }
 
 fn is_free(rigid: &RigidBody) -> bool {

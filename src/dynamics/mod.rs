@@ -199,7 +199,7 @@ impl Dynamics {
     /// Before sub-step number `sub_step` (from 1): moves the static bodies and sets the motors. Returns the joints only a script can drive.
     pub(crate) fn prepare(&mut self, scene: &Scene, sub_step: u32) -> Vec<JointRequest> {
         let (Some(world), Some(call)) = (self.world.as_mut(), self.call) else { return Vec::new() };
-        self.bodies.sweep(f64::from(sub_step) / f64::from(call.sub_steps), world);
+        self.bodies.sweep(f64::from(sub_step) / f64::from(call.sub_steps), call.step, world);
         let motions: BTreeMap<Handle, Motion> =
             self.links.iter().map(|(&handle, link)| (handle, link.motion)).collect();
         let engine = scene.settings().dynamics.engine.engine;
