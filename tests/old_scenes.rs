@@ -200,26 +200,9 @@ fn arm(scene: &mut Scene, mode: JointMode, explicit: bool) -> [Handle; 2] {
     scene.set_local_pose(tip, Pose::translation(0.5, 0.0, 0.0)).expect("it is a place");
     scene.set_local_pose(target, Pose::translation(0.8, 0.5, 0.0)).expect("it is a place");
     scene.link_dummies(tip, Some(target)).expect("both are dummies");
-    let element = IkElement {
-        tip,
-        base: None,
-        constraint_base: None,
-        precisions: [0.001, 0.0005],
-        weights: [1.0; 2],
-        constraints: 3,
-        flags: 0,
-    };
-    scene.ik_groups_mut().add(IkGroup {
-        name: "reach".into(),
-        persistent_uid: String::new(),
-        explicit,
-        method: 0,
-        flags: 0,
-        performed_after: -1,
-        max_iterations: 10,
-        damping: 0.1,
-        elements: vec![element],
-    });
+    let element = IkElement { precisions: [0.001, 0.0005], constraints: 3, ..IkElement::new(tip) };
+    let group = IkGroup { explicit, max_iterations: 10, elements: vec![element], ..IkGroup::new("reach") };
+    scene.ik_groups_mut().add(group);
     [tip, target]
 }
 

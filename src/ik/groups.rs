@@ -1,61 +1,157 @@
-//! The groups of inverse kinematics of old scenes: copied from the scene, solved, and written back (spec: kinematics 7).
+//! The groups of inverse kinematics of V-REP: copied from the scene, solved, and written back (spec: kinematics 7).
 
-use kinematics::{Constraints, Environment, Flags, GroupId, JointMode, Method, Outcome};
+use kinematics::{
+    Constraints, Environment, Flags, Frame, GroupFlags, GroupId, JointMode, Method, Outcome, Pose, Start,
+};
 
 use super::{SceneElement, SceneLinks};
-use crate::scene::tree::ik_groups::IkGroup;
-use crate::scene::{Handle, Scene, SceneResult, joint};
+use crate::scene::tree::ik_groups::{IkElement, IkGroup, Jacobian};
+use crate::scene::{Handle, Scene, SceneError, SceneResult, joint};
 
 /// More iterations would not end in a reasonable time.
 const MOST_ITERATIONS: i32 = 100_000;
 
-/// A group that was solved on a copy.
-pub(crate) struct SolvedGroup {
+/// What a calculation came to; scripts see the numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum IkResult {
+    NotPerformed = 0,
+    Success = 1,
+    Failure = 2,
+}
+
+/// A script's number of a method, if there is one.
+pub(crate) fn method(raw: i64) -> Option<i32> {
+    Method::from_raw(raw).map(|method| method as i32)
+}
+
+/// The constraints among the bits of a script's number.
+pub(crate) fn constraints(raw: i64) -> i32 {
+    (raw & i64::from(Constraints::POSE.0)) as i32
+}
+
+/// A copy of a group with its chains, which is solved without moving the scene.
+#[derive(Clone)]
+pub(crate) struct GroupCopy {
     env: Environment,
     links: SceneLinks,
     group: GroupId,
-    outcome: Outcome,
+    /// Whether all tips have linked dummies as their targets.
+    complete: bool,
 }
 
-impl SolvedGroup {
-    /// Solves a group. Only joints in the old mode of inverse kinematics move. An element whose tip has no linked dummy makes the group
-    /// not performed.
+impl GroupCopy {
+    /// Only joints in the old mode of inverse kinematics move. `seed` is for the random starts of [`GroupCopy::find`].
     ///
     /// # Errors
     /// When an object is gone, or tip or target is a joint.
-    pub(crate) fn new(scene: &Scene, group: &IkGroup) -> SceneResult<Self> {
-        let (mut env, mut links) = (Environment::new(0), SceneLinks::default());
-        let id = env.create_group(&group.name);
-        let copy = env.group_mut(id)?;
-        copy.method = Method::from_raw(group.method.into()).unwrap_or(Method::PseudoInverse);
-        copy.damping = group.damping;
-        copy.iterations = group.max_iterations.clamp(1, MOST_ITERATIONS) as u32;
-        for element in &group.elements {
-            let Some(target) = scene.object(element.tip)?.dummy()?.link else {
-                let outcome = Outcome { flags: Flags::NOT_PERFORMED, precision: [0.0; 2] };
-                return Ok(Self { env, links, group: id, outcome });
-            };
-            let constraints = Constraints(element.constraints as u32 & Constraints::POSE.0);
-            let added = SceneElement { base: element.base, tip: element.tip, target, constraints };
-            let added = links.add_element(scene, &mut env, id, &added)?;
-            let frame = element.constraint_base.map(|frame| links.copy(scene, &mut env, frame)).transpose()?;
-            let [angular, linear] = element.precisions;
-            let copy = env.element_mut(id, added)?;
-            (copy.precision, copy.constraint_base) = ([linear, angular], frame);
-            copy.weights = [element.weights[0], element.weights[1], 1.0];
-        }
+    pub(crate) fn new(scene: &Scene, group: &IkGroup, seed: u64) -> SceneResult<Self> {
+        let (mut env, mut links) = (Environment::new(seed), SceneLinks::default());
+        let (id, complete) = links.add_group(scene, &mut env, group)?;
         links.keep_other_joints(scene, &mut env)?;
-        let outcome = env.handle(&[id])?;
-        Ok(Self { env, links, group: id, outcome })
+        Ok(Self { env, links, group: id, complete })
     }
 
-    /// 0 not performed, 1 success, 2 failure.
-    pub(crate) fn result(&self) -> i64 {
-        match self.outcome {
-            Outcome { flags, .. } if flags.contains(Flags::NOT_PERFORMED) => 0,
-            outcome if outcome.is_success() => 1,
-            _ => 2,
+    /// Whether all tips have targets.
+    pub(crate) fn is_complete(&self) -> bool {
+        self.complete
+    }
+
+    /// # Errors
+    /// When the environment lost an object.
+    pub(crate) fn solve(&mut self) -> SceneResult<IkResult> {
+        if !self.complete {
+            return Ok(IkResult::NotPerformed);
         }
+        Ok(match self.env.handle(&[self.group])? {
+            Outcome { flags, .. } if flags.contains(Flags::NOT_PERFORMED) => IkResult::NotPerformed,
+            outcome if outcome.is_success() => IkResult::Success,
+            _ => IkResult::Failure,
+        })
+    }
+
+    /// Searches any posture within the precisions, from random ones; false if there was none after `iterations`, which are counted down.
+    ///
+    /// # Errors
+    /// When the environment lost an object.
+    pub(crate) fn find(&mut self, iterations: &mut u32) -> SceneResult<bool> {
+        if !self.complete {
+            *iterations = 0;
+            return Ok(false);
+        }
+        Ok(self.env.find_posture(self.group, Start::Random, iterations)?)
+    }
+
+    /// Limits the search to a part of a joint's interval. Joints outside of the group have no part in it.
+    ///
+    /// # Errors
+    /// When the object is no joint.
+    pub(crate) fn limit(&mut self, joint: Handle, min: f64, range: f64) -> SceneResult<()> {
+        let Some(&id) = self.links.copies.get(&joint) else { return Ok(()) };
+        let copy = self.env.joint_mut(id)?;
+        (copy.cyclic, copy.min, copy.range) = (false, min, range);
+        let position = copy.position;
+        if copy.joint_type == kinematics::JointType::Spherical {
+            return Ok(());
+        }
+        Ok(self.env.set_joint_position(id, position)?)
+    }
+
+    /// Poses of all tips with their targets, in the world.
+    ///
+    /// # Errors
+    /// When the environment lost an object.
+    pub(crate) fn ends(&self) -> SceneResult<Vec<[Pose; 2]>> {
+        let tips = self.tips()?;
+        let pose = |id| self.env.pose(id, Frame::World);
+        tips.into_iter().map(|[tip, target]| Ok([pose(tip)?, pose(target)?])).collect()
+    }
+
+    /// Moves all targets to poses in the world.
+    ///
+    /// # Errors
+    /// When the environment lost an object, or a pose is not finite.
+    pub(crate) fn set_targets(&mut self, poses: impl IntoIterator<Item = Pose>) -> SceneResult<()> {
+        for ([_, target], pose) in self.tips()?.into_iter().zip(poses) {
+            self.env.set_pose(target, pose, Frame::World)?;
+        }
+        Ok(())
+    }
+
+    fn tips(&self) -> SceneResult<Vec<[kinematics::ObjectId; 2]>> {
+        let elements = self.env.group(self.group)?.elements();
+        let pair = |tip| Ok([tip, self.env.partner(tip)?.ok_or(SceneError::NoSuchObject)?]);
+        elements.map(|(_, element)| pair(element.tip)).collect()
+    }
+
+    /// Positions of joints; of those outside of the group, their positions in the scene.
+    ///
+    /// # Errors
+    /// When one of them is no joint.
+    pub(crate) fn config(&self, scene: &Scene, joints: &[Handle]) -> SceneResult<Vec<f64>> {
+        let position = |joint: &Handle| match self.links.copies.get(joint) {
+            Some(&id) => Ok(self.env.joint(id).map_err(|_| SceneError::WrongType("joint"))?.position),
+            None => Ok(scene.object(*joint)?.joint()?.position),
+        };
+        joints.iter().map(position).collect()
+    }
+
+    /// None where the group has no element that can be calculated. With `weighted` each column is multiplied by the weight of its joint.
+    ///
+    /// # Errors
+    /// When the environment lost an object.
+    pub(crate) fn jacobian(&mut self, weighted: bool) -> SceneResult<Option<Jacobian>> {
+        if !self.complete {
+            return Ok(None);
+        }
+        let Some(equations) = self.env.equations(self.group)? else { return Ok(None) };
+        let (columns, rows) = (equations.columns.len(), equations.rows.len());
+        let mut values = equations.jacobian;
+        if weighted {
+            let weight = |column: &kinematics::Column| self.env.joint(column.joint).map(|joint| joint.weight.max(0.0));
+            let weights = equations.columns.iter().map(weight).collect::<kinematics::Result<Vec<f64>>>()?;
+            values.iter_mut().zip(weights.iter().cycle()).for_each(|(value, weight)| *value *= weight);
+        }
+        Ok(Some(Jacobian { columns, rows, values }))
     }
 
     /// Moves the joints of the scene.
@@ -67,15 +163,81 @@ impl SolvedGroup {
     }
 }
 
+/// All groups of a scene in one environment, with the names of their objects, as `simIK.load` reads it.
+///
+/// # Errors
+/// When an object is gone, or tip or target is a joint.
+pub(crate) fn export(scene: &Scene) -> SceneResult<Vec<u8>> {
+    let (mut env, mut links) = (Environment::new(0), SceneLinks { named: true, ..SceneLinks::default() });
+    for (_, group) in scene.ik_groups().iter() {
+        links.add_group(scene, &mut env, group)?;
+    }
+    links.keep_other_joints(scene, &mut env)?;
+    Ok(env.to_bytes()?)
+}
+
 impl SceneLinks {
+    /// Adds a group with its elements; whether all tips have targets.
+    fn add_group(&mut self, scene: &Scene, env: &mut Environment, group: &IkGroup) -> SceneResult<(GroupId, bool)> {
+        let id = env.create_group(&group.name);
+        let copy = env.group_mut(id)?;
+        copy.method = Method::from_raw(group.method.into()).unwrap_or(Method::PseudoInverse);
+        copy.damping = group.damping;
+        copy.iterations = group.max_iterations.clamp(1, MOST_ITERATIONS) as u32;
+        copy.flags = flags(group);
+        let mut complete = true;
+        for element in &group.elements {
+            let target = scene.object(element.tip)?.dummy()?.link;
+            match target {
+                Some(target) => self.add_element_of_group(scene, env, id, element, target)?,
+                None => complete = false,
+            }
+        }
+        Ok((id, complete))
+    }
+
+    fn add_element_of_group(
+        &mut self,
+        scene: &Scene,
+        env: &mut Environment,
+        group: GroupId,
+        element: &IkElement,
+        target: Handle,
+    ) -> SceneResult<()> {
+        let constraints = Constraints(element.constraints as u32 & Constraints::POSE.0);
+        let added = SceneElement { base: element.base, tip: element.tip, target, constraints };
+        let added = self.add_element(scene, env, group, &added)?;
+        let frame = element.constraint_base.map(|frame| self.copy(scene, env, frame)).transpose()?;
+        let [angular, linear] = element.precisions;
+        let copy = env.element_mut(group, added)?;
+        (copy.precision, copy.constraint_base, copy.enabled) = ([linear, angular], frame, element.enabled);
+        copy.weights = [element.weights[0], element.weights[1], 1.0];
+        Ok(())
+    }
+
     /// Makes the copies of joints passive that are not in the old mode of inverse kinematics.
     fn keep_other_joints(&self, scene: &Scene, env: &mut Environment) -> SceneResult<()> {
         for &(handle, id) in &self.joints {
-            let mode = scene.object(handle)?.joint()?.mode;
-            if !matches!(mode, joint::JointMode::InverseKinematics | joint::JointMode::Dependent) {
-                env.joint_mut(id)?.mode = JointMode::Passive;
+            let joint = scene.object(handle)?.joint()?;
+            let copy = env.joint_mut(id)?;
+            (copy.weight, copy.max_step) = (joint.ik.weight, joint.ik.max_step);
+            if !matches!(joint.mode, joint::JointMode::InverseKinematics | joint::JointMode::Dependent) {
+                copy.mode = JointMode::Passive;
             }
         }
         Ok(())
     }
+}
+
+fn flags(group: &IkGroup) -> GroupFlags {
+    let options = group.options;
+    let choices = [
+        (options.enabled, GroupFlags::ENABLED),
+        (options.ignores_max_steps, GroupFlags::IGNORE_MAX_STEPS),
+        (options.restores_on_bad_linear, GroupFlags::RESTORE_ON_BAD_LINEAR),
+        (options.restores_on_bad_angular, GroupFlags::RESTORE_ON_BAD_ANGULAR),
+    ];
+    let mut flags = GroupFlags::default();
+    choices.into_iter().filter(|(on, _)| *on).for_each(|(_, flag)| flags.insert(flag));
+    flags
 }

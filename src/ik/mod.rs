@@ -19,6 +19,8 @@ pub(crate) struct SceneLinks {
     /// In the order in which they were copied.
     joints: Vec<(Handle, ObjectId)>,
     groups: BTreeMap<i64, Vec<Task>>,
+    /// Whether copies have the names of their objects.
+    named: bool,
 }
 
 /// The objects of an element, in the scene.
@@ -100,15 +102,17 @@ impl SceneLinks {
     }
 
     fn copy_one(&mut self, scene: &Scene, env: &mut Environment, handle: Handle) -> SceneResult<ObjectId> {
-        let Kind::Joint(joint) = &scene.object(handle)?.kind else {
-            return Ok(env.create_dummy(""));
+        let object = scene.object(handle)?;
+        let name = if self.named { object.old_name() } else { "" };
+        let Kind::Joint(joint) = &object.kind else {
+            return Ok(env.create_dummy(name));
         };
         let joint_type = match joint.joint_type {
             joint::JointType::Revolute => JointType::Revolute,
             joint::JointType::Prismatic => JointType::Prismatic,
             joint::JointType::Spherical => JointType::Spherical,
         };
-        let id = env.create_joint("", joint_type);
+        let id = env.create_joint(name, joint_type);
         let copy = env.joint_mut(id)?;
         (copy.cyclic, copy.min, copy.range) = (joint.cyclic, joint.min, joint.range);
         copy.screw_lead = joint.screw_lead;

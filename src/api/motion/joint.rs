@@ -81,13 +81,16 @@ fn get_joint_mode(cx: &Cx, joint_handle: Handle) -> Result<(i64, i64)> {
 ///
 /// @param jointHandle the joint
 /// @param jointMode sim.jointmode_*
-/// @param options not used
+/// @param options bit 0, with sim.jointmode_ik: the physics moves the joint to where inverse kinematics wants it
 /// @return result 1
 #[api("sim.setJointMode")]
 fn set_joint_mode(cx: &mut Cx, joint_handle: Handle, joint_mode: Number, #[default(0)] options: Number) -> Result<i64> {
-    let _ = options;
     let mode = JointMode::from_code(joint_mode.0).ok_or(SceneError::InvalidArgument)?;
-    cx.scene_mut().set_joint_mode(joint_handle, mode)?;
+    let mut scene = cx.scene_mut();
+    scene.set_joint_mode(joint_handle, mode)?;
+    if mode == JointMode::InverseKinematics && options.0 & 1 == 1 {
+        scene.modify_joint(joint_handle, |joint| joint.hybrid = true)?;
+    }
     Ok(1)
 }
 

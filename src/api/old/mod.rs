@@ -5,6 +5,7 @@ pub(in crate::api) mod calculation_objects;
 pub(in crate::api) mod engine_param;
 pub(in crate::api) mod globals;
 pub(in crate::api) mod ik_groups;
+pub(in crate::api) mod ik_postures;
 pub(in crate::api) mod joint_shape;
 pub(in crate::api) mod object_param;
 pub(in crate::api) mod path_planning;

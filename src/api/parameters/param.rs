@@ -49,7 +49,9 @@ const REPORT_ERRORS: i64 = 1;
 mod switch {
     pub const COLLISION: i64 = 2;
     pub const DISTANCE: i64 = 3;
-    pub const HANDLING: std::ops::RangeInclusive<i64> = 4..=5;
+    pub const INVERSE_KINEMATICS: i64 = 4;
+    /// Closed loops of V-REP, which its inverse kinematics replaced.
+    pub const CLOSED_LOOPS: i64 = 5;
     pub const PROXIMITY_SENSORS: i64 = 9;
     pub const VISION_SENSORS: i64 = 10;
     pub const HEADLESS: i64 = 34;
@@ -144,9 +146,10 @@ fn get_bool_param(cx: &Cx, parameter: Number) -> Result<bool> {
         switch::COLLISION => cx.scene().settings().calculations.collision,
         switch::DISTANCE => cx.scene().settings().calculations.distance,
         switch::PROXIMITY_SENSORS => cx.scene().settings().calculations.proximity_sensors,
+        switch::INVERSE_KINEMATICS => cx.scene().settings().calculations.inverse_kinematics,
         other => {
             let number = known(other, switch::LAST)?;
-            let initially = switch::HANDLING.contains(&number) || number == switch::VISION_SENSORS;
+            let initially = [switch::CLOSED_LOOPS, switch::VISION_SENSORS].contains(&number);
             cx.app().idle_params.bools.get(&number).copied().unwrap_or(initially)
         }
     })
@@ -171,6 +174,7 @@ fn set_bool_param(cx: &mut Cx, parameter: Number, bool_state: bool) -> Result<()
         switch::COLLISION => switch_calculation(cx, |on| on.collision = bool_state),
         switch::DISTANCE => switch_calculation(cx, |on| on.distance = bool_state),
         switch::PROXIMITY_SENSORS => switch_calculation(cx, |on| on.proximity_sensors = bool_state),
+        switch::INVERSE_KINEMATICS => switch_calculation(cx, |on| on.inverse_kinematics = bool_state),
         other => {
             let number = known(other, switch::LAST)?;
             cx.app_mut().idle_params.bools.insert(number, bool_state);

@@ -282,7 +282,9 @@ fn what_v_rep_had_is_kept() {
             weights: [1.0, 0.5],
             constraints: 7,
             flags: 1,
+            enabled: true,
         }],
+        ..IkGroup::new("")
     });
     let collection = scene.collections_mut().add(false, None);
     scene.collections_mut().set_name(collection, "goods".into()).unwrap();

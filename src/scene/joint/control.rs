@@ -38,10 +38,11 @@ impl JointType {
 }
 
 impl JointMode {
-    /// The mode with a script's number; the modes of old releases that moved joints for inverse kinematics are kinematic now.
+    /// The mode with a script's number. Joints that depended on inverse kinematics are kinematic now.
     pub fn from_code(code: i64) -> Option<Self> {
         match code {
-            0 | 2 | 3 => Some(Self::Kinematic),
+            0 | 3 => Some(Self::Kinematic),
+            2 => Some(Self::InverseKinematics),
             4 => Some(Self::Dependent),
             5 => Some(Self::Dynamic),
             _ => None,

@@ -104,8 +104,10 @@ pub struct Joint {
     pub screw_lead: f64,
     pub dependency: Option<Dependency>,
     pub solver: JointSolver,
-    /// Tagged for explicit handling by a script; the tag changes nothing else.
+    /// Tagged for explicit handling by a script.
     pub explicit: bool,
+    /// What groups of inverse kinematics of V-REP know about it.
+    pub ik: IkSettings,
     /// The kinematic motion in progress.
     pub motion: Option<Motion>,
     /// Length and diameter, for display.
@@ -117,6 +119,15 @@ pub struct Joint {
     pub raw_force: Option<f64>,
     /// Parameters of physics engines that have no field, as they were set.
     pub engine_values: InertValues,
+}
+
+/// How a joint takes part in inverse kinematics.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IkSettings {
+    /// A joint with a larger one moves more.
+    pub weight: f64,
+    /// Largest change in one iteration, rad or m.
+    pub max_step: f64,
 }
 
 /// q = offset + coefficient * position of the master.
@@ -171,6 +182,7 @@ impl Joint {
             dependency: None,
             solver: JointSolver::Exact,
             explicit: false,
+            ik: IkSettings { weight: 1.0, max_step: if revolute { 10_f64.to_radians() } else { 0.1 } },
             motion: None,
             size: [0.15, 0.02],
             error: None,

@@ -36,11 +36,13 @@ pub struct Calculations {
     pub proximity_sensors: bool,
     /// Motion along paths of V-REP.
     pub paths: bool,
+    /// Groups of inverse kinematics of V-REP.
+    pub inverse_kinematics: bool,
 }
 
 impl Default for Calculations {
     fn default() -> Self {
-        Self { collision: true, distance: true, proximity_sensors: true, paths: true }
+        Self { collision: true, distance: true, proximity_sensors: true, paths: true, inverse_kinematics: true }
     }
 }
 

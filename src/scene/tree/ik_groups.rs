@@ -1,4 +1,4 @@
-//! The groups of inverse kinematics of scenes from before 4.2. Files contain them; `crate::ik` solves them.
+//! The groups of inverse kinematics of V-REP. Files from before 4.2 contain them, and scripts create them; `crate::ik` solves them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,7 +19,57 @@ pub struct IkGroup {
     pub performed_after: i32,
     pub max_iterations: i32,
     pub damping: f64,
+    /// What only scripts decide; files do not say.
+    pub options: IkGroupOptions,
     pub elements: Vec<IkElement>,
+    /// Of the last calculation.
+    pub jacobian: Option<Jacobian>,
+}
+
+/// How a group is handled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct IkGroupOptions {
+    pub enabled: bool,
+    /// Joints may move further in one iteration than their maximum.
+    pub ignores_max_steps: bool,
+    /// Joints return to where they were when the linear precision is missed.
+    pub restores_on_bad_linear: bool,
+    /// The same for the angular precision.
+    pub restores_on_bad_angular: bool,
+}
+
+impl Default for IkGroupOptions {
+    fn default() -> Self {
+        Self { enabled: true, ignores_max_steps: true, restores_on_bad_linear: false, restores_on_bad_angular: false }
+    }
+}
+
+/// How the errors of a group change with its joints.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Jacobian {
+    pub columns: usize,
+    pub rows: usize,
+    /// Row by row; metres and radians per metre and radian.
+    pub values: Vec<f64>,
+}
+
+impl IkGroup {
+    /// Without elements, as V-REP makes one.
+    pub fn new(name: &str) -> Self {
+        Self {
+            name: name.into(),
+            persistent_uid: String::new(),
+            explicit: false,
+            method: 0,
+            flags: 0,
+            performed_after: -1,
+            max_iterations: 3,
+            damping: 0.1,
+            options: IkGroupOptions::default(),
+            elements: Vec::new(),
+            jacobian: None,
+        }
+    }
 }
 
 /// A tip that follows its target.
@@ -34,6 +84,24 @@ pub struct IkElement {
     pub weights: [f64; 2],
     pub constraints: i32,
     pub flags: u8,
+    /// What only scripts decide; files do not say.
+    pub enabled: bool,
+}
+
+impl IkElement {
+    /// A tip whose position follows, in the frame of the world.
+    pub fn new(tip: Handle) -> Self {
+        Self {
+            tip,
+            base: None,
+            constraint_base: None,
+            precisions: [0.1_f64.to_radians(), 0.0005],
+            weights: [1.0; 2],
+            constraints: 7,
+            flags: 0,
+            enabled: true,
+        }
+    }
 }
 
 /// All groups, by handles that are not used again.
@@ -109,26 +177,8 @@ mod tests {
 
     #[test]
     fn a_group_ends_with_its_last_tip() {
-        let element = |tip| IkElement {
-            tip: Handle(tip),
-            base: Some(Handle(9)),
-            constraint_base: None,
-            precisions: [0.0; 2],
-            weights: [1.0; 2],
-            constraints: 7,
-            flags: 0,
-        };
-        let group = |elements| IkGroup {
-            name: "ik".into(),
-            persistent_uid: String::new(),
-            explicit: false,
-            method: 0,
-            flags: 0,
-            performed_after: -1,
-            max_iterations: 3,
-            damping: 0.1,
-            elements,
-        };
+        let element = |tip| IkElement { base: Some(Handle(9)), ..IkElement::new(Handle(tip)) };
+        let group = |elements| IkGroup { elements, ..IkGroup::new("ik") };
         let mut groups = IkGroups::default();
         let handles = [group(vec![element(1)]), group(vec![element(1), element(2)])].map(|group| groups.add(group));
         assert_eq!(handles, [2_030_003, 2_030_004]);

@@ -30,6 +30,7 @@ fn group(scene: &Scene, file: &File, objects: &[Handle], map: &HandleMap, chunk:
         max_iterations: chunk.max_iter.unwrap_or(3),
         damping: chunk.damping.filter(|damping| damping.is_finite()).unwrap_or(0.1),
         elements: chunk.elements.iter().filter_map(|chunk| element(chunk, map)).collect(),
+        ..IkGroup::new("")
     }
 }
 
@@ -45,5 +46,6 @@ fn element(chunk: &ElementChunk, map: &HandleMap) -> Option<IkElement> {
         weights: finite(chunk.weights).unwrap_or([1.0; 2]),
         constraints: chunk.constraints.unwrap_or(0),
         flags: chunk.flags.unwrap_or(0),
+        enabled: true,
     })
 }

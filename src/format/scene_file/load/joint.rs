@@ -69,6 +69,8 @@ fn position(joint: &mut Joint, chunk: &Chunk) {
     }
     let lead = chunk.screw_lead.or(chunk.screw_pitch.map(|pitch| pitch * TAU)).unwrap_or(0.0);
     joint.screw_lead = if joint.is_revolute() && lead.is_finite() { lead } else { 0.0 };
+    joint.ik.weight = chunk.ik_weight.filter(|weight| weight.is_finite()).unwrap_or(joint.ik.weight);
+    joint.ik.max_step = chunk.ik_max_step.filter(|step| step.is_finite()).unwrap_or(joint.ik.max_step);
     joint.target_position = chunk.target_pos.filter(|p| p.is_finite()).unwrap_or(0.0);
 }
 

@@ -53,6 +53,7 @@ fn calculations(chunk: &ModuleSettings) -> Calculations {
         proximity_sensors: is_on(chunk.va5, 0x1),
         // The bit switches off.
         paths: chunk.va3.is_none_or(|switches| switches & 0x10 == 0),
+        inverse_kinematics: is_on(chunk.va2, 0x8),
     }
 }
 

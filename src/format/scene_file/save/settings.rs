@@ -33,8 +33,8 @@ fn module_settings(on: &Calculations) -> Option<ModuleSettings> {
     let bit = |on: bool, bit: u8| if on { bit } else { 0 };
     let switches = ModuleSettings {
         va5: Some(bit(on.proximity_sensors, 0x1)),
-        // Inverse kinematics, and what has no meaning here, as new scenes of the original have it.
-        va2: Some(0x8),
+        va2: Some(bit(on.inverse_kinematics, 0x8)),
+        // Bit 0 has no meaning here; new scenes of the original have it.
         va3: Some(0x1 | bit(on.collision, 0x2) | bit(on.distance, 0x4) | bit(!on.paths, 0x10)),
         ..ModuleSettings::default()
     };
