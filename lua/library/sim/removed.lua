@@ -29,19 +29,6 @@ function M.resetMill(millHandle) end
 -- @param objectHandle any
 function M.resetMilling(objectHandle) end
 
---- Does nothing: kinematic joints move by sim.handleJointMotion.
--- @api int result = sim.handleJoint(int jointHandle, float deltaTime)
--- @param jointHandle any
--- @param deltaTime seconds
--- @return result 1
-function M.handleJoint(jointHandle, deltaTime) return 1 end
-
---- Does nothing: kinematic joints move by sim.handleJointMotion.
--- @api int result = sim.resetJoint(int jointHandle)
--- @param jointHandle any
--- @return result 1
-function M.resetJoint(jointHandle) return 1 end
-
 --- Does nothing.
 -- @api int result = sim.handleVarious()
 -- @return result 1

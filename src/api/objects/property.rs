@@ -171,7 +171,7 @@ fn get_explicit_handling(cx: &Cx, object_handle: Number) -> Result<i64> {
     Ok(i64::from(explicit))
 }
 
-/// Sets whether an object is left out when all are handled. The tag of a joint changes nothing else.
+/// Sets whether an object is left out when all are handled. That of a joint counts for simHandleJoint and simResetJoint.
 ///
 /// @param objectHandle proximity sensor, vision sensor, graph, joint or path of V-REP; collision or distance object or IK group of an old scene
 /// @param explicitHandlingFlags 1 if so

@@ -1,10 +1,13 @@
-//! Kinematic motion of joints: scripts compute every step (`sysCall_joint`, spec: callbacks 5).
+//! Kinematic motion of joints: scripts compute every step (`sysCall_joint`, spec: callbacks 5); joints that none of them moves follow a
+//! profile.
 
 use std::rc::Rc;
 
+use motion::ruckig_plan::{position_step, velocity_step};
+
 use crate::scene::joint::motion::JointStep;
 use crate::scene::joint::{Joint, Motion};
-use crate::scene::{Data, Handle, Key};
+use crate::scene::{Data, Handle, Key, SceneResult};
 use crate::script::calls::callback::SysCall;
 use crate::script::sim::Sim;
 
@@ -20,10 +23,28 @@ impl Sim {
     /// Calls the scripts above a joint, then those without an object, for its next step.
     fn move_joint(self: &Rc<Self>, handle: Handle) {
         let Some(data) = self.motion_data(handle) else { return };
-        if let Some(answer) = self.first_answer(&self.joint_chain(handle), SysCall::Joint, &[data]) {
-            // A script may have removed the joint: then there is nothing to move.
-            let _ = self.scene.borrow_mut().step_joint(handle, read_step(&answer));
-        }
+        let answer = self.first_answer(&self.joint_chain(handle), SysCall::Joint, &[data]);
+        let time_step = self.scene.borrow().settings().time_step;
+        // A script may have removed the joint: then there is nothing to move.
+        let _ = match answer {
+            Some(answer) => self.scene.borrow_mut().step_joint(handle, read_step(&answer)),
+            None => self.follow_profile(handle, time_step),
+        };
+    }
+
+    /// Moves a joint on its way to a target by `dt` seconds, without asking scripts; others stay where they are.
+    ///
+    /// # Errors
+    /// When there is no such joint.
+    pub(crate) fn follow_profile(&self, handle: Handle, dt: f64) -> SceneResult<()> {
+        let mut scene = self.scene.borrow_mut();
+        let joint = scene.object(handle)?.joint()?;
+        let Some(motion) = joint.motion else { return Ok(()) };
+        let step = match motion {
+            Motion::ToPosition => step_to_position(joint, dt),
+            Motion::AtVelocity { initial } => step_at_velocity(joint, initial.unwrap_or(joint.velocity), dt),
+        };
+        scene.step_joint(handle, step)
     }
 
     /// The argument of `sysCall_joint` for a joint in motion; None when it does not move any more.
@@ -47,6 +68,33 @@ impl Sim {
         }
         Some(Data::Map(entries))
     }
+}
+
+const AT_REST: JointStep = JointStep { position: None, velocity: 0.0, accel: 0.0, immobile: true };
+
+/// Limits that nobody can keep end a motion.
+fn step_of(planned: Option<(f64, f64, f64)>) -> JointStep {
+    let moved = |(position, velocity, accel)| JointStep { position: Some(position), velocity, accel, immobile: false };
+    planned.map_or(AT_REST, moved)
+}
+
+fn step_to_position(joint: &Joint, dt: f64) -> JointStep {
+    let error = joint.position_error(joint.position);
+    let tolerance = if joint.is_revolute() { 0.01_f64.to_radians() } else { 0.0001 };
+    if error.abs() <= tolerance && joint.velocity == 0.0 && joint.accel == 0.0 {
+        return AT_REST;
+    }
+    let (position, velocity, accel) = (joint.position, joint.velocity, joint.accel);
+    let limits = [joint.max_vel, joint.max_accel, joint.max_jerk];
+    step_of(position_step(position, velocity, accel, position + error, limits[0], limits[1], limits[2], dt).ok())
+}
+
+fn step_at_velocity(joint: &Joint, velocity: f64, dt: f64) -> JointStep {
+    let (position, target) = (joint.position, joint.target_velocity);
+    if velocity == target && joint.accel == 0.0 {
+        return if target == 0.0 { AT_REST } else { step_of(Some((position + target * dt, target, 0.0))) };
+    }
+    step_of(velocity_step(position, velocity, joint.accel, target, joint.max_accel, joint.max_jerk, dt).ok())
 }
 
 fn describe(handle: Handle, joint: &Joint) -> Data {

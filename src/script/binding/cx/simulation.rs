@@ -4,6 +4,7 @@ use std::cell::Ref;
 
 use super::Cx;
 use crate::dynamics::Dynamics;
+use crate::scene::Handle;
 use crate::script::error::ApiResult;
 use crate::script::step::clock::Clock;
 
@@ -54,6 +55,14 @@ impl Cx<'_> {
     /// One step of every joint that is on its way to a target.
     pub(crate) fn handle_joint_motion(&mut self) {
         self.sim.handle_joint_motion();
+    }
+
+    /// Moves a joint on its way to a target by `dt` seconds, without asking scripts.
+    ///
+    /// # Errors
+    /// When there is no such joint.
+    pub(crate) fn follow_profile(&mut self, joint: Handle, dt: f64) -> ApiResult<()> {
+        Ok(self.sim.follow_profile(joint, dt)?)
     }
 
     /// Chooses the engine whose parameters count, and its version. Without effect while the simulation is not stopped.
