@@ -163,4 +163,22 @@ function M.include(path)
     return result
 end
 
+--- Sets a global variable of another script.
+-- @api int result = sim.setScriptVariable(string variableNameAtScriptName, int scriptHandleOrType, any variable)
+-- @param variableNameAtScriptName the variable; after an @ the object whose script is meant
+-- @param scriptHandleOrType the script, or sim.scripttype_* with an object; without one sim.scripttype_main
+-- @param variable its new value
+-- @return result 1
+function M.setScriptVariable(variableNameAtScriptName, scriptHandleOrType, variable)
+    local name, object = variableNameAtScriptName:match('^([^@]*)@?(.*)$')
+    local script = scriptHandleOrType
+    if object ~= '' then
+        script = sim.getScript(scriptHandleOrType, sim._simGetObjectHandle(object))
+    elseif script == sim.scripttype_main and not sim.isHandle(script) then
+        script = sim.getScript(script)
+    end
+    sim.callScriptFunction('setvar', script, name, variable)
+    return 1
+end
+
 return M
