@@ -374,6 +374,15 @@ function sim.checkCollisionEx(entity1Handle, entity2Handle) end
 ---@return integer[] objectHandlePair the objects that are closest; -1 for none
 function sim.checkDistance(entity1Handle, entity2Handle, threshold) end
 
+--- Computes a group of inverse kinematics of V-REP without moving its joints.
+---@deprecated the simIK functionality
+---@param ikGroupHandle integer the group
+---@param jointHandles integer[] joints whose positions are wanted
+---@param jointOptions? integer[] of no use: dependent joints are recognised
+---@return integer ikCalculationResult 0 if it was not performed, 1 if it succeeded, 2 if it failed
+---@return number[] jointValues where the joints would go
+function sim.checkIkGroup(ikGroupHandle, jointHandles, jointOptions) end
+
 --- Whether points are in voxels.
 ---@param octreeHandle integer the octree
 ---@param options integer 1: points are relative to the octree
@@ -487,6 +496,13 @@ function sim.closePath(path, lengths) end
 ---@return integer result 1
 function sim.closeScene() end
 
+--- Computes the Jacobian of a group of inverse kinematics of V-REP, for sim.getIkGroupMatrix.
+---@deprecated the simIK functionality
+---@param ikGroupHandle integer the group
+---@param options integer bit 0: each column is multiplied by the weight of its joint
+---@return integer result 1, or 0 if the group cannot be computed
+function sim.computeJacobian(ikGroupHandle, options) end
+
 --- Sets mass, inertia and centre of mass of a shape as if it was solid.
 ---@param shapeHandle integer the shape
 ---@param density number kg/m3
@@ -554,6 +570,25 @@ function sim.createForceSensor(options, intParams, floatParams) end
 ---@param heights number[] metres, row after row from +y to -y
 ---@return integer shapeHandle the shape
 function sim.createHeightfieldShape(options, shadingAngle, xPointCount, yPointCount, xSize, heights) end
+
+--- Adds a tip to a group of inverse kinematics of V-REP. The dummy that is linked with it is its target.
+---@deprecated the simIK functionality
+---@param ikGroupHandle integer the group
+---@param options integer bit 0: disabled
+---@param intParams integer[] the tip; the base of the chain, -1 for the world; the frame of the constraints, -1 for that of the base; sim.ik_*_constraint
+---@param floatParams? number[] precisions (m, rad) and weights of position and orientation
+---@return integer result 1
+function sim.createIkElement(ikGroupHandle, options, intParams, floatParams) end
+
+--- Creates a group of inverse kinematics of V-REP. It moves joints whose mode is sim.jointmode_ik. The scene keeps it, and files do without its options.
+---
+--- the angular precision is missed
+---@deprecated the simIK functionality
+---@param options integer bit 0: disabled; bit 1: steps of joints are not limited; bits 2 and 3: joints return to where they were when the linear or
+---@param intParams? integer[] sim.ik_*_method, and at most how many iterations
+---@param floatParams? number[] the damping of damped least squares
+---@return integer ikGroupHandle its handle
+function sim.createIkGroup(options, intParams, floatParams) end
 
 --- A new joint at the world's origin; its axis is z.
 ---@param jointType integer sim.joint_revolute, sim.joint_prismatic or sim.joint_spherical
@@ -781,6 +816,16 @@ function sim.floatingViewRemove(floatingViewHandle) end
 ---@return number timeLeft a whole step, seconds; 0 on a path without length
 function sim.followPath(object, path, what, start, velocity, acceleration) end
 
+--- Postures on the straight line from the tips of a group of inverse kinematics of V-REP to their targets. The joints stay where they are.
+---@deprecated the simIK functionality
+---@param ikGroupHandle integer the group
+---@param jointHandles integer[] joints whose positions are wanted
+---@param ptCnt integer how many postures, both ends among them
+---@param collisionPairs? integer[] entities, two by two, that must not collide; the second may be sim.handle_all
+---@param jointOptions? integer[] of no use: dependent joints are recognised
+---@return number[] path a flat list; nothing if a posture could not be found or collides
+function sim.generateIkPath(ikGroupHandle, jointHandles, ptCnt, collisionPairs, jointOptions) end
+
 --- A new shape: a section moved along a path. Its frame is the world's, its ends are open.
 ---@param path number[] poses of 7 numbers, two at least
 ---@param section number[] points x and y, two at least; closed when the last is the first
@@ -912,6 +957,20 @@ function sim.getColorProperty(target, propertyName, options) end
 ---@param types? integer[] 0 linear, 1 cyclic, 2 (four times) quaternion; default 0
 ---@return number distance root of the sum of squares
 function sim.getConfigDistance(a, b, metric, types) end
+
+--- Searches a posture that brings the tips of a group of inverse kinematics of V-REP to their targets. The joints stay where they are.
+---@deprecated the simIK functionality
+---@param ikGroupHandle integer the group
+---@param jointHandles integer[] joints whose positions are wanted
+---@param distanceThreshold number not used: starts are not limited
+---@param maxTimeInMs integer counted as 100 iterations each, as is a check for collisions
+---@param metric? number[] not used
+---@param collisionPairs? integer[] entities, two by two, that must not collide; the second may be sim.handle_all
+---@param jointOptions? integer[] of no use: dependent joints are recognised
+---@param lowLimits? number[] of the joints, for the search
+---@param ranges? number[] of the joints; 0 for their own limits
+---@return number[] jointPositions nothing if none was found
+function sim.getConfigForTipPose(ikGroupHandle, jointHandles, distanceThreshold, maxTimeInMs, metric, collisionPairs, jointOptions, lowLimits, ranges) end
 
 --- A contact of the last dynamics call. Four empty tables when there is none with that index.
 ---@param dynamicPass integer index of the sub-step, from 0, or sim.handle_all
@@ -1069,6 +1128,16 @@ function sim.getGraphInfo(graphHandle) end
 ---@param ikGroupName string its name; with `@silentError`: -1 if there is none
 ---@return integer ikGroupHandle its handle
 function sim.getIkGroupHandle(ikGroupName) end
+
+--- The Jacobian of a group of inverse kinematics of V-REP, of the last sim.computeJacobian or sim.handleIkGroup.
+---
+--- it was not computed
+---@deprecated the simIK functionality
+---@param ikGroupHandle integer the group
+---@param options integer 0
+---@return number[] jacobian row by row, x, y, z, alpha, beta, gamma as far as they are constrained; a column for each joint, from the base to the tip. Nothing if
+---@return integer[] jacobianSize numbers of columns and rows
+function sim.getIkGroupMatrix(ikGroupHandle, options) end
 
 --- An integer parameter.
 ---@param parameter integer sim.intparam_*
@@ -2113,18 +2182,12 @@ function sim.handleExtCalls() end
 ---@param simulationTime number of the values
 function sim.handleGraph(objectHandle, simulationTime) end
 
---- Computes groups of inverse kinematics of old scenes, and moves their joints. The usual main script does it for those that are not
+--- Computes groups of inverse kinematics of V-REP, and moves their joints. The usual main script does it for those that are not
 --- tagged for explicit handling.
 ---@deprecated the simIK functionality
 ---@param ikGroupHandle integer a group that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
 ---@return integer result how many were computed; of a single one 0 if it was not performed, 1 if it succeeded, 2 if it failed
 function sim.handleIkGroup(ikGroupHandle) end
-
---- Does nothing: kinematic joints move by sim.handleJointMotion.
----@param jointHandle integer any
----@param deltaTime number seconds
----@return integer result 1
-function sim.handleJoint(jointHandle, deltaTime) end
 
 --- Moves kinematic joints towards their targets by one step. For the main script.
 function sim.handleJointMotion() end
@@ -2711,7 +2774,7 @@ function sim.removeCollection(collectionHandle) end
 ---@return integer result 1
 function sim.removeDrawingObject(drawingObjectHandle) end
 
---- Removes a group of inverse kinematics of an old scene.
+--- Removes a group of inverse kinematics of V-REP.
 ---@deprecated the simIK functionality
 ---@param ikGroupHandle integer the group, or sim.handle_all
 ---@return integer result 1
@@ -2815,11 +2878,6 @@ function sim.resetDynamicObject(objectHandle) end
 --- Clears the recorded data.
 ---@param objectHandle integer the graph, sim.handle_all or sim.handle_all_except_explicit
 function sim.resetGraph(objectHandle) end
-
---- Does nothing: kinematic joints move by sim.handleJointMotion.
----@param jointHandle integer any
----@return integer result 1
-function sim.resetJoint(jointHandle) end
 
 --- Does nothing: mills are gone.
 ---@param millHandle integer any
@@ -3162,7 +3220,7 @@ function sim.setEngineInt32Parameter(paramId, objectHandle, int32Param) end
 --- Selects the events delivered to `sysCall_event` of this script. The filter ends with the script's Lua state.
 function sim.setEventFilters(filters) end
 
---- Sets whether an object is left out when all are handled. The tag of a joint changes nothing else.
+--- Sets whether an object is left out when all are handled. That of a joint counts for simHandleJoint and simResetJoint.
 ---@param objectHandle integer proximity sensor, vision sensor, graph, joint or path of V-REP; collision or distance object or IK group of an old scene
 ---@param explicitHandlingFlags integer 1 if so
 ---@return integer result 1
@@ -3220,6 +3278,25 @@ function sim.setGraphStreamValue(graphHandle, streamId, value) end
 ---@param dataStreamName string name of the stream
 ---@param data number number
 function sim.setGraphUserData(graphHandle, dataStreamName, data) end
+
+--- Sets what a tip of a group of inverse kinematics of V-REP has to reach.
+---@deprecated the simIK functionality
+---@param ikGroupHandle integer the group
+---@param tipDummyHandle integer the tip
+---@param constraints integer sim.ik_*_constraint
+---@param precision? number[] of position and orientation (m, rad); nil leaves them
+---@param weight? number[] of position and orientation; nil leaves them
+---@return integer result 1
+function sim.setIkElementProperties(ikGroupHandle, tipDummyHandle, constraints, precision, weight) end
+
+--- Sets how a group of inverse kinematics of V-REP is computed.
+---@deprecated the simIK functionality
+---@param ikGroupHandle integer the group
+---@param resolutionMethod integer sim.ik_*_method
+---@param maxIterations integer at most that many
+---@param damping number of damped least squares
+---@return integer result 1
+function sim.setIkGroupProperties(ikGroupHandle, resolutionMethod, maxIterations, damping) end
 
 --- Sets an integer parameter.
 ---@param parameter integer sim.intparam_*
@@ -3297,7 +3374,7 @@ function sim.setJointMaxForce(jointHandle, forceOrTorque) end
 --- Changes the mode of a joint. Leaving the dependent mode ends the dependency.
 ---@param jointHandle integer the joint
 ---@param jointMode integer sim.jointmode_*
----@param options? integer not used
+---@param options? integer bit 0, with sim.jointmode_ik: the physics moves the joint to where inverse kinematics wants it
 ---@return integer result 1
 function sim.setJointMode(jointHandle, jointMode, options) end
 
@@ -3608,6 +3685,14 @@ function sim.setScriptStringParam(scriptHandle, parameterId, parameter) end
 ---@param scriptHandle integer the script
 ---@param scriptText string|table the new code
 function sim.setScriptText(scriptHandle, scriptText) end
+
+--- Sets a global variable of another script.
+---@deprecated
+---@param variableNameAtScriptName string the variable; after an @ the object whose script is meant
+---@param scriptHandleOrType integer the script, or sim.scripttype_* with an object; without one sim.scripttype_main
+---@param variable any its new value
+---@return integer result 1
+function sim.setScriptVariable(variableNameAtScriptName, scriptHandleOrType, variable) end
 
 --- Makes a shape look like another one did.
 ---@param handle integer the shape
@@ -4132,6 +4217,13 @@ function simGetUIProperty(elementHandle) end
 ---@return integer position 0 to 1000
 function simGetUISlider(elementHandle, buttonHandle) end
 
+--- Moves kinematic joints towards their targets, without asking scripts. Main scripts of V-REP call it; the usual one of today calls
+--- sim.handleJointMotion.
+---@param jointHandle integer a joint that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
+---@param deltaTime number seconds
+---@return integer result 1
+function simHandleJoint(jointHandle, deltaTime) end
+
 --- Moves positions along their paths. The usual main script does it for those that are not tagged for explicit handling.
 ---@param pathHandle integer a path of V-REP that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
 ---@param deltaTime number seconds
@@ -4155,6 +4247,11 @@ function simPerformPathSearchStep(temporaryPathSearchObject, ...) end
 ---@param elementHandle integer the user interface, or sim.handle_all
 ---@return integer result 1
 function simRemoveUI(elementHandle) end
+
+--- Ends motions of kinematic joints; they stay where they are.
+---@param jointHandle integer as for simHandleJoint
+---@return integer result 1
+function simResetJoint(jointHandle) end
 
 --- Puts paths back to their positions and velocities at the start of the simulation.
 ---@param pathHandle integer as for simHandlePath

@@ -2340,6 +2340,13 @@ class _sim:
         entity2Handle: the same, or sim.handle_all for all other measurable objects
         threshold: larger distances do not count, metres; 0 for no limit
         """
+    def checkIkGroup(self, ikGroupHandle: int, jointHandles: Sequence[int], jointOptions: Sequence[int] | None = ..., /) -> tuple[int, list[float]]:
+        """Computes a group of inverse kinematics of V-REP without moving its joints.
+        Deprecated: use the simIK functionality.
+        ikGroupHandle: the group
+        jointHandles: joints whose positions are wanted
+        jointOptions: of no use: dependent joints are recognised
+        """
     def checkOctreePointOccupancy(self, octreeHandle: int, options: int, points: Sequence[float], /) -> tuple[int, int, int, int]:
         """Whether points are in voxels.
         octreeHandle: the octree
@@ -2422,6 +2429,12 @@ class _sim:
     def closeScene(self, /) -> int:
         """Closes the scene and opens the default scene. For add-ons and the sandbox, while the simulation is stopped.
         """
+    def computeJacobian(self, ikGroupHandle: int, options: int, /) -> int:
+        """Computes the Jacobian of a group of inverse kinematics of V-REP, for sim.getIkGroupMatrix.
+        Deprecated: use the simIK functionality.
+        ikGroupHandle: the group
+        options: bit 0: each column is multiplied by the weight of its joint
+        """
     def computeMassAndInertia(self, shapeHandle: int, density: float, /) -> int:
         """Sets mass, inertia and centre of mass of a shape as if it was solid.
         shapeHandle: the shape
@@ -2478,6 +2491,23 @@ class _sim:
         yPointCount: rows, 2 to 2048
         xSize: width along x, metres; cells are square
         heights: metres, row after row from +y to -y
+        """
+    def createIkElement(self, ikGroupHandle: int, options: int, intParams: Sequence[int], floatParams: Sequence[float] | None = ..., /) -> int:
+        """Adds a tip to a group of inverse kinematics of V-REP. The dummy that is linked with it is its target.
+        Deprecated: use the simIK functionality.
+        ikGroupHandle: the group
+        options: bit 0: disabled
+        intParams: the tip; the base of the chain, -1 for the world; the frame of the constraints, -1 for that of the base; sim.ik_*_constraint
+        floatParams: precisions (m, rad) and weights of position and orientation
+        """
+    def createIkGroup(self, options: int, intParams: Sequence[int] | None = ..., floatParams: Sequence[float] | None = ..., /) -> int:
+        """Creates a group of inverse kinematics of V-REP. It moves joints whose mode is sim.jointmode_ik. The scene keeps it, and files do without its options.
+
+        the angular precision is missed
+        Deprecated: use the simIK functionality.
+        options: bit 0: disabled; bit 1: steps of joints are not limited; bits 2 and 3: joints return to where they were when the linear or
+        intParams: sim.ik_*_method, and at most how many iterations
+        floatParams: the damping of damped least squares
         """
     def createJoint(self, jointType: int, jointMode: int, options: int, sizes: Sequence[float] | None = ..., /) -> int:
         """A new joint at the world's origin; its axis is z.
@@ -2677,6 +2707,15 @@ class _sim:
         velocity: m/s; negative: towards the start of the path
         acceleration: nil or 0: none is needed
         """
+    def generateIkPath(self, ikGroupHandle: int, jointHandles: Sequence[int], ptCnt: int, collisionPairs: Sequence[int] | None = ..., jointOptions: Sequence[int] | None = ..., /) -> list[float]:
+        """Postures on the straight line from the tips of a group of inverse kinematics of V-REP to their targets. The joints stay where they are.
+        Deprecated: use the simIK functionality.
+        ikGroupHandle: the group
+        jointHandles: joints whose positions are wanted
+        ptCnt: how many postures, both ends among them
+        collisionPairs: entities, two by two, that must not collide; the second may be sim.handle_all
+        jointOptions: of no use: dependent joints are recognised
+        """
     def generateShapeFromPath(self, path: Sequence[float], section: Sequence[float], options: int | None = ..., upVector: Sequence[float] | None = ..., /) -> int:
         """A new shape: a section moved along a path. Its frame is the world's, its ends are open.
         path: poses of 7 numbers, two at least
@@ -2784,6 +2823,19 @@ class _sim:
         b: the other
         metric: factor of each coordinate, default 1
         types: 0 linear, 1 cyclic, 2 (four times) quaternion; default 0
+        """
+    def getConfigForTipPose(self, ikGroupHandle: int, jointHandles: Sequence[int], distanceThreshold: float, maxTimeInMs: int, metric: Sequence[float] | None = ..., collisionPairs: Sequence[int] | None = ..., jointOptions: Sequence[int] | None = ..., lowLimits: Sequence[float] | None = ..., ranges: Sequence[float] | None = ..., /) -> list[float]:
+        """Searches a posture that brings the tips of a group of inverse kinematics of V-REP to their targets. The joints stay where they are.
+        Deprecated: use the simIK functionality.
+        ikGroupHandle: the group
+        jointHandles: joints whose positions are wanted
+        distanceThreshold: not used: starts are not limited
+        maxTimeInMs: counted as 100 iterations each, as is a check for collisions
+        metric: not used
+        collisionPairs: entities, two by two, that must not collide; the second may be sim.handle_all
+        jointOptions: of no use: dependent joints are recognised
+        lowLimits: of the joints, for the search
+        ranges: of the joints; 0 for their own limits
         """
     def getContactInfo(self, dynamicPass: int, objectHandle: int, index: int, /) -> Any:
         """A contact of the last dynamics call. Four empty tables when there is none with that index.
@@ -2913,6 +2965,14 @@ class _sim:
         """A group of inverse kinematics of an old scene.
         Deprecated: use the simIK functionality.
         ikGroupName: its name; with `@silentError`: -1 if there is none
+        """
+    def getIkGroupMatrix(self, ikGroupHandle: int, options: int, /) -> tuple[list[float], list[int]]:
+        """The Jacobian of a group of inverse kinematics of V-REP, of the last sim.computeJacobian or sim.handleIkGroup.
+
+        it was not computed
+        Deprecated: use the simIK functionality.
+        ikGroupHandle: the group
+        options: 0
         """
     def getInt32Param(self, parameter: int, /) -> int:
         """An integer parameter.
@@ -3731,15 +3791,10 @@ class _sim:
         simulationTime: of the values
         """
     def handleIkGroup(self, ikGroupHandle: int, /) -> int:
-        """Computes groups of inverse kinematics of old scenes, and moves their joints. The usual main script does it for those that are not
+        """Computes groups of inverse kinematics of V-REP, and moves their joints. The usual main script does it for those that are not
         tagged for explicit handling.
         Deprecated: use the simIK functionality.
         ikGroupHandle: a group that is tagged for explicit handling, sim.handle_all or sim.handle_all_except_explicit
-        """
-    def handleJoint(self, jointHandle: int, deltaTime: float, /) -> int:
-        """Does nothing: kinematic joints move by sim.handleJointMotion.
-        jointHandle: any
-        deltaTime: seconds
         """
     def handleJointMotion(self, /) -> Any:
         """Moves kinematic joints towards their targets by one step. For the main script.
@@ -4219,7 +4274,7 @@ class _sim:
         drawingObjectHandle: from sim.addDrawingObject, or sim.handle_all
         """
     def removeIkGroup(self, ikGroupHandle: int, /) -> int:
-        """Removes a group of inverse kinematics of an old scene.
+        """Removes a group of inverse kinematics of V-REP.
         Deprecated: use the simIK functionality.
         ikGroupHandle: the group, or sim.handle_all
         """
@@ -4310,10 +4365,6 @@ class _sim:
     def resetGraph(self, objectHandle: int, /) -> None:
         """Clears the recorded data.
         objectHandle: the graph, sim.handle_all or sim.handle_all_except_explicit
-        """
-    def resetJoint(self, jointHandle: int, /) -> int:
-        """Does nothing: kinematic joints move by sim.handleJointMotion.
-        jointHandle: any
         """
     def resetMill(self, millHandle: int, /) -> None:
         """Does nothing: mills are gone.
@@ -4619,7 +4670,7 @@ class _sim:
         filters: from handles (of objects, `sim.handle_app`, `sim.handle_scene`, `sim.handle_sceneobject` for all other objects, ...) to lists of property names; an empty list means all of them. An empty table removes all filters
         """
     def setExplicitHandling(self, objectHandle: int, explicitHandlingFlags: int, /) -> int:
-        """Sets whether an object is left out when all are handled. The tag of a joint changes nothing else.
+        """Sets whether an object is left out when all are handled. That of a joint counts for simHandleJoint and simResetJoint.
         objectHandle: proximity sensor, vision sensor, graph, joint or path of V-REP; collision or distance object or IK group of an old scene
         explicitHandlingFlags: 1 if so
         """
@@ -4674,6 +4725,23 @@ class _sim:
         graphHandle: the graph
         dataStreamName: name of the stream
         data: number
+        """
+    def setIkElementProperties(self, ikGroupHandle: int, tipDummyHandle: int, constraints: int, precision: Sequence[float] | None = ..., weight: Sequence[float] | None = ..., /) -> int:
+        """Sets what a tip of a group of inverse kinematics of V-REP has to reach.
+        Deprecated: use the simIK functionality.
+        ikGroupHandle: the group
+        tipDummyHandle: the tip
+        constraints: sim.ik_*_constraint
+        precision: of position and orientation (m, rad); nil leaves them
+        weight: of position and orientation; nil leaves them
+        """
+    def setIkGroupProperties(self, ikGroupHandle: int, resolutionMethod: int, maxIterations: int, damping: float, /) -> int:
+        """Sets how a group of inverse kinematics of V-REP is computed.
+        Deprecated: use the simIK functionality.
+        ikGroupHandle: the group
+        resolutionMethod: sim.ik_*_method
+        maxIterations: at most that many
+        damping: of damped least squares
         """
     def setInt32Param(self, parameter: int, parameterValue: int, /) -> int:
         """Sets an integer parameter.
@@ -4747,7 +4815,7 @@ class _sim:
         """Changes the mode of a joint. Leaving the dependent mode ends the dependency.
         jointHandle: the joint
         jointMode: sim.jointmode_*
-        options: not used
+        options: bit 0, with sim.jointmode_ik: the physics moves the joint to where inverse kinematics wants it
         """
     def setJointPosition(self, objectHandle: int, position: float, /) -> int:
         """Moves a joint, within its interval.
@@ -5028,6 +5096,12 @@ class _sim:
         Deprecated: use sim.createScript.
         scriptHandle: the script
         scriptText: the new code
+        """
+    def setScriptVariable(self, variableNameAtScriptName: str, scriptHandleOrType: int, variable: Any | None = ..., /) -> int:
+        """Sets a global variable of another script.
+        variableNameAtScriptName: the variable; after an @ the object whose script is meant
+        scriptHandleOrType: the script, or sim.scripttype_* with an object; without one sim.scripttype_main
+        variable: its new value
         """
     def setShapeAppearance(self, handle: int, appearance: Mapping[Any, Any], options: Mapping[Any, Any] | None = ..., /) -> int:
         """Makes a shape look like another one did.
