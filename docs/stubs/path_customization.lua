@@ -7,8 +7,6 @@
 ---
 --- A script may define `path.shaping(points, closed, upVector)`, which makes the shape along the path, and `path.refreshTrigger(controlPoints, points, info)`,
 --- which is called when the path was made anew. One with its own `sysCall_init` calls `path.init()`.
----
---- The line of a path is not drawn.
 local path = {}
 
 function path.afterSimulation() end

@@ -4,17 +4,16 @@ the simulation is stopped, are copied or removed, and when the script begins (sp
 
 A script may define `path.shaping(points, closed, upVector)`, which makes the shape along the path, and `path.refreshTrigger(controlPoints, points, info)`,
 which is called when the path was made anew. One with its own `sysCall_init` calls `path.init()`.
-
-The line of a path is not drawn.
 ]]
 
 local model = require 'swanilda.pathmodel'
 local points = require 'swanilda.paths.points'
+local line = require 'swanilda.paths.line'
 sim = package.loaded.sim or require 'sim' -- scripts find it as a global, as in the original
 local path = {ctrlPts = {}, ctrlPtsMap = {}, paths = {}}
 _S.path = path
 
-local ALWAYS_HIDDEN <const> = 32
+local HIDDEN <const>, ALWAYS_HIDDEN <const> = 1, 32 -- the first during a simulation
 local poses -- of the control points when the path was last looked at
 
 -- The script is an object below the path; in scenes from before there were such, it belongs to the path itself.
@@ -69,9 +68,17 @@ function path.createNew(pts, onlyPositions, options, pointCount, smoothing, mode
     model.renew(path.model, all, info)
 end
 
+local function drawLine()
+    local options = path.readInfo().bitCoded
+    local isHidden = options & ALWAYS_HIDDEN ~= 0 or isRunning() and options & HIDDEN ~= 0
+    line.remove(path.line)
+    path.line = not isHidden and path.paths[2] and line.draw(path.model, path.paths[2], path.readInfo().line) or nil
+end
+
 local function refresh(handles)
     local info = path.readInfo()
     model.shape(path.model, path.paths[2], path.shaping)
+    drawLine()
     if path.refreshTrigger then path.refreshTrigger(handles, path.paths[2], info) end
     showPoints()
 end
@@ -123,12 +130,17 @@ function path.beforeSimulation()
     if not path.model then return end
     model.setHidden(path.model, true)
     points.show(path.ctrlPts, false)
+    if path.readInfo().bitCoded & HIDDEN ~= 0 then
+        line.remove(path.line)
+        path.line = nil
+    end
 end
 
 function path.afterSimulation()
     if not path.model then return end
     model.setHidden(path.model, false)
     showPoints()
+    if not path.line then drawLine() end
 end
 
 function path.cleanup() path.closeUserConfigDlg() end

@@ -65,6 +65,7 @@ const INNER: &[&str] = &[
     "swanilda/old_helpers",
     "swanilda/pathmodel",
     "swanilda/paths/dialog",
+    "swanilda/paths/line",
     "swanilda/paths/points",
     "swanilda/paths/sampling",
     "swanilda/python",

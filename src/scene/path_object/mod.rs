@@ -27,6 +27,7 @@ bitflags! {
     /// `sim.pathproperty_*`. Bits without a name concern the display.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct PathAttributes: i32 {
+        const SHOW_LINE = 0x1;
         const CLOSED = 0x4;
         const AUTOMATIC_ORIENTATION = 0x8;
         /// The velocity changes its sign at the ends.
@@ -152,6 +153,12 @@ impl PathObject {
     /// Whether it leads back to its beginning. With fewer than three points it does not, whatever its attributes.
     pub fn is_closed(&self) -> bool {
         self.attributes.contains(PathAttributes::CLOSED) && self.control_points.len() >= 3 && self.line.len() >= 3
+    }
+
+    /// The points of the line in the path's frame; the first comes again at the end of a closed one.
+    pub fn outline(&self) -> impl Iterator<Item = nalgebra::Vector3<f64>> {
+        let end = self.line.first().filter(|_| self.is_closed());
+        self.line.iter().chain(end).map(|point| point.pose.translation.vector)
     }
 
     pub fn control_points(&self) -> &[ControlPoint] {

@@ -10,6 +10,7 @@ mod log;
 mod members;
 mod meshes;
 mod moved;
+mod path_lines;
 mod scene;
 #[cfg(test)]
 mod tests;
@@ -25,6 +26,7 @@ use super::blobs::Blob;
 pub(crate) use button_interfaces::handle_of;
 use meshes::Meshes;
 use moved::Moved;
+use path_lines::PathLines;
 pub(crate) use scene::{RECORDING, Source};
 pub(crate) use windows::{ObservedWindows, WindowObserver};
 
@@ -107,6 +109,7 @@ pub(crate) struct Observer {
     visibility_layers: u16,
     drawings_seen: u64,
     known_drawings: BTreeSet<i64>,
+    path_lines: PathLines,
 }
 
 /// Which objects to look at.
@@ -141,7 +144,9 @@ impl Observer {
         }
         self.place_in_tree(scene, &mut concerned);
         let complete = concerned.is_complete;
-        let (drawings, removed_drawings) = self.observe_drawings(scene, complete);
+        let (mut drawings, mut removed_drawings) = self.observe_drawings(scene, complete);
+        let looked_at = (&concerned.objects, complete);
+        self.path_lines.observe(scene, looked_at, &mut drawings, &mut removed_drawings);
         Observation {
             is_another_scene,
             is_complete: complete,

@@ -171,6 +171,31 @@ fn drawing_objects_are_sent_when_they_change() {
 }
 
 #[test]
+fn lines_of_old_paths_are_sent_when_they_change() {
+    use crate::scene::path_object::{ControlPoint, Measures, PathAttributes, PathObject};
+    let mut stage = Stage::new();
+    let path = PathObject::new(PathAttributes::USUAL, Measures::default());
+    let handle = stage.scene.add("Path", Kind::Path(path.into())).unwrap();
+    assert_eq!(stage.update()["drawings"].as_array().map_or(0, Vec::len), 0);
+    let point = |x| ControlPoint {
+        pose: Pose::translation(x, 0.0, 0.0),
+        before: 0.5,
+        after: 0.5,
+        count: 1,
+        velocity: 1.0,
+        on_spot: 0.0,
+        flags: 0,
+        channels: [0.0; 4],
+    };
+    stage.scene.modify_path(handle, |path| path.insert(0, vec![point(0.0), point(1.0)], false)).unwrap().unwrap();
+    let shown = stage.update()["drawings"][0].clone();
+    assert_eq!(shown["items"], serde_json::json!([0.0, 0.0, 0.0, 1.0, 0.0, 0.0]));
+    assert_eq!((&shown["itemType"], &shown["parent"]), (&"lineStrip".into(), &handle.raw().into()));
+    stage.scene.remove(&[handle]).unwrap();
+    assert_eq!(stage.update()["removedDrawings"], serde_json::json!([-handle.raw()]));
+}
+
+#[test]
 fn shapes_share_their_meshes() {
     let mut stage = Stage::new();
     stage.scene.add_default_objects().unwrap();

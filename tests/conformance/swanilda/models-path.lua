@@ -71,6 +71,11 @@ function sysCall_init()
     print(sim.getObjectAlias(sim.getObject('./shape', {proxy = shaped})))
     print(sim.executeScriptString('return #path.setup()', shapedScript))
     print(_S.path, sim.executeScriptString('return _S.path == path and path.model == sim.getObject("..")', shapedScript))
+    -- 64 hides nothing, 32 hides the line.
+    for _, options in ipairs{64, 32} do
+        local _, script = model(CORNER, options, 5, 0)
+        print('line', sim.executeScriptString('return path.line ~= nil', script))
+    end
     short = model(poses({0, 0, 0}, {1, 0, 0}), 0, 10)
 end
 
