@@ -768,6 +768,12 @@ function sim.executeLuaCode(code) end
 ---@return any ... 0, then what the code gave, or an empty table if nothing
 function sim.executeScriptString(stringToExecute, scriptHandle) end
 
+--- Writes the groups of inverse kinematics of V-REP with their chains to a file, which simIK.load reads. Objects have their old names.
+---@deprecated the simIK functionality
+---@param pathAndFilename string the file
+---@return integer result 1
+function sim.exportIk(pathAndFilename) end
+
 --- Writes meshes to a file.
 ---@param fileformat integer 0: OBJ, 3: STL, text, 4: STL, binary, 5: COLLADA, 6: PLY, text, 7: PLY, binary
 ---@param pathAndFilename string the file
@@ -1726,6 +1732,10 @@ function sim.getQuaternionProperty(target, propertyName, options) end
 ---@return number randomValue 0 to 1, 1 excluded
 function sim.getRandom(seed) end
 
+--- Whether the simulation runs in real time.
+---@return boolean result
+function sim.getRealTimeSimulation() end
+
 --- The one object referenced under a tag.
 ---@param objectHandle integer the object that refers
 ---@param tag? string of the reference
@@ -2364,6 +2374,12 @@ function sim.invertMatrix(matrix) end
 ---@param pose number[] is changed
 ---@return integer result 1
 function sim.invertPose(pose) end
+
+--- Whether a function or constant is deprecated; 4.10 does not know.
+---@deprecated
+---@param funcOrConst string its name
+---@return integer result 0
+function sim.isDeprecated(funcOrConst) end
 
 --- Whether a shape, joint or force sensor is dynamically simulated. False while the simulation is stopped.
 ---@param objectHandle integer the object
@@ -3814,6 +3830,12 @@ function sim.setThreadAutomaticSwitch(allow) end
 ---@param freeMode boolean any
 ---@return integer result 0
 function sim.setThreadIsFree(freeMode) end
+
+--- Sets where a thread of V-REP is resumed in the next steps. Those of old scenes are coroutines, which are resumed in actuation.
+---@param location integer any
+---@param order integer any
+---@return integer result 0
+function sim.setThreadResumeLocation(location, order) end
 
 --- Allows or forbids yielding altogether, in this script.
 ---@deprecated sim.acquireLock and sim.releaseLock

@@ -2663,6 +2663,11 @@ class _sim:
         stringToExecute: the code; from the last `@` on it is the name of a language, not code
         scriptHandle: the script
         """
+    def exportIk(self, pathAndFilename: str, /) -> int:
+        """Writes the groups of inverse kinematics of V-REP with their chains to a file, which simIK.load reads. Objects have their old names.
+        Deprecated: use the simIK functionality.
+        pathAndFilename: the file
+        """
     def exportMesh(self, fileformat: int, pathAndFilename: str, options: int, scalingFactor: float, vertices: Sequence[Any] | Mapping[Any, Any], indices: Sequence[Any] | Mapping[Any, Any], /) -> None:
         """Writes meshes to a file.
         fileformat: 0: OBJ, 3: STL, text, 4: STL, binary, 5: COLLADA, 6: PLY, text, 7: PLY, binary
@@ -3438,6 +3443,9 @@ class _sim:
         """A random number of this script's own sequence, which restarts with each start of the script.
         seed: begins another sequence
         """
+    def getRealTimeSimulation(self, /) -> bool:
+        """Whether the simulation runs in real time.
+        """
     def getReferencedHandle(self, objectHandle: int, tag: str | None = ..., /) -> int:
         """The one object referenced under a tag.
         objectHandle: the object that refers
@@ -3942,6 +3950,10 @@ class _sim:
     def invertPose(self, pose: Sequence[float], /) -> int:
         """Inverts a pose in place.
         pose: is changed
+        """
+    def isDeprecated(self, funcOrConst: str, /) -> int:
+        """Whether a function or constant is deprecated; 4.10 does not know.
+        funcOrConst: its name
         """
     def isDynamicallyEnabled(self, objectHandle: int, /) -> bool:
         """Whether a shape, joint or force sensor is dynamically simulated. False while the simulation is stopped.
@@ -5215,6 +5227,11 @@ class _sim:
     def setThreadIsFree(self, freeMode: bool, /) -> int:
         """Does nothing: a thread never runs while the simulation does something else.
         freeMode: any
+        """
+    def setThreadResumeLocation(self, location: int, order: int, /) -> int:
+        """Sets where a thread of V-REP is resumed in the next steps. Those of old scenes are coroutines, which are resumed in actuation.
+        location: any
+        order: any
         """
     def setThreadSwitchAllowed(self, allow: Any | None = ..., /) -> int:
         """Allows or forbids yielding altogether, in this script.

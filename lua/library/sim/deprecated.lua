@@ -33,6 +33,17 @@ function M.getThreadSwitchTiming() return sim.getAutoYieldDelay() * 1000 end
 -- @return result 1 or 0
 function M.getIsRealTimeSimulation() return sim.getBoolParam(sim.boolparam_realtime_simulation) and 1 or 0 end
 
+--- Whether the simulation runs in real time.
+-- @api bool result = sim.getRealTimeSimulation()
+-- @return result
+function M.getRealTimeSimulation() return sim.getBoolParam(sim.boolparam_realtime_simulation) end
+
+--- Whether a function or constant is deprecated; 4.10 does not know.
+-- @api int result = sim.isDeprecated(string funcOrConst)
+-- @param funcOrConst its name
+-- @return result 0
+function M.isDeprecated(funcOrConst) return 0 end
+
 ---------------------------------------------------------------- Euler angles
 
 local ANGLES = {{type = 'float'}, {type = 'float'}, {type = 'float'}}

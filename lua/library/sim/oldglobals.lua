@@ -66,4 +66,11 @@ function M.isScriptExecutionThreaded() return 0 end
 -- @return result 0: threads are coroutines
 function M.isScriptRunningInThread() return 0 end
 
+--- Sets where a thread of V-REP is resumed in the next steps. Those of old scenes are coroutines, which are resumed in actuation.
+-- @api int result = sim.setThreadResumeLocation(int location, int order)
+-- @param location any
+-- @param order any
+-- @return result 0
+function M.setThreadResumeLocation(location, order) return 0 end
+
 return M

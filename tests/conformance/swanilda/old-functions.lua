@@ -26,4 +26,5 @@ function sysCall_init()
     print(pcall(sim.addGraphStream, box, 'speed', 'm/s'))
     print(Matrix{{1, 2}, {3, 4}}[2][1])
     math.randomseed(0.5)
+    print(simIsDeprecated('sim.getObject'), simGetRealTimeSimulation(), sim.getRealTimeSimulation(), simSetThreadResumeLocation(0, 0))
 end
