@@ -351,9 +351,9 @@ impl Simulator {
         }
     }
 
-    /// Ends the run, with all its clean-up.
+    /// Ends the run, with all its clean-up, also one that is about to pause.
     pub fn stop(&mut self) {
-        self.request_stop();
+        self.stop_in_place_of_pause();
         while self.state() != SimulationState::Stopped {
             self.iterate();
         }
@@ -443,6 +443,18 @@ impl Drop for Simulator {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_run_that_is_about_to_pause_ends() {
+        for steps in 0..6 {
+            let mut sim = Simulator::new(Options::default());
+            sim.step(2);
+            sim.pause();
+            (0..steps).for_each(|_| sim.iterate());
+            sim.stop();
+            assert_eq!(sim.state(), SimulationState::Stopped);
+        }
+    }
 
     #[test]
     fn a_simulator_goes_with_all_its_states() {
