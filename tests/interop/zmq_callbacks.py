@@ -87,6 +87,19 @@ def in_tables(a):
     same("its result", a.executed([1, 2]), {"ret": [[1, 2], ["no@function"]]})
     long = ["x"] * 40 + ["f@func"]
     same("not beyond 16 entries", a.call("table.unpack", long, 41), {"ret": ["f@func"]})
+    a.ask(eval="function pass(t) return t.f(t), t, {own = print} end")
+    given = {"f": "g@func", "x": 1}
+    same("a callback comes back as it was written", a.ask(func="pass", args=[given]), {"func": "g", "args": [given]})
+    reply = a.executed(7)
+    same("no other function does", "Cannot encode function" in reply.get("err", ""), True)
+    a.ask(eval="function pass(t) return t.f(t), t end")
+    a.ask(func="pass", args=[given])
+    same("also among results", a.executed(7), {"ret": [7, given]})
+    motion = {"pos": [0.0], "targetPos": [1.0], "maxVel": [1.0], "maxAccel": [1.0], "maxJerk": [9.0], "callback": "g@func"}
+    reply = a.ask(func="sim.moveToConfig", args=[motion])
+    same("the motion's data", (reply["func"], reply["args"][0]["callback"]), ("g", "g@func"))
+    reply = a.executed(True)
+    same("its result", reply["ret"][0]["callback"], "g@func")
 
 
 def endless(a):

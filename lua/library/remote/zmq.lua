@@ -140,12 +140,14 @@ local function askBlocking(client, bytes)
 end
 
 local function callbackOf(client, name)
-    return function(...)
+    local function callback(...)
         local bytes = answers.call(name, pack(...))
         local _, isMain = coroutine.running()
         if isMain or not getYieldAllowed() then return askBlocking(client, bytes) end
         return yield(ASK, bytes)
     end
+    answers.names[callback] = name .. '@func'
+    return callback
 end
 
 function deliverQueue(client)

@@ -5,7 +5,7 @@ Encodes results, errors and callbacks of the ZeroMQ remote API.
 local cbor = require('org.conman.cbor')
 local head = require('org.conman.cbor_c').encode
 local encode, concat = cbor.encode, table.concat
-local type, getmetatable, pairs, next, tostring = type, getmetatable, pairs, next, tostring
+local type, getmetatable, pairs, next, pcall, tostring = type, getmetatable, pairs, next, pcall, tostring
 
 local M = {}
 
@@ -17,6 +17,32 @@ M.EMPTY = encode({})
 local NO_RESULT <const> = '\xa1\x63ret\xa0'
 local RESULTS <const> = '\xa1\x63ret'
 
+--- Functions of clients as clients write them. One that a function has received comes back as that text, for instance in the parameters
+--- of sim.moveToConfig, which are its result as well.
+M.names = setmetatable({}, {__mode = 'k'})
+
+-- The value with texts in place of functions of clients, which are at most in tables of tables; false when there are none.
+local function withNames(value, depth)
+    if type(value) == 'function' then return M.names[value] or false end
+    if depth == 0 or type(value) ~= 'table' or getmetatable(value) then return false end
+    local copy, isChanged = {}, false
+    for key, entry in pairs(value) do
+        local changed = withNames(entry, depth - 1)
+        copy[key] = changed or entry
+        isChanged = isChanged or changed ~= false
+    end
+    return isChanged and copy
+end
+
+-- Looks for functions only in what cannot be encoded.
+local function encodeAny(value)
+    local ok, bytes = pcall(encode, value)
+    if ok then return bytes end
+    local named = withNames(value, 2)
+    if named then return encode(named) end
+    error(bytes, 0)
+end
+
 local function countKeys(t)
     local n = 0
     for _ in pairs(t) do n = n + 1 end
@@ -26,8 +52,8 @@ end
 -- An array as long as it has only keys from 1 on, also when it is empty.
 local function encodeTable(t)
     if next(t) == nil then return '\x80' end
-    if #t > 0 and countKeys(t) ~= #t then return cbor.TYPE.MAP(t) end
-    return encode(t)
+    if #t > 0 and countKeys(t) ~= #t then return cbor.TYPE.MAP(withNames(t, 2) or t) end
+    return encodeAny(t)
 end
 
 -- The types a function is declared to return; only they tell text from bytes, and an empty list from an empty map.
@@ -38,7 +64,7 @@ local function encodeResult(value, declared, first)
         if declared == 'string' then return cbor.TYPE.TEXT(value) end
         if declared == 'buffer' then return cbor.TYPE.BIN(value) end
     end
-    return encode(value)
+    return encodeAny(value)
 end
 
 --- The answer with results.
@@ -60,7 +86,7 @@ end
 --- A call of a function of the client.
 function M.call(name, args)
     local parts = {'\xa2\x64func', cbor.TYPE.TEXT(name), '\x64args', args.n == 0 and '\xa0' or head(0x80, args.n)}
-    for i = 1, args.n do parts[i + 4] = encode(args[i]) end
+    for i = 1, args.n do parts[i + 4] = encodeAny(args[i]) end
     return concat(parts)
 end
 
