@@ -22,7 +22,7 @@ pub(super) fn write(folder: &Path) -> io::Result<Vec<PathBuf>> {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder)?;
         }
-        fs::write(path, text)?;
+        fs::write(path, text.replace("vVERSION", concat!("v", env!("CARGO_PKG_VERSION"))))?;
     }
     Ok(files.map(|(path, _)| path).into())
 }
