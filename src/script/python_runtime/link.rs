@@ -40,6 +40,8 @@ pub(super) struct Link {
     pub thread_started: Cell<bool>,
     /// The thread has spoken or was answered since the simulator last waited for it in vain.
     pub thread_active: Cell<bool>,
+    /// Calls of the thread in its present time slice.
+    pub thread_calls: Cell<u32>,
     received: Cell<u64>,
     /// The error of the thread, for the hook that resumed it.
     pub failure: RefCell<Option<ScriptError>>,

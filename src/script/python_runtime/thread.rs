@@ -78,18 +78,18 @@ impl Conversation<'_> {
             self.hand_over(&message::call(SysCall::Thread.name(), &[]))?;
             patience = FIRST_PATIENCE;
         }
-        let mut calls_left = CALLS_PER_MS.saturating_mul(self.env.yields.delay_ms.get().max(1));
+        let calls_in_slice = CALLS_PER_MS.saturating_mul(self.env.yields.delay_ms.get().max(1));
         loop {
             let beside = self.env.yields.overall.get() == 0 && may_run_beside();
-            if beside && calls_left == 0 {
-                return Ok(Turn::Busy);
+            if beside && self.link.thread_calls.get() >= calls_in_slice {
+                return Ok(self.busy());
             }
             let patience = if self.link.thread_active.get() { patience } else { Duration::ZERO };
             let Some(message) = self.next_of_thread(beside.then_some(patience))? else {
                 self.link.thread_active.set(false);
-                return Ok(Turn::Busy);
+                return Ok(self.busy());
             };
-            calls_left = calls_left.saturating_sub(1);
+            self.link.thread_calls.set(self.link.thread_calls.get().saturating_add(1));
             self.link.busy.set(false);
             self.link.thread_active.set(true);
             self.run_queued()?;
@@ -107,6 +107,12 @@ impl Conversation<'_> {
                 Message::Print(_) | Message::Write(..) => {}
             }
         }
+    }
+
+    /// The end of the thread's time slice.
+    fn busy(self) -> Turn {
+        self.link.thread_calls.set(0);
+        Turn::Busy
     }
 
     /// What the thread says next; None when it says nothing within `patience`.
