@@ -24,7 +24,10 @@ pub use format::scene_file::SceneFile;
 pub use mlua;
 pub use perception::vision::{Channels, Picture};
 pub use permissions::{Denied, HostRule, Permissions};
-pub use script::{Console, Limits, LogLine, Options, Silent, SimulationState, VideoFailure, VideoOptions, VideoView};
+pub use script::{
+    Console, EmbeddedScript, Limits, LogLine, Options, PythonHost, ScriptCalls, Silent, SimulationState, VideoFailure,
+    VideoOptions, VideoView,
+};
 pub use simulator::{
     ApiFunction, Builder, Caller, Error, ModuleMember, NativeScript, NativeScriptFactory, Progress, RunLimits,
     RunObserver, RunTotals, ScriptKind, ScriptRef, Simulator,

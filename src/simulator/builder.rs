@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::{NativeLanguage, NativeScripts, Simulator};
 use crate::modules;
 use crate::permissions::Permissions;
-use crate::script::{Console, Languages, LuaLanguage, Options, PythonLanguage, Silent, Sim, UserModule};
+use crate::script::{Console, Languages, LuaLanguage, Options, PythonHost, PythonLanguage, Silent, Sim, UserModule};
 
 /// Collects what a [`Simulator`] is made of; see [`Simulator::builder`].
 #[must_use = "nothing is made before `build`"]
@@ -13,11 +13,12 @@ pub struct Builder {
     options: Options,
     console: Box<dyn Console>,
     modules: Vec<UserModule>,
+    python: Option<Rc<dyn PythonHost>>,
 }
 
 impl Default for Builder {
     fn default() -> Self {
-        Self { options: Options::default(), console: Box::new(Silent), modules: Vec::new() }
+        Self { options: Options::default(), console: Box::new(Silent), modules: Vec::new(), python: None }
     }
 }
 
@@ -75,13 +76,18 @@ impl Builder {
         self
     }
 
+    /// The Python of this program: scripts in Python run there instead of in processes of their own.
+    pub fn python(self, host: Rc<dyn PythonHost>) -> Self {
+        Self { python: Some(host), ..self }
+    }
+
     /// A simulator with an empty scene.
     pub fn build(self) -> Simulator {
         let native_scripts = Rc::<NativeScripts>::default();
         let lua = LuaLanguage::new(self.modules);
         let languages = Languages::new(vec![
             Box::new(lua.clone()),
-            Box::new(PythonLanguage::new(lua)),
+            Box::new(PythonLanguage::new(lua, self.python)),
             Box::new(NativeLanguage(Rc::clone(&native_scripts))),
         ]);
         let sim = Sim::new(self.options, modules::registry(), self.console, languages);

@@ -4,7 +4,7 @@ use std::rc::{Rc, Weak};
 
 use super::Error;
 use crate::scene::Data;
-use crate::script::{ApiError, Member, Script, Sim, SimulationState};
+use crate::script::{ApiError, Member, Script, Sim, SimulationState, is_short};
 
 /// The library's helper for calls from programs.
 const HELPER: &str = "swanilda.calls";
@@ -54,10 +54,7 @@ impl ApiFunction {
 
     /// Whether it returns at once: it reads or sets values, and runs no script.
     pub fn is_short(&self) -> bool {
-        const SHORT: &[&str] = &["get", "set", "is", "has", "pack", "unpack", "read", "write"];
-        let native = matches!(self.member, Some(Member::Native(_)));
-        let member = self.name.strip_prefix("sim.");
-        native && member.is_some_and(|member| SHORT.iter().any(|verb| member.starts_with(verb)))
+        self.member.as_ref().is_some_and(|member| is_short(&self.name, member))
     }
 
     /// Whether it is written in Lua, so that it may wait for steps.

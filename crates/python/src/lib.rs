@@ -7,6 +7,7 @@ mod callables;
 mod console;
 mod convert;
 mod errors;
+mod host;
 mod lua_tests;
 mod module;
 mod script;

@@ -15,6 +15,7 @@ use swanilda::{Channels, Options, Permissions, ScriptKind, SimulationState, View
 use crate::callables::Callables;
 use crate::console::PythonConsole;
 use crate::errors::{self, Error};
+use crate::host::ThisPython;
 use crate::module::Module;
 use crate::script::{MainProgram, PythonScript};
 use crate::worlds::{self, Shared, Speaker, World};
@@ -43,10 +44,11 @@ fn kind_of(name: &str) -> PyResult<ScriptKind> {
 }
 
 fn made(options: Options, quiet: bool) -> World {
+    let (callables, shared) = (Rc::<Callables>::default(), Rc::<Shared>::default());
     let builder = swanilda::Simulator::builder().options(options);
+    let builder = builder.python(Rc::new(ThisPython { shared: Rc::clone(&shared) }));
     let builder = if quiet { builder } else { builder.console(Box::new(PythonConsole)) };
     let mut simulator = builder.build();
-    let (callables, shared) = (Rc::<Callables>::default(), Rc::<Shared>::default());
     let (functions, exceptions) = (Rc::clone(&callables), Rc::clone(&shared));
     let main = simulator.add_native_script(ScriptKind::AddOn, "Python", move |_| {
         Ok(Box::new(MainProgram { callables: Rc::clone(&functions), shared: Rc::clone(&exceptions) }))

@@ -15,6 +15,7 @@ use swanilda::{Caller, SimulationState, Simulator, Viewer};
 
 use crate::callables::Callables;
 use crate::errors::Error;
+use crate::host;
 
 thread_local! {
     static WORLDS: RefCell<BTreeMap<u64, Rc<World>>> = const { RefCell::new(BTreeMap::new()) };
@@ -137,6 +138,7 @@ pub fn close_all() {
 /// In a new child process: its copies of the simulators are neither used nor ended.
 #[pyfunction]
 pub fn forget_after_fork() {
+    host::forget_after_fork();
     let forgotten = WORLDS.try_with(|worlds| worlds.try_borrow_mut().map(|mut worlds| std::mem::take(&mut *worlds)));
     if let Ok(Ok(worlds)) = forgotten {
         FORGOTTEN.set(FORGOTTEN.get() || !worlds.is_empty());

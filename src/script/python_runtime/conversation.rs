@@ -45,8 +45,7 @@ impl Conversation<'_> {
     /// The function's, or when the process has ended.
     pub(super) fn call(self, name: &str, args: &[Data]) -> Result<Option<Vec<Data>>, ScriptError> {
         self.wait_for_turn(None)?;
-        self.link.send(&message::call(name, args))?;
-        self.answer(self.call_limit())
+        self.exchange(&message::call(name, args), self.call_limit())
     }
 
     /// Calls a callback that the script has. While its thread runs, the callback waits for a word of it, without results.
@@ -59,8 +58,7 @@ impl Conversation<'_> {
             self.link.queue(call, args);
             return Ok(Vec::new());
         }
-        self.link.send(&message::call(call.name(), args))?;
-        Ok(self.answer(self.call_limit())?.unwrap_or_default())
+        Ok(self.exchange(&message::call(call.name(), args), self.call_limit())?.unwrap_or_default())
     }
 
     /// Lets the process do something by the letter of its handler.
@@ -74,8 +72,7 @@ impl Conversation<'_> {
         limit: Option<Duration>,
     ) -> Result<Vec<Data>, ScriptError> {
         self.wait_for_turn(None)?;
-        self.link.send(&message::request(kind, fields))?;
-        Ok(self.answer(limit)?.unwrap_or_default())
+        Ok(self.exchange(&message::request(kind, fields), limit)?.unwrap_or_default())
     }
 
     /// Waits until the thread of the script has spoken, if it runs; false when it has not within `limit`.
@@ -97,8 +94,12 @@ impl Conversation<'_> {
         Ok(())
     }
 
-    /// Serves the process until it answers.
-    fn answer(self, limit: Option<Duration>) -> Result<Option<Vec<Data>>, ScriptError> {
+    /// Sends a message and serves the script until it answers.
+    fn exchange(self, message: &[u8], limit: Option<Duration>) -> Result<Option<Vec<Data>>, ScriptError> {
+        if let Some(script) = self.link.embedded() {
+            return outcome(self.link.read(&script.ask(message).map_err(ScriptError::new)?)?);
+        }
+        self.link.send(message)?;
         loop {
             let Some(message) = self.link.receive(self.env, limit)? else {
                 self.link.kill();
@@ -109,12 +110,8 @@ impl Conversation<'_> {
                 )));
             };
             match message {
-                Message::Call(name, args) => self.serve(&name, &args)?,
-                Message::Results(results) => return Ok(Some(results)),
-                Message::NoFunction => return Ok(None),
-                Message::Error(text) => return Err(ScriptError::new(text)),
-                // Output was shown.
-                Message::Print(_) | Message::Write(..) => {}
+                Message::Call(name, args) => self.link.send(&self.answer_of(&name, &args))?,
+                answer => return outcome(answer),
             }
         }
     }
@@ -127,19 +124,11 @@ impl Conversation<'_> {
         Duration::try_from_secs_f64(seconds).ok().filter(|limit| !limit.is_zero())
     }
 
-    /// Answers a call of the script's.
-    fn serve(self, name: &str, args: &[Data]) -> Result<(), ScriptError> {
+    /// The answer to a call of the script's.
+    pub(super) fn answer_of(self, name: &str, args: &[Data]) -> Vec<u8> {
         match self.call_native(name, args) {
-            Some(result) => self.reply(result),
-            None => self.reply(self.call_lua(name, args)),
-        }
-    }
-
-    /// Sends the results of a call, or its error.
-    pub(super) fn reply(self, result: Result<ApiResults<'_>, String>) -> Result<(), ScriptError> {
-        match result {
-            Ok(results) => self.link.send(&message::results(&results.values, results.declared)),
-            Err(text) => self.link.send(&message::error(&plain_error(&text))),
+            Some(result) => answer(result),
+            None => answer(self.call_lua(name, args)),
         }
     }
 
@@ -176,6 +165,24 @@ impl Conversation<'_> {
     /// The same for an environment in a native function of Lua.
     pub(super) fn link_of(env: &Env) -> Rc<Link> {
         env.module_states.get()
+    }
+}
+
+/// What a message that is no call says of the simulator's call.
+fn outcome(message: Message) -> Result<Option<Vec<Data>>, ScriptError> {
+    match message {
+        Message::Results(results) => Ok(Some(results)),
+        Message::Error(text) => Err(ScriptError::new(text)),
+        // The rest is output, which was shown.
+        Message::NoFunction | Message::Call(..) | Message::Print(_) | Message::Write(..) => Ok(None),
+    }
+}
+
+/// The results of a call, or its error, as a message.
+pub(super) fn answer(result: Result<ApiResults<'_>, String>) -> Vec<u8> {
+    match result {
+        Ok(results) => message::results(&results.values, results.declared),
+        Err(text) => message::error(&plain_error(&text)),
     }
 }
 

@@ -1,10 +1,13 @@
 //! Which Python runs a script, and the start of its process.
 
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
+use super::embedding::{EmbeddedScript, PythonHost, ScriptCalls};
 use crate::io::PeerProcess;
 use crate::permissions::Denied;
 use crate::scene::Data;
+use crate::script::lifecycle::env::Env;
 use crate::script::lifecycle::instance::Script;
 use crate::script::sim::Sim;
 use crate::wire::marshal::Encoder;
@@ -19,6 +22,8 @@ const MODULES: [(&str, &str); 5] = [
     ("swanilda_coverage", include_str!("child/swanilda_coverage.py")),
     ("swanilda_script", include_str!("child/swanilda_script.py")),
 ];
+/// What takes the place of the guardian in the program's Python.
+const EMBEDDED: (&str, &str) = ("swanilda_embedded", include_str!("child/swanilda_embedded.py"));
 
 /// Where virtual environments have their Python.
 const VIRTUAL_ENVIRONMENTS: [&str; 2] = [".venv/bin/python", "venv/bin/python"];
@@ -33,18 +38,18 @@ pub(super) enum LaunchError {
          instance by 'apt install python3', or set another interpreter with -D python=PATH."
     )]
     NotStarted { program: String, reason: std::io::Error },
+    #[error("Python cannot run scripts: {0}")]
+    NotEmbedded(String),
 }
 
-/// The Python of a simulator: what the script says, the named parameter `python`, a virtual environment beside the scene, or what the
-/// system has. It may have arguments, separated by blanks.
-pub(super) fn interpreter(sim: &Sim, script: &Script, chosen: Option<String>) -> String {
+/// The Python that somebody has chosen: the script, or the named parameter `python`. It may have arguments, separated by blanks.
+pub(super) fn chosen_interpreter(sim: &Sim, by_script: Option<String>) -> Option<String> {
     let named = || {
         let app = sim.app.borrow();
         app.named_params.get("python").map(|value| String::from_utf8_lossy(value).into_owned())
     };
-    let chosen = chosen.filter(|program| !program.trim().is_empty());
-    let chosen = chosen.or_else(|| named().filter(|program| !program.trim().is_empty()));
-    chosen.unwrap_or_else(|| default_interpreter(&scene_folders(sim, script)))
+    let by_script = by_script.filter(|program| !program.trim().is_empty());
+    by_script.or_else(|| named().filter(|program| !program.trim().is_empty()))
 }
 
 /// The Python of a virtual environment in one of the folders, or that of the system.
@@ -73,6 +78,15 @@ pub(super) fn scene_folders(sim: &Sim, script: &Script) -> Vec<PathBuf> {
     all
 }
 
+/// Makes a script without a text in the program's Python.
+///
+/// # Errors
+/// When programs must not be started, or Python does not work.
+pub(super) fn embed(sim: &Sim, host: &dyn PythonHost, env: &Rc<Env>) -> Result<Rc<dyn EmbeddedScript>, LaunchError> {
+    sim.options.permissions.check_run("python3")?;
+    host.start(&modules(&[EMBEDDED]), ScriptCalls::new(env)).map_err(LaunchError::NotEmbedded)
+}
+
 /// Starts a process without a script.
 ///
 /// # Errors
@@ -88,13 +102,15 @@ pub(super) fn start(sim: &Sim, interpreter: &str) -> Result<PeerProcess, LaunchE
     let failed = |reason| LaunchError::NotStarted { program: interpreter.to_owned(), reason };
     let mut process = PeerProcess::start(program, &args, None).map_err(failed)?;
     // One that has ended already is noticed when it is to load the script.
-    let _ = process.send(&modules());
+    let _ = process.send(&modules(&[]));
     Ok(process)
 }
 
-fn modules() -> Vec<u8> {
+/// The modules of a process, and more.
+fn modules(more: &[(&str, &str)]) -> Vec<u8> {
     let mut message = Encoder::default();
-    let modules = MODULES.map(|(name, text)| Data::Array(vec![Data::text(name), Data::text(text)]));
+    let module = |&(name, text): &(&str, &str)| Data::Array(vec![Data::text(name), Data::text(text)]);
+    let modules: Vec<Data> = MODULES.iter().chain(more).map(module).collect();
     message.list(&modules);
     message.into_bytes()
 }

@@ -1,10 +1,12 @@
-//! The connection of a script to its process: whose turn it is, and what waits for it.
+//! The connection of a script to what runs it, a process or the program's Python: whose turn it is, and what waits for it.
 
 use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::process::ExitStatus;
+use std::rc::Rc;
 use std::time::Duration;
 
+use super::embedding::EmbeddedScript;
 use super::message::Message;
 use crate::io::{PeerError, PeerProcess};
 use crate::scene::Data;
@@ -27,10 +29,16 @@ const END_LIMIT: Duration = Duration::from_millis(500);
 /// Callbacks that wait for a busy thread.
 const MAX_QUEUED: usize = 1000;
 
+/// What runs a script.
+pub(super) enum Peer {
+    Process(PeerProcess),
+    Embedded(Rc<dyn EmbeddedScript>),
+}
+
 /// The connection; a state of the script.
 #[derive(Default)]
 pub(super) struct Link {
-    process: RefCell<Option<PeerProcess>>,
+    peer: RefCell<Option<Peer>>,
     /// The thread of the script is running: the process has the turn, and nobody waits for it.
     pub busy: Cell<bool>,
     /// What the running thread has said, and nobody has looked at.
@@ -48,23 +56,35 @@ pub(super) struct Link {
 }
 
 impl Link {
-    pub(super) fn open(&self, process: PeerProcess) {
-        self.process.replace(Some(process));
+    pub(super) fn open(&self, peer: Peer) {
+        self.peer.replace(Some(peer));
     }
 
     pub(super) fn is_open(&self) -> bool {
-        self.process.borrow().is_some()
+        self.peer.borrow().is_some()
+    }
+
+    /// The script, if it runs in the program's Python.
+    pub(super) fn embedded(&self) -> Option<Rc<dyn EmbeddedScript>> {
+        let Some(Peer::Embedded(script)) = &*self.peer.borrow() else { return None };
+        Some(Rc::clone(script))
     }
 
     /// Ends the process, which may write its files before.
     pub(super) fn close(&self) {
-        drop(self.process.take());
+        let peer = self.peer.take();
+        if let Some(Peer::Embedded(script)) = peer {
+            script.close();
+        }
     }
 
     /// Ends the process, which has no more time.
     pub(super) fn kill(&self) {
-        if let Some(mut process) = self.process.take() {
-            process.kill();
+        let peer = self.peer.take();
+        match peer {
+            Some(Peer::Process(mut process)) => process.kill(),
+            Some(Peer::Embedded(script)) => script.close(),
+            None => {}
         }
     }
 
@@ -84,9 +104,12 @@ impl Link {
     /// # Errors
     /// When the process has ended.
     pub(super) fn send(&self, message: &[u8]) -> Result<(), ScriptError> {
-        let sent = match &mut *self.process.borrow_mut() {
-            Some(process) => process.send(message),
-            None => Err(PeerError::Closed),
+        if let Some(script) = self.embedded() {
+            return script.hand_over(message).map_err(ScriptError::new);
+        }
+        let sent = match &mut *self.peer.borrow_mut() {
+            Some(Peer::Process(process)) => process.send(message),
+            _ => Err(PeerError::Closed),
         };
         sent.map_err(|error| self.ended(&error))
     }
@@ -99,9 +122,7 @@ impl Link {
         let mut printed = 0;
         let mut begun = None;
         self.received.set(self.received.get() + 1);
-        if self.received.get().is_multiple_of(LOOK_AFTER) {
-            self.check_interruption(env)?;
-        }
+        self.look_after(env, self.received.get())?;
         loop {
             let wait = limit.map_or(TICK, |limit| limit.min(TICK));
             if let Some(message) = self.next_message(wait)? {
@@ -117,21 +138,44 @@ impl Link {
         }
     }
 
+    /// Looks whether the program is to end, once in a number of messages.
+    ///
+    /// # Errors
+    /// When it is.
+    pub(super) fn look_after(&self, env: &Env, messages: u64) -> Result<(), ScriptError> {
+        if messages.is_multiple_of(LOOK_AFTER) { self.check_interruption(env) } else { Ok(()) }
+    }
+
     fn next_message(&self, limit: Duration) -> Result<Option<Message>, ScriptError> {
-        let received = match &mut *self.process.borrow_mut() {
-            Some(process) => process.receive(limit),
-            None => Err(PeerError::Closed),
+        let bytes = match self.embedded() {
+            Some(script) => script.take(limit).map_err(ScriptError::new)?,
+            None => self.receive_of_process(limit).map_err(|error| self.ended(&error))?,
         };
-        let Some(bytes) = received.map_err(|error| self.ended(&error))? else { return Ok(None) };
-        let message = Message::decode(&bytes).map_err(|error| {
+        bytes.map(|bytes| self.read(&bytes)).transpose()
+    }
+
+    fn receive_of_process(&self, limit: Duration) -> Result<Option<Vec<u8>>, PeerError> {
+        match &mut *self.peer.borrow_mut() {
+            Some(Peer::Process(process)) => process.receive(limit),
+            _ => Err(PeerError::Closed),
+        }
+    }
+
+    /// A message of the script. One that cannot be read ends it.
+    pub(super) fn read(&self, bytes: &[u8]) -> Result<Message, ScriptError> {
+        Message::decode(bytes).map_err(|error| {
             self.kill();
             ScriptError::new(format!("the Python process of this script sent what cannot be read: {error}"))
-        })?;
-        Ok(Some(message))
+        })
     }
 
     /// Shows output; another message comes back.
-    fn show(&self, env: &Env, message: Message, printed: &mut usize) -> Result<Option<Message>, ScriptError> {
+    pub(super) fn show(
+        &self,
+        env: &Env,
+        message: Message,
+        printed: &mut usize,
+    ) -> Result<Option<Message>, ScriptError> {
         let Some(sim) = env.sim.upgrade() else { return Ok(Some(message)) };
         let (Message::Print(text) | Message::Write(_, text)) = &message else { return Ok(Some(message)) };
         *printed = printed.saturating_add(text.len() + 1);
@@ -153,7 +197,10 @@ impl Link {
 
     /// Logs what the process and programs it started wrote past the script's own output.
     fn show_rest(&self, env: &Env) {
-        let (text, lost) = self.process.borrow().as_ref().map(PeerProcess::take_output).unwrap_or_default();
+        let (text, lost) = match &*self.peer.borrow() {
+            Some(Peer::Process(process)) => process.take_output(),
+            _ => return,
+        };
         if text.is_empty() {
             return;
         }
@@ -182,7 +229,7 @@ impl Link {
 
     /// Why the process is not there any more.
     fn ended(&self, error: &PeerError) -> ScriptError {
-        let Some(mut process) = self.process.take() else {
+        let Some(Peer::Process(mut process)) = self.peer.take() else {
             return ScriptError::new("the Python process of this script has ended.");
         };
         let status = process.wait_for_end(END_LIMIT);

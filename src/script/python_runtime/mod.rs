@@ -1,10 +1,11 @@
-//! Scripts in Python: a process beside a Lua state.
+//! Scripts in Python: a process beside a Lua state, or the Python of the program around the simulator (`embedding`).
 //!
 //! The process runs the script's text (`child`); the Lua state is what the script's `#luaExec` lines, hooks and library functions live in,
 //! as in the original. Both share the environment of the script. One side has the turn: the simulator calls a function of the script and
 //! serves its calls until it answers (`conversation`). Native functions are called with plain values, others through Lua.
 
 mod conversation;
+mod embedding;
 mod launch;
 mod line_counts;
 mod link;
@@ -29,13 +30,19 @@ use super::sim::Sim;
 use crate::permissions::read_bounded;
 use crate::scene::Data;
 use conversation::{Conversation, LIBRARY};
+pub(crate) use embedding::is_short;
+pub use embedding::{EmbeddedScript, PythonHost, ScriptCalls};
+use launch::LaunchError;
 use line_counts::Own;
-use link::Link;
+use link::{Link, Peer};
 
 /// Seconds in which a script has to be loaded.
 const INIT_LIMIT: f64 = 10.0;
 /// A process has this time to say which lines have run.
 const COUNT_LIMIT: Duration = Duration::from_secs(10);
+/// What `sysCall_ext` returns in place of results, as in the original.
+const NOT_FOUND: &[u8] = b"_*funcNotFound*_";
+const FAILED: &[u8] = b"_*runtimeError*_";
 /// The names of settings that a script makes in its Lua lines, in the order in which they are read.
 const SETTINGS: &[u8] =
     b"pythonExecutable, initTimeout, additionalPaths, additionalIncludePaths, contactCallback, dynCallback, eventCallback, pythonFile";
@@ -43,12 +50,13 @@ const SETTINGS: &[u8] =
 /// The language Python.
 pub(crate) struct PythonLanguage {
     lua: LuaLanguage,
+    host: Option<Rc<dyn PythonHost>>,
 }
 
 impl PythonLanguage {
-    /// With the Lua that its library functions are written in.
-    pub(crate) fn new(lua: LuaLanguage) -> Self {
-        Self { lua }
+    /// With the Lua that its library functions are written in, and the Python of the program, if it has one.
+    pub(crate) fn new(lua: LuaLanguage, host: Option<Rc<dyn PythonHost>>) -> Self {
+        Self { lua, host }
     }
 }
 
@@ -72,7 +80,14 @@ impl Language for PythonLanguage {
         let (lua, link) = (self.lua.interpreter(&env), Conversation::link_of(&env));
         Runtime::new(
             Rc::clone(&env),
-            PythonInterpreter { env, link, lua, callbacks: Cell::new(0), own: RefCell::default() },
+            PythonInterpreter {
+                env,
+                link,
+                lua,
+                host: self.host.clone(),
+                callbacks: Cell::new(0),
+                own: RefCell::default(),
+            },
         )
     }
 }
@@ -82,6 +97,8 @@ struct PythonInterpreter {
     env: Rc<Env>,
     link: Rc<Link>,
     lua: LuaInterpreter,
+    /// The Python of the program.
+    host: Option<Rc<dyn PythonHost>>,
     /// The callbacks that the text defines, as bits.
     callbacks: Cell<u64>,
     /// The text as reports of lines show it, where they are counted.
@@ -163,12 +180,24 @@ impl PythonInterpreter {
         let file = self.env.script.file.borrow().clone();
         let name = file.as_deref().or(chunk_name.strip_prefix('@')).unwrap_or("script");
         let texts = self.texts(&sim, &settings, &parts.python, name)?;
-        let program = launch::interpreter(&sim, &self.env.script, settings.executable.take());
-        self.link.open(launch::start(&sim, &program).map_err(|error| ScriptError::new(error.to_string()))?);
+        let peer = self.peer(&sim, settings.executable.take(), counted_as.is_some());
+        self.link.open(peer.map_err(|error| ScriptError::new(error.to_string()))?);
         self.own.replace(counted_as.map(|path| Own { name: name.to_owned(), path: path.clone(), text: text.into() }));
         let fields = [texts, folders(&sim, &self.env.script, &settings), Data::Bool(counted_as.is_some())];
         let functions = self.conversation().request("l", &fields, Some(settings.init_limit))?;
         self.note_functions(&functions, settings.frequent)
+    }
+
+    /// What is to run the script: the program's Python, unless another one was chosen or lines are counted, which is for a process alone.
+    fn peer(&self, sim: &Sim, executable: Option<String>, is_counted: bool) -> Result<Peer, LaunchError> {
+        let chosen = launch::chosen_interpreter(sim, executable);
+        match (&self.host, &chosen) {
+            (Some(host), None) if !is_counted => launch::embed(sim, &**host, &self.env).map(Peer::Embedded),
+            _ => {
+                let default = || launch::default_interpreter(&launch::scene_folders(sim, &self.env.script));
+                launch::start(sim, &chosen.unwrap_or_else(default)).map(Peer::Process)
+            }
+        }
     }
 
     fn note_functions(&self, functions: &[Data], frequent: u64) -> Result<(), ScriptError> {
@@ -199,15 +228,27 @@ impl PythonInterpreter {
         }
         let plain = name.strip_suffix("@python").unwrap_or(name);
         let results = if self.has(SysCall::Ext) {
-            let args: Vec<Data> = std::iter::once(Data::text(plain)).chain(args.iter().cloned()).collect();
-            self.conversation().call(SysCall::Ext.name(), &args)?
+            self.call_extension(plain, args)
         } else {
-            self.conversation().call(plain, args)?
+            self.conversation().call(plain, args)
         };
-        match results {
+        match results? {
             Some(results) => Ok(results),
             None if plain == name => self.lua.call(Callee::Named(name), args),
             None => Err(CallError::NoSuchFunction),
+        }
+    }
+
+    /// Calls the function that gets all calls of others; None when it says that the script has no such function.
+    fn call_extension(&self, name: &str, args: &[Data]) -> Result<Option<Vec<Data>>, ScriptError> {
+        let args: Vec<Data> = std::iter::once(Data::text(name)).chain(args.iter().cloned()).collect();
+        let results = self.conversation().call(SysCall::Ext.name(), &args)?;
+        match results.as_deref() {
+            Some([Data::Text(text)]) if &**text == NOT_FOUND => Ok(None),
+            Some([Data::Text(text)]) if &**text == FAILED => {
+                Err(ScriptError::new("sysCall_ext says that it has failed."))
+            }
+            _ => Ok(results),
         }
     }
 }

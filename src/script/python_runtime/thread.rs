@@ -8,7 +8,7 @@
 use std::ffi::c_int;
 use std::time::Duration;
 
-use super::conversation::{ApiResults, Conversation};
+use super::conversation::{ApiResults, Conversation, answer};
 use super::message::{self, Message};
 use crate::scene::Data;
 use crate::script::binding::data;
@@ -96,7 +96,7 @@ impl Conversation<'_> {
             match message {
                 Message::Call(name, args) => match self.call_native(&name, &args) {
                     Some(result) => {
-                        self.reply(result)?;
+                        self.link.send(&answer(result))?;
                         self.link.busy.set(true);
                     }
                     None => return Ok(Turn::Call(name, args)),
@@ -134,14 +134,13 @@ impl Conversation<'_> {
 /// Answers the thread: gets whether its call succeeded, and what the library says of its results, or the error.
 fn reply(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     let link = Conversation::link_of(stack.owner());
-    let conversation = Conversation { env: stack.owner(), link: &link };
     let values = (2..=stack.top()).map(|index| data::read_data(stack, index)).collect::<Result<Vec<_>, _>>();
     let result = match values {
         Ok(values) if stack.truthy(1) => Ok(ApiResults::of_library(values)),
         Ok(_) => Err(String::from_utf8_lossy(&stack.text(2).unwrap_or_default()).into_owned()),
         Err(error) => Err(error.to_string()),
     };
-    match conversation.reply(result) {
+    match link.send(&answer(result)) {
         Ok(()) => link.busy.set(true),
         Err(error) => drop(link.failure.replace(Some(error))),
     }

@@ -17,35 +17,40 @@ PART = 1 << 16
 SCALARS = frozenset((int, float, str, bytes, bool, type(None)))
 LOOKED_THROUGH = 16  # entries of a container that may be functions
 LOOKS = 30  # for an answer, before sleeping: to be woken takes longer than most answers
-AT_ONCE = socket.MSG_DONTWAIT
+AT_ONCE = getattr(socket, 'MSG_DONTWAIT', 0)
 
 fd = -1
 receive_part = None
 rest = b''
-main_thread = 0
+callers = set()  # the threads that may call the simulator
 handlers = {}  # what to do with messages that are calls, by kind
 functions = {}  # functions that were passed to the simulator, by name
 names = {}  # and their names
+forked = False
 
 
 class Ended(SystemExit):
     """The simulator has ended the script."""
 
 
+passing = (Ended,)  # exceptions that are no errors of functions
+
+
 def open_link(connection):
-    global fd, main_thread, receive_part
+    global fd, receive_part
     fd = connection
     receive_part = socket.socket(fileno=connection).recv
-    main_thread = ident()
+    callers.add(ident())
     os.register_at_fork(after_in_child=close_in_fork)
 
 
 def close_in_fork():
     """A process that the script has forked has no connection."""
-    global fd
-    if fd >= 0:
+    global forked
+    if not forked:
         os.close(fd)
-    fd = -1
+    callers.clear()
+    forked = True
 
 
 def send(message):
@@ -88,16 +93,20 @@ def next_part():
         return b''
 
 
+def may_call():
+    return ident() in callers
+
+
 def check_caller():
-    if fd < 0:
+    if forked:
         raise RuntimeError('a process that a script has forked cannot call the simulator')
-    if ident() != main_thread:
+    if not may_call():
         raise RuntimeError("only the script's main thread can call the simulator")
 
 
 def call(name, args):
     """Calls a function of the simulator."""
-    if ident() != main_thread or fd < 0:
+    if ident() not in callers:
         check_caller()
     for arg in args:
         if type(arg) not in SCALARS:

@@ -10,8 +10,23 @@ import swanilda_coverage as coverage
 import swanilda_link as link
 import swanilda_trace as trace
 
-send = link.send
 scope = {}  # the script's globals
+
+
+class OwnProcess:
+    """What a script changes in a process that it has for itself."""
+
+    names = vars(builtins)  # what the modules that it imports see as well
+
+    def import_from(self, folders):
+        sys.path[:] = [path for path in folders if path not in sys.path] + [path for path in sys.path if path]
+
+    def set_main(self, module):
+        """Code that is imported finds the script as the main module."""
+        sys.modules['__main__'] = module
+
+
+surroundings = OwnProcess()
 
 
 class Output:
@@ -27,10 +42,10 @@ class Output:
     def write(self, text):
         if not isinstance(text, str):
             raise TypeError('write() argument must be str, not %s' % type(text).__name__)
-        if link.fd < 0 or link.ident() != link.main_thread:
+        if not link.may_call():
             os.write(self.number, text.encode('utf-8', 'replace'))
         elif text:
-            send(('w', self.number, text.encode('utf-8', 'replace').decode('utf-8')))
+            link.send(('w', self.number, text.encode('utf-8', 'replace').decode('utf-8')))
         return len(text)
 
     def writelines(self, lines):
@@ -59,9 +74,9 @@ class State:
 
 def print_line(*values, **options):
     """print of a script: a line in the simulator's log."""
-    if options or link.fd < 0 or link.ident() != link.main_thread:
+    if options or not link.may_call():
         return builtins.print(*values, **options)
-    send(('p', ', '.join(map(str, values)).encode('utf-8', 'replace').decode('utf-8')))
+    link.send(('p', ', '.join(map(str, values)).encode('utf-8', 'replace').decode('utf-8')))
 
 
 def show_help(*subjects):
@@ -73,19 +88,18 @@ def show_help(*subjects):
 
 def begin_scope(filename):
     scope.update(
-        __name__='__main__', __file__=filename, __builtins__=builtins, self=State(), require=api.require,
+        __name__='__main__', __file__=filename, __builtins__=surroundings.names, self=State(), require=api.require,
         print=print_line, help=show_help, quit=lambda: link.call('quitSimulator', []),
     )
     api.script_globals = scope
-    builtins.require = api.require
-    builtins.sim = api.namespaces['sim'] = api.Namespace('sim')
+    api.namespaces['sim'] = api.Namespace('sim')
+    surroundings.names.update(require=api.require, sim=api.namespaces['sim'])
 
 
 def as_module():
-    """Code that is imported finds the script as the main module."""
     module = type(sys)('__main__')
     module.__dict__.update(scope)
-    sys.modules['__main__'] = module
+    surroundings.set_main(module)
     return module.__dict__
 
 
@@ -96,7 +110,7 @@ def functions():
 def load(texts, paths, counts):
     """Runs the script: its texts, each with the name of its file, the last of which is the script's own."""
     global scope
-    sys.path[:] = [path for path in paths if path not in sys.path] + [path for path in sys.path if path]
+    surroundings.import_from(paths)
     begin_scope(texts[-1][0])
     scope = api.script_globals = as_module()
     if counts:
@@ -122,16 +136,16 @@ def answer(function, *args):
     """Answers a call with results or with an error."""
     try:
         message = ('r', link.results_of(function(*args)))
-    except link.Ended:
+    except link.passing:
         raise
     except BaseException as error:
         if isinstance(error, SystemExit):
             error = RuntimeError('a script cannot end its process; sim.stopSimulation() ends the simulation')
-        return send(('e', trace.describe(error)))
+        return link.send(('e', trace.describe(error)))
     try:
-        send(message)
+        link.send(message)
     except ValueError as error:
-        send(('e', 'a result cannot be passed: %s' % error))
+        link.send(('e', 'a result cannot be passed: %s' % error))
 
 
 parameter_counts = {}
@@ -150,7 +164,7 @@ def required_parameters(function):
 def call(name, args):
     function = find(name)
     if function is None:
-        return send(('n',))
+        return link.send(('n',))
     if name.startswith('sysCall_') and len(args) < required_parameters(function):
         args = args + [None] * (required_parameters(function) - len(args))
     answer(function, *args)
@@ -172,11 +186,7 @@ def execute(text, name):
     exec(compile(text, name, 'exec'), scope)
 
 
-def run(connection):
-    link.open_link(connection)
-    sys.stdout, sys.stderr = Output(1), Output(2)
-    sys.argv = ['']
-    sys.excepthook = lambda kind, error, tb: None if issubclass(kind, link.Ended) else sys.__excepthook__(kind, error, tb)
+def set_handlers():
     link.handlers.update(
         c=call,
         l=lambda *args: answer(lambda: load(*args)),
@@ -185,4 +195,12 @@ def run(connection):
         t=lambda: answer(trace.calls_in_progress),
         k=lambda: answer(lambda: [coverage.take()]),
     )
+
+
+def run(connection):
+    link.open_link(connection)
+    sys.stdout, sys.stderr = Output(1), Output(2)
+    sys.argv = ['']
+    sys.excepthook = lambda kind, error, tb: None if issubclass(kind, link.Ended) else sys.__excepthook__(kind, error, tb)
+    set_handlers()
     link.serve()

@@ -3,8 +3,11 @@ import sys
 import traceback
 
 
+foreign = {'<string>'}  # names of files whose frames are not shown
+
+
 def is_own(filename):
-    return not (filename.startswith('<swanilda_') or filename == '<string>')
+    return not (filename.startswith('<swanilda_') or filename in foreign)
 
 
 def describe(error):
@@ -25,5 +28,8 @@ def drop_foreign(described, seen):
 
 def calls_in_progress():
     """The traceback of the code that is running."""
-    frames = [frame for frame in traceback.extract_stack(sys._getframe(1)) if is_own(frame.filename)]
+    frames = traceback.extract_stack(sys._getframe(1))
+    # Below the first frame of a script is the program, where scripts run in one.
+    first = next((place for place, frame in enumerate(frames) if frame.filename.startswith('<swanilda_')), 0)
+    frames = [frame for frame in frames[first:] if is_own(frame.filename)]
     return 'Traceback (most recent call last):\n' + ''.join(traceback.format_list(frames)).rstrip('\n')

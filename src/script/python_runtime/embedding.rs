@@ -1,0 +1,90 @@
+//! Scripts in Python inside a program that has a Python itself: they need no process.
+//!
+//! The messages are those of a process. The program calls [`ScriptCalls`] for what a script says, and gets what the simulator asks.
+
+use std::cell::Cell;
+use std::rc::{Rc, Weak};
+use std::time::Duration;
+
+use super::conversation::Conversation;
+use super::message::Message;
+use crate::script::binding::registry::Member;
+use crate::script::lifecycle::env::Env;
+
+/// The Python of the program that the simulator is a part of.
+pub trait PythonHost {
+    /// Makes a script without a text.
+    ///
+    /// `modules` are the names and texts of the modules that it is made of, as a list in Python's `marshal` format. The last one,
+    /// `swanilda_embedded`, has a class `Embedded` with the functions of [`EmbeddedScript`].
+    ///
+    /// # Errors
+    /// When Python cannot run scripts.
+    fn start(&self, modules: &[u8], calls: ScriptCalls) -> Result<Rc<dyn EmbeddedScript>, String>;
+}
+
+/// A script that runs in the program's Python. Errors are texts for people.
+pub trait EmbeddedScript {
+    /// Lets the script do what a message says; returns its answer.
+    ///
+    /// # Errors
+    /// When Python ends, or the person at the keyboard wants to.
+    fn ask(&self, message: &[u8]) -> Result<Vec<u8>, String>;
+
+    /// Starts the thread of the script with its first call, or answers what it has called.
+    ///
+    /// # Errors
+    /// As of [`Self::ask`].
+    fn hand_over(&self, message: &[u8]) -> Result<(), String>;
+
+    /// What the thread of the script says; None when it says nothing within `limit`.
+    ///
+    /// # Errors
+    /// As of [`Self::ask`].
+    fn take(&self, limit: Duration) -> Result<Option<Vec<u8>>, String>;
+
+    /// Ends the script and its thread.
+    fn close(&self);
+}
+
+/// What a script in the program's Python calls.
+pub struct ScriptCalls {
+    env: Weak<Env>,
+    count: Cell<u64>,
+}
+
+impl ScriptCalls {
+    pub(super) fn new(env: &Rc<Env>) -> Self {
+        Self { env: Rc::downgrade(env), count: Cell::new(0) }
+    }
+
+    /// Whether the function of that name returns at once: it reads or sets values, and runs no script.
+    pub fn is_short(&self, name: &str) -> bool {
+        let member = self.env.upgrade().and_then(|env| env.registry.find(name));
+        member.is_some_and(|member| is_short(name, &member))
+    }
+
+    /// Does what a message of the script says; returns the answer, which is empty when there is none.
+    ///
+    /// # Errors
+    /// When the script has ended or is to end.
+    pub fn serve(&self, message: &[u8]) -> Result<Vec<u8>, String> {
+        let env = self.env.upgrade().ok_or("the script has ended.")?;
+        let link = Conversation::link_of(&env);
+        self.count.set(self.count.get() + 1);
+        link.look_after(&env, self.count.get()).map_err(|error| error.text)?;
+        let message = Message::decode(message).map_err(|error| error.to_string())?;
+        let Message::Call(name, args) = message else {
+            let shown = link.show(&env, message, &mut 0);
+            return shown.map(|_| Vec::new()).map_err(|error| error.text);
+        };
+        Ok(Conversation { env: &env, link: &link }.answer_of(&name, &args))
+    }
+}
+
+/// Whether a function returns at once: it reads or sets values, and runs no script.
+pub(crate) fn is_short(name: &str, member: &Member) -> bool {
+    const SHORT: &[&str] = &["get", "set", "is", "has", "pack", "unpack", "read", "write"];
+    let name = name.strip_prefix("sim.").filter(|_| matches!(member, Member::Native(_)));
+    name.is_some_and(|name| SHORT.iter().any(|verb| name.starts_with(verb)))
+}
