@@ -328,6 +328,40 @@ mod tests {
     }
 
     #[test]
+    fn any_bytes_are_a_value_or_an_error() {
+        let list = Data::Array(vec![
+            Data::Int(1 << 40),
+            Data::Float(0.5),
+            Data::text("text"),
+            Data::Buffer(vec![0; 4]),
+            Data::Nil,
+        ]);
+        let whole = encoded(&Data::map([("list", list), ("map", Data::map([("on", Data::Bool(true))]))]));
+        let mut random: u64 = 1;
+        let mut below = |end: usize| {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (random >> 33) as usize % end
+        };
+        let mut read = 0;
+        for _ in 0..20_000 {
+            let mut bytes = whole.clone();
+            bytes.truncate(if below(4) == 0 { below(whole.len()) + 1 } else { whole.len() });
+            for _ in 0..=below(3) {
+                let place = below(bytes.len());
+                bytes[place] = if below(2) == 0 { below(256) as u8 } else { whole[below(whole.len())] };
+            }
+            if let Ok(value) = decode(&bytes) {
+                let written = encoded(&value);
+                assert_eq!(encoded(&decode(&written).expect("what was written can be read")), written);
+                read += 1;
+            }
+        }
+        assert!((100..19_000).contains(&read), "{read}");
+        assert!(decode(b"[\xff\xff\xff\x7f").is_err());
+        assert!(decode(&b"[\x01\0\0\0".repeat(1_000_000)).is_err());
+    }
+
+    #[test]
     fn declared_types_decide_what_lua_leaves_open() {
         let results = |values: &[Data], declared| {
             let mut encoder = Encoder::default();
