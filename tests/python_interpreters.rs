@@ -243,7 +243,7 @@ end
     let files = folder(&[]);
     let make = make.replace("FOLDER", &format!("'{}'", files.path().display()));
     fs::write(files.path().join("make.lua"), make).expect("it can be written");
-    run(files.path(), "make.lua", &["--no-start"]);
+    run(files.path(), "make.lua", &["--no-start", "--as", "addon"]);
     let output = run(files.path(), "saved.ttt", &[]);
     for line in ["/Robot, 1, 2", "/Robot, 2, 4", "old, "] {
         assert!(output.contains(line), "{output}");

@@ -99,6 +99,8 @@ def in_tables(a):
     reply = a.ask(func="sim.moveToConfig", args=[motion])
     same("the motion's data", (reply["func"], reply["args"][0]["callback"]), ("g", "g@func"))
     reply = a.executed(True)
+    while reply.get("func") == "_*wait*_":
+        reply = a.executed()
     same("its result", reply["ret"][0]["callback"], "g@func")
 
 
