@@ -1,0 +1,61 @@
+//! Prints what was read from a file, and where its links are: `cargo run --example link_poses -- robot.urdf < positions`.
+//!
+//! A line of the input has pairs `joint=position`; joints without are at 0. For each, a line of the output has x, y, z, qx, qy, qz, qw of every link.
+//! Before them: a line for each warning, joint and link. `tests/compare.py` compares them with other programs.
+
+use std::io::BufRead;
+
+use robot_description::{Robot, urdf};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let file = std::env::args().nth(1).ok_or("which file?")?;
+    let parsed = urdf::read(&std::fs::read(&file)?)?;
+    for warning in &parsed.warnings {
+        println!("warning\t{warning}");
+    }
+    print_parts(&parsed.value);
+    for line in std::io::stdin().lock().lines() {
+        println!("poses\t{}", poses(&parsed.value, &line?)?);
+    }
+    Ok(())
+}
+
+fn print_parts(robot: &Robot) {
+    for joint in &robot.joints {
+        println!("joint\t{}\t{:?}\t{}", joint.name, joint.kind, joint.mimic.is_some());
+    }
+    for link in &robot.links {
+        let Some(inertial) = &link.inertial else {
+            println!("link\t{}", link.name);
+            continue;
+        };
+        let com = inertial.pose.translation.vector;
+        let rotation = inertial.pose.rotation.coords;
+        let numbers: Vec<f64> = [inertial.mass]
+            .into_iter()
+            .chain(com.iter().copied())
+            .chain(rotation.iter().copied())
+            .chain(inertial.inertia)
+            .collect();
+        println!("link\t{}\t{}", link.name, joined(&numbers));
+    }
+}
+
+fn poses(robot: &Robot, line: &str) -> Result<String, Box<dyn std::error::Error>> {
+    let mut positions = robot.zero_positions();
+    for pair in line.split('\t').filter(|pair| !pair.is_empty()) {
+        let (name, value) = pair.rsplit_once('=').ok_or("pairs are joint=position")?;
+        let index = robot.joint(name).ok_or_else(|| format!("no joint '{name}'"))?;
+        let start: usize = robot.joints[..index].iter().map(|joint| joint.kind.numbers()).sum();
+        positions[start] = value.parse()?;
+    }
+    let poses = robot.link_poses(&positions)?;
+    let numbers = poses.iter().flat_map(|pose| {
+        pose.translation.vector.iter().chain(pose.rotation.coords.iter()).copied().collect::<Vec<f64>>()
+    });
+    Ok(joined(&numbers.collect::<Vec<f64>>()))
+}
+
+fn joined(numbers: &[f64]) -> String {
+    numbers.iter().map(f64::to_string).collect::<Vec<String>>().join(" ")
+}

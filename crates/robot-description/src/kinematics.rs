@@ -1,0 +1,141 @@
+//! Where the links are at positions of the joints.
+
+use nalgebra::{Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
+
+use crate::limits;
+use crate::model::{Joint, JointKind, Pose, Robot};
+
+/// Positions that do not belong to the robot.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("the joints of '{robot}' have {expected} positions, not {found}")]
+pub struct PositionError {
+    pub robot: String,
+    pub expected: usize,
+    pub found: usize,
+}
+
+impl Robot {
+    /// How many numbers the positions of all joints have ([`JointKind::numbers`]).
+    pub fn position_count(&self) -> usize {
+        self.joints.iter().map(|joint| joint.kind.numbers()).sum()
+    }
+
+    /// The positions where all joints are at their zero.
+    pub fn zero_positions(&self) -> Vec<f64> {
+        let zero = |joint: &Joint| match joint.kind {
+            JointKind::Spherical => vec![0.0, 0.0, 0.0, 1.0],
+            JointKind::Floating => vec![0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+            kind => vec![0.0; kind.numbers()],
+        };
+        self.joints.iter().flat_map(zero).collect()
+    }
+
+    /// The frames of all links in the robot's frame. Positions are in the order of the joints; that of a joint that mimics another one is not looked at.
+    ///
+    /// # Errors
+    ///
+    /// If there are not as many positions as the joints have.
+    pub fn link_poses(&self, positions: &[f64]) -> Result<Vec<Pose>, PositionError> {
+        let expected = self.position_count();
+        if positions.len() != expected {
+            return Err(PositionError { robot: self.name.clone(), expected, found: positions.len() });
+        }
+        let starts = self.position_starts();
+        let parents = self.parent_joints();
+        let mut poses: Vec<Pose> = self.links.iter().map(|link| link.pose).collect();
+        for link in self.links_from_the_roots() {
+            if let Some(index) = parents[link] {
+                let joint = &self.joints[index];
+                let motion = self.motion(index, positions, &starts);
+                poses[link] = poses[joint.parent] * joint.origin * motion * joint.child_pose;
+            }
+        }
+        Ok(poses)
+    }
+
+    fn position_starts(&self) -> Vec<usize> {
+        let add = |start: &mut usize, joint: &Joint| {
+            let at = *start;
+            *start += joint.kind.numbers();
+            Some(at)
+        };
+        self.joints.iter().scan(0, add).collect()
+    }
+
+    fn motion(&self, index: usize, positions: &[f64], starts: &[usize]) -> Pose {
+        let joint = &self.joints[index];
+        if joint.mimic.is_some() && joint.kind.numbers() == 1 {
+            return joint.motion(&[self.mimicked(index, positions, starts)]);
+        }
+        joint.motion(&positions[starts[index]..starts[index] + joint.kind.numbers()])
+    }
+
+    /// The position that a chain of joints that mimic each other leads to.
+    fn mimicked(&self, index: usize, positions: &[f64], starts: &[usize]) -> f64 {
+        let (mut factor, mut sum, mut at) = (1.0, 0.0, index);
+        for _ in 0..=limits::MIMIC_CHAIN {
+            let Some(mimic) = self.joints[at].mimic else { break };
+            sum += factor * mimic.offset;
+            factor *= mimic.multiplier;
+            at = mimic.joint;
+        }
+        let master = if self.joints[at].kind.numbers() == 1 { positions[starts[at]] } else { 0.0 };
+        factor * master + sum
+    }
+}
+
+impl Joint {
+    /// The axis with length 1; x if there is none.
+    pub fn unit_axis(&self) -> Unit<Vector3<f64>> {
+        Unit::try_new(Vector3::from(self.axis), 1e-9).unwrap_or_else(Vector3::x_axis)
+    }
+
+    /// How far a position of the joint moves its frame.
+    fn motion(&self, position: &[f64]) -> Pose {
+        let axis = self.unit_axis();
+        match (self.kind, position) {
+            (JointKind::Revolute | JointKind::Continuous, [angle]) => {
+                Pose::from_parts(Translation3::identity(), turn(&axis, *angle))
+            }
+            (JointKind::Prismatic, [distance]) => Translation3::from(axis.into_inner() * *distance).into(),
+            (JointKind::Planar, [u, v, angle]) => {
+                let to_axis = UnitQuaternion::rotation_between(&Vector3::z(), &axis)
+                    .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI));
+                Pose::from_parts(Translation3::from(to_axis * Vector3::new(*u, *v, 0.0)), turn(&axis, *angle))
+            }
+            (JointKind::Spherical, [x, y, z, w]) => {
+                Pose::from_parts(Translation3::identity(), rotation([*x, *y, *z, *w]))
+            }
+            (JointKind::Floating, [px, py, pz, x, y, z, w]) => {
+                Pose::from_parts(Translation3::new(*px, *py, *pz), rotation([*x, *y, *z, *w]))
+            }
+            _ => Pose::identity(),
+        }
+    }
+}
+
+/// A rotation about an axis, with sine and cosine that are the same on every machine.
+fn turn(axis: &Unit<Vector3<f64>>, angle: f64) -> UnitQuaternion<f64> {
+    let (sine, cosine) = libm::sincos(angle / 2.0);
+    UnitQuaternion::new_unchecked(Quaternion::from_parts(cosine, axis.into_inner() * sine))
+}
+
+fn rotation([x, y, z, w]: [f64; 4]) -> UnitQuaternion<f64> {
+    UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9).unwrap_or_default()
+}
+
+/// The rotation of roll, pitch and yaw: about x, then y, then z of the fixed frame.
+pub fn from_rpy([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {
+    turn(&Vector3::z_axis(), yaw) * turn(&Vector3::y_axis(), pitch) * turn(&Vector3::x_axis(), roll)
+}
+
+/// Roll, pitch and yaw of a rotation; where pitch is a quarter turn, yaw is 0.
+pub fn to_rpy(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
+    let m = rotation.to_rotation_matrix();
+    let across = libm::hypot(m[(0, 0)], m[(1, 0)]);
+    let pitch = libm::atan2(-m[(2, 0)], across);
+    if across > 1e-7 {
+        return [libm::atan2(m[(2, 1)], m[(2, 2)]), pitch, libm::atan2(m[(1, 0)], m[(0, 0)])];
+    }
+    [libm::atan2(-m[(1, 2)], m[(1, 1)]), pitch, 0.0]
+}

@@ -1,0 +1,47 @@
+//! Descriptions of robots: URDF as plain values, with warnings instead of failures, and written again.
+//!
+//! This crate knows no scene and opens no file: the caller passes bytes, and says which files exist.
+//!
+//! | to | look at |
+//! |---|---|
+//! | read and write URDF | [`urdf::read`], [`urdf::write`] |
+//! | see what was read | [`Robot`], and the [`Warning`]s beside it |
+//! | find the meshes that a file names | [`Search`] |
+//! | place the links at positions of the joints | [`Robot::link_poses`] |
+//!
+//! # Bad files
+//!
+//! Files of users have errors that other programs do not mind. What can be read is read; each guess, and each element that is not understood, is a
+//! warning with its line. Only text that is no XML, has no robot, or exceeds a [limit](limits) is refused ([`ReadError`]).
+//!
+//! # Units
+//!
+//! Metres, radians, kilograms, seconds, newtons; poses are frames in the frame of their parent.
+
+mod kinematics;
+mod model;
+mod report;
+mod resolve;
+mod tree;
+pub mod urdf;
+mod xml;
+
+pub use kinematics::PositionError;
+pub use model::{
+    Collision, Dynamics, Geometry, Inertial, Joint, JointKind, Limits, Link, Material, Mimic, Pose, Robot, Sensor,
+    SensorKind, Visual,
+};
+pub use report::{Parsed, ReadError, Warning, WarningKind};
+pub use resolve::{Search, Unresolved};
+
+/// What a file may have at most, so that memory stays bounded by its size.
+pub mod limits {
+    /// Bytes of a file.
+    pub const BYTES: usize = 64 << 20;
+    /// Elements, attributes and texts of a file.
+    pub const NODES: u32 = 1_000_000;
+    /// Warnings that are told apart; of others only the number is known.
+    pub const WARNINGS: usize = 500;
+    /// Joints that mimic one that mimics another one.
+    pub const MIMIC_CHAIN: usize = 16;
+}
