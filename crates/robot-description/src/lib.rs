@@ -1,10 +1,11 @@
-//! Descriptions of robots: URDF as plain values, with warnings instead of failures, and written again.
+//! Descriptions of robots: URDF and SDF as plain values, with warnings instead of failures; URDF is written as well.
 //!
 //! This crate knows no scene and opens no file: the caller passes bytes, and says which files exist.
 //!
 //! | to | look at |
 //! |---|---|
 //! | read and write URDF | [`urdf::read`], [`urdf::write`] |
+//! | read models and worlds in SDF | [`sdf::read`] |
 //! | see what was read | [`Robot`], and the [`Warning`]s beside it |
 //! | find the meshes that a file names | [`Search`] |
 //! | place the links at positions of the joints | [`Robot::link_poses`] |
@@ -22,6 +23,7 @@ mod kinematics;
 mod model;
 mod report;
 mod resolve;
+pub mod sdf;
 mod tree;
 pub mod urdf;
 mod xml;

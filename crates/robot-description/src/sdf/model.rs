@@ -1,0 +1,391 @@
+//! Models of an SDF file: collected with all that is inside of them, then placed.
+
+use std::collections::BTreeMap;
+
+use roxmltree::Node;
+
+use super::Model;
+use super::frames::{Frame, Frames, MODEL, WORLD};
+use super::include::Reader;
+use super::joint::{AxisText, JointText, read_joint};
+use super::link::{read_link, read_sensors};
+use super::value::{PoseText, is_true, pose, text};
+use crate::model::{Joint, JointKind, Link, Mimic, Pose, Robot, Sensor};
+use crate::xml::{self, Source, elements, named, short};
+
+/// Models inside of models.
+const DEEPEST: usize = 32;
+
+/// Reads the models, and the files, inside of a world or a file.
+pub fn read_models(reader: &mut Reader, source: &mut Source, node: Node, version: f64) -> Vec<Model> {
+    let mut collection = Collection { reader, frames: Frames::default(), placements: Vec::new() };
+    for frame in named(node, "frame") {
+        collection.add_frame(source, frame, "", WORLD);
+    }
+    let mut drafts: Vec<Draft> = Vec::new();
+    for child in elements(node) {
+        let mut draft = Draft::default();
+        let read =
+            collection.add_any_model(source, child, Place { scope: "", folder: "", depth: 0, version }, &mut draft);
+        if read && drafts.iter().any(|other| other.name == draft.name) {
+            source.warn(child, format!("there is a model '{}' before it; this one is left out", short(&draft.name)));
+        } else if read {
+            drafts.push(draft);
+        }
+    }
+    let frames = collection.finish(source, node);
+    drafts.into_iter().map(|draft| draft.placed(&frames, source, node)).collect()
+}
+
+/// Where a model is read.
+#[derive(Debug, Clone, Copy)]
+struct Place<'a> {
+    /// What is before the names of its parts: `outer::inner::`, or nothing.
+    scope: &'a str,
+    folder: &'a str,
+    depth: usize,
+    version: f64,
+}
+
+/// What an `<include>` says about the model of its file.
+#[derive(Default)]
+struct Overrides {
+    name: Option<String>,
+    pose: Option<PoseText>,
+    is_static: bool,
+    placement: Option<String>,
+}
+
+/// A model as it is read, with those inside of it.
+#[derive(Default)]
+struct Draft {
+    name: String,
+    is_static: bool,
+    /// With their full names.
+    links: Vec<(String, Link)>,
+    /// With the scopes that their names are in.
+    joints: Vec<(String, JointText)>,
+    sensors: Vec<Sensor>,
+}
+
+struct Collection<'r, 'i> {
+    reader: &'r mut Reader<'i>,
+    frames: Frames,
+    /// Models, and the frames that they are placed by.
+    placements: Vec<(String, String)>,
+}
+
+impl Collection<'_, '_> {
+    /// Adds a `<model>` or an `<include>` to a draft. False if it is neither, or cannot be read.
+    fn add_any_model(&mut self, source: &mut Source, node: Node, place: Place, draft: &mut Draft) -> bool {
+        match node.tag_name().name() {
+            "model" => self.add_model(source, node, place, draft, Overrides::default()),
+            "include" => self.add_file(source, node, place, draft),
+            _ => return false,
+        }
+    }
+
+    fn add_file(&mut self, source: &mut Source, node: Node, place: Place, draft: &mut Draft) -> bool {
+        let Some(uri) = text(source, node, "uri") else {
+            source.warn(node, "has no uri; it is left out");
+            return false;
+        };
+        let overrides = Overrides {
+            name: text(source, node, "name"),
+            pose: pose(source, node),
+            is_static: is_true(source, node, "static"),
+            placement: text(source, node, "placement_frame"),
+        };
+        let file = match self.reader.open(&uri) {
+            Ok(file) => file,
+            Err(reason) => {
+                source.leave_out(node, format!("'{}': {reason}", short(&uri)));
+                return false;
+            }
+        };
+        let place = Place { folder: &file.folder, ..place };
+        let outcome = self.add_text(&file.bytes, place, draft, overrides);
+        outcome.unwrap_or_else(|reason| {
+            self.reader.close(Vec::new());
+            source.leave_out(node, format!("'{}': {reason}", short(&uri)));
+            false
+        })
+    }
+
+    fn add_text(
+        &mut self,
+        bytes: &[u8],
+        place: Place,
+        draft: &mut Draft,
+        overrides: Overrides,
+    ) -> Result<bool, String> {
+        let before = xml::lines_before(bytes);
+        let text = xml::text_of(bytes).map_err(|error| error.to_string())?;
+        let document = xml::document(&text, before).map_err(|error| error.to_string())?;
+        let root = document.root_element();
+        let mut source = Source::new(&text, before);
+        let version = source.number(root, "version").unwrap_or(place.version);
+        let model = named(root, "model").next().ok_or("it has no model")?;
+        let read = self.add_model(&mut source, model, Place { version, ..place }, draft, overrides);
+        self.reader.close(source.finish(()).warnings);
+        Ok(read)
+    }
+
+    fn add_model(
+        &mut self,
+        source: &mut Source,
+        node: Node,
+        place: Place,
+        draft: &mut Draft,
+        overrides: Overrides,
+    ) -> bool {
+        if place.depth >= DEEPEST {
+            source.leave_out(node, format!("more than {DEEPEST} models inside of each other are not read"));
+            return false;
+        }
+        let name = overrides.name.unwrap_or_else(|| source.required(node, "name"));
+        let scope = format!("{}{name}::", place.scope);
+        let frame = format!("{scope}{MODEL}");
+        let outer = if place.scope.is_empty() { WORLD.to_owned() } else { format!("{}{MODEL}", place.scope) };
+        let own_pose = overrides.pose.or_else(|| pose(source, node)).unwrap_or_else(no_pose);
+        self.add_placed(frame.clone(), place.scope, own_pose, outer, None);
+        let placement = overrides.placement.or_else(|| node.attribute("placement_frame").map(str::to_owned));
+        self.placements.extend(placement.filter(|name| !name.is_empty()).map(|name| (scope.clone(), name)));
+        if place.depth == 0 {
+            draft.is_static = overrides.is_static || is_true(source, node, "static");
+            draft.name = name;
+        }
+        self.add_parts(source, node, Place { scope: &scope, depth: place.depth + 1, ..place }, draft);
+        let first = draft.links.iter().find(|(full, _)| full.starts_with(&scope)).map(|(full, _)| full.clone());
+        let canonical = node.attribute("canonical_link").map(|link| format!("{scope}{link}"));
+        if let Some(link) = canonical.or(first) {
+            self.frames.attach(&frame, link);
+        }
+        true
+    }
+
+    fn add_parts(&mut self, source: &mut Source, node: Node, place: Place, draft: &mut Draft) {
+        let model = format!("{}{MODEL}", place.scope);
+        for child in elements(node) {
+            match child.tag_name().name() {
+                "link" => {
+                    let full = format!("{}{}", place.scope, source.required(child, "name"));
+                    let pose = pose(source, child).unwrap_or_else(no_pose);
+                    self.add_placed(full.clone(), place.scope, pose, model.clone(), Some(full.clone()));
+                    draft.sensors.extend(read_sensors(source, child, draft.links.len()));
+                    draft.links.push((full.clone(), read_link(source, child, full, place.folder)));
+                }
+                "joint" => {
+                    let joint = read_joint(source, child, place.version);
+                    let inside = if joint.pose.relative_to.is_empty() {
+                        joint.child.clone()
+                    } else {
+                        joint.pose.relative_to.clone()
+                    };
+                    let pose = PoseText { pose: joint.pose.pose, relative_to: inside };
+                    self.add_placed(format!("{}{}", place.scope, joint.name), place.scope, pose, model.clone(), None);
+                    draft.joints.push((place.scope.to_owned(), joint));
+                }
+                "frame" => self.add_frame(source, child, place.scope, &model),
+                "model" | "include" => drop(self.add_any_model(source, child, place, draft)),
+                _ => {}
+            }
+        }
+    }
+
+    fn add_frame(&mut self, source: &mut Source, node: Node, scope: &str, model: &str) {
+        let name = format!("{scope}{}", source.required(node, "name"));
+        let attached = node.attribute("attached_to").unwrap_or_default().trim().to_owned();
+        let mut pose = pose(source, node).unwrap_or_else(no_pose);
+        if pose.relative_to.is_empty() {
+            pose.relative_to.clone_from(&attached);
+        }
+        let frame = Frame {
+            inside: model.to_owned(),
+            pose: pose.pose,
+            attached_to: model.to_owned(),
+            scope: scope.to_owned(),
+            said_inside: pose.relative_to,
+            said_attached_to: attached,
+        };
+        self.frames.add(name, frame);
+    }
+
+    /// Adds the frame of a part. `attached_to` is its own name, or what it is in.
+    fn add_placed(&mut self, name: String, scope: &str, pose: PoseText, inside: String, attached_to: Option<String>) {
+        let attached_to = attached_to.unwrap_or_else(|| inside.clone());
+        let frame = Frame {
+            inside,
+            pose: pose.pose,
+            attached_to,
+            scope: scope.to_owned(),
+            said_inside: pose.relative_to,
+            said_attached_to: String::new(),
+        };
+        self.frames.add(name, frame);
+    }
+
+    fn finish(mut self, source: &mut Source, node: Node) -> Frames {
+        for unknown in self.frames.resolve_names() {
+            source.warn(node, format!("there is no frame '{}': the usual one is taken", short(&unknown)));
+        }
+        for (scope, name) in self.placements.iter().rev() {
+            let model = format!("{scope}{MODEL}");
+            let frame = self.frames.full_name(scope, name);
+            if !frame.is_some_and(|frame| self.frames.place_by(&model, &frame)) {
+                source.warn(node, format!("the placement frame '{}' is not in its model", short(name)));
+            }
+        }
+        self.frames
+    }
+}
+
+fn no_pose() -> PoseText {
+    PoseText { pose: Pose::identity(), relative_to: String::new() }
+}
+
+impl Draft {
+    /// The model with all poses, relative to it.
+    fn placed(self, frames: &Frames, source: &mut Source, node: Node) -> Model {
+        let scope = format!("{}::", self.name);
+        let pose = frames.in_world(&format!("{scope}{MODEL}")).unwrap_or_else(Pose::identity);
+        let mut robot = Robot { name: self.name, sensors: self.sensors, ..Robot::default() };
+        let mut index = BTreeMap::new();
+        for (full, mut link) in self.links {
+            link.pose = match frames.in_world(&full) {
+                Some(placed) => pose.inverse() * placed,
+                None => {
+                    source.warn(node, format!("the pose of '{}' is defined in itself", short(&full)));
+                    Pose::identity()
+                }
+            };
+            link.name = full.strip_prefix(&scope).unwrap_or(&full).to_owned();
+            index.entry(full).or_insert(robot.links.len());
+            robot.links.push(link);
+        }
+        let mut assembly =
+            Assembly { frames, robot, index, model: pose, mimics: Vec::new(), first_axes: BTreeMap::new() };
+        for (joint_scope, joint) in self.joints {
+            if let Err(reason) = assembly.add_joint(&scope, &joint_scope, &joint) {
+                source.warn(
+                    node,
+                    format!("joint '{}' (line {}): {reason}; it is left out", short(&joint.name), joint.line),
+                );
+            }
+        }
+        Model { robot: assembly.finish(), pose, is_static: self.is_static }
+    }
+}
+
+/// A robot whose joints are being added.
+struct Assembly<'a> {
+    frames: &'a Frames,
+    robot: Robot,
+    /// Links by their full names.
+    index: BTreeMap<String, usize>,
+    /// The model in the world.
+    model: Pose,
+    /// Joints, the full names of those that they mimic, multiplier and offset.
+    mimics: Vec<(usize, String, f64, f64)>,
+    /// Joints by their full names.
+    first_axes: BTreeMap<String, usize>,
+}
+
+impl Assembly<'_> {
+    fn add_joint(&mut self, model: &str, scope: &str, text: &JointText) -> Result<(), String> {
+        let parent = self.end(scope, &text.parent)?;
+        let child = self.end(scope, &text.child)?;
+        let full = format!("{scope}{}", text.name);
+        let frame = self.frames.in_world(&full).ok_or("its pose is defined in itself")?;
+        let in_model = self.model.inverse() * frame;
+        let origin = self.robot.links[parent].pose.inverse() * in_model;
+        let child_pose = in_model.inverse() * self.robot.links[child].pose;
+        let name = full.strip_prefix(model).unwrap_or(&full).to_owned();
+        self.first_axes.entry(full).or_insert(self.robot.joints.len());
+        let axes =
+            text.axes.iter().map(Some).chain(std::iter::once(None)).take(text.axes.len().max(1)).collect::<Vec<_>>();
+        let [first, rest @ ..] = axes.as_slice() else { return Ok(()) };
+        if rest.is_empty() {
+            return self.push(scope, name, text, *first, ([parent, child], [origin, child_pose], frame));
+        }
+        // Two axes: a link without mass is between them.
+        let cross = Link { name: format!("{name}_cross"), pose: in_model, ..Link::default() };
+        self.robot.links.push(cross);
+        let between = self.robot.links.len() - 1;
+        self.push(scope, name.clone(), text, *first, ([parent, between], [origin, Pose::identity()], frame))?;
+        let second = format!("{name}_2");
+        self.push(scope, second, text, rest[0], ([between, child], [Pose::identity(), child_pose], frame))
+    }
+
+    /// Adds a joint with one axis. `at` has its ends, its frame in the parent's with the child's in its own, and its frame in the world.
+    fn push(
+        &mut self,
+        scope: &str,
+        name: String,
+        text: &JointText,
+        axis: Option<&AxisText>,
+        at: ([usize; 2], [Pose; 2], Pose),
+    ) -> Result<(), String> {
+        let ([parent, child], [origin, child_pose], frame) = at;
+        let mut joint = Joint {
+            name,
+            kind: text.kind,
+            parent,
+            child,
+            origin,
+            child_pose,
+            axis: [0.0, 0.0, 1.0],
+            limits: Default::default(),
+            dynamics: Default::default(),
+            mimic: None,
+            line: text.line,
+        };
+        if let Some(axis) = axis {
+            joint.axis = self.axis(scope, axis, &frame)?;
+            (joint.limits, joint.dynamics) = (axis.limits, axis.dynamics);
+            let is_endless = axis.limits.lower.is_none() && axis.limits.upper.is_none();
+            if joint.kind == JointKind::Revolute && is_endless {
+                joint.kind = JointKind::Continuous;
+            }
+            let mimic = axis
+                .mimic
+                .iter()
+                .map(|(master, multiplier, offset)| (format!("{scope}{master}"), *multiplier, *offset));
+            let index = self.robot.joints.len();
+            self.mimics.extend(mimic.map(|(master, multiplier, offset)| (index, master, multiplier, offset)));
+        }
+        self.robot.joints.push(joint);
+        Ok(())
+    }
+
+    fn axis(&self, scope: &str, axis: &AxisText, joint: &Pose) -> Result<[f64; 3], String> {
+        if axis.expressed_in.is_empty() {
+            return Ok(axis.xyz);
+        }
+        let unknown = || format!("there is no frame '{}' for its axis", short(&axis.expressed_in));
+        let full = self.frames.full_name(scope, &axis.expressed_in).ok_or_else(unknown)?;
+        let frame = self.frames.in_world(&full).ok_or_else(unknown)?;
+        Ok((joint.rotation.inverse() * frame.rotation * nalgebra::Vector3::from(axis.xyz)).into())
+    }
+
+    /// The link at an end of a joint; the world is one, if a joint names it.
+    fn end(&mut self, scope: &str, name: &str) -> Result<usize, String> {
+        let missing = || format!("there is no link '{}'", short(name));
+        let full = self.frames.full_name(scope, name).ok_or_else(missing)?;
+        let link = self.frames.link_of(&full).ok_or_else(missing)?;
+        if link == WORLD && !self.index.contains_key(WORLD) {
+            self.index.insert(WORLD.to_owned(), self.robot.links.len());
+            self.robot.links.push(Link { name: WORLD.to_owned(), pose: self.model.inverse(), ..Link::default() });
+        }
+        self.index.get(&link).copied().ok_or_else(missing)
+    }
+
+    fn finish(mut self) -> Robot {
+        for (index, master, multiplier, offset) in &self.mimics {
+            if let Some(joint) = self.first_axes.get(master).copied().filter(|joint| joint != index) {
+                self.robot.joints[*index].mimic = Some(Mimic { joint, multiplier: *multiplier, offset: *offset });
+            }
+        }
+        self.robot
+    }
+}
