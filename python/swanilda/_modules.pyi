@@ -8679,6 +8679,17 @@ class _simUI:
         text: of each column
         """
 
+class _simURDF:
+    def export(self, modelHandle: int, fileName: str, options: int | None = ..., /) -> None:
+        """Writes a model as a URDF file, with files in OBJ beside it for meshes that are no primitives.
+
+        Shapes become links: those that others touch are collisions, those on visible layers are visuals, those that are not static have mass. Force
+        sensors become fixed joints.
+        modelHandle: the base of the model
+        fileName: ends with `.urdf`
+        options: 1: dummies become small red cubes, 2: frames of meshes are those of their joints, 4: joints are exported with their positions as zero
+        """
+
 class _simVision:
     def addBuffer1ToWorkImg(self, visionSensorHandle: int, /) -> bool:
         """Adds the first buffer to the work image; values are at most 1.
@@ -10014,6 +10025,8 @@ class Requires:
     def require(self, name: Literal["simSubprocess"], script: int | None = None) -> _simSubprocess: ...
     @overload
     def require(self, name: Literal["simUI"], script: int | None = None) -> _simUI: ...
+    @overload
+    def require(self, name: Literal["simURDF"], script: int | None = None) -> _simURDF: ...
     @overload
     def require(self, name: Literal["simVision"], script: int | None = None) -> _simVision: ...
     @overload

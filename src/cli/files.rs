@@ -1,7 +1,9 @@
-//! Scenes and models of the command line: files, and folders made by `unpack`.
+//! Scenes and models of the command line: files, robots in URDF, and folders made by `unpack`.
 
 use std::path::Path;
 
+use super::complain;
+use crate::format::robot_file::RobotFile;
 use crate::format::scene_file::{self, SceneFile};
 use crate::format::scene_folder;
 use crate::format::script_file;
@@ -14,6 +16,12 @@ pub(super) fn file(path: &Path) -> Result<File, String> {
     let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
     if scene_folder::is_scene(path) {
         return scene_folder::pack(path, &Permissions::all()).map_err(unreadable);
+    }
+    if RobotFile::has_name_of(path) {
+        let model = RobotFile::read(path, None, &Permissions::all()).and_then(RobotFile::model);
+        let (file, messages) = model.map_err(unreadable)?;
+        messages.iter().for_each(|message| complain(&format!("{}: {message}", path.display())));
+        return Ok(file);
     }
     script_file::check_no_robot(path).map_err(|reason| unreadable(reason.to_string()))?;
     scene_file::read_path(path).map_err(unreadable)

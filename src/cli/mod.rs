@@ -6,6 +6,7 @@
 mod api;
 mod batch;
 mod batch_ray;
+mod convert;
 mod diff;
 mod doctor;
 mod export;
@@ -58,6 +59,7 @@ enum Command {
     Inspect(inspect::Args),
     Unpack(unpack::UnpackArgs),
     Pack(unpack::PackArgs),
+    Convert(convert::Args),
     Diff(diff::Args),
     Init(init::Args),
     /// Print a completion script for a shell
@@ -110,6 +112,7 @@ impl Command {
             Self::Inspect(args) => inspect::inspect(&args),
             Self::Unpack(args) => unpack::unpack(&args),
             Self::Pack(args) => unpack::pack(&args),
+            Self::Convert(args) => convert::convert(&args),
             Self::Diff(args) => diff::diff(&args),
             Self::Init(args) => init::init(&args),
             Self::Completions { shell } => {

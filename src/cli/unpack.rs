@@ -35,14 +35,18 @@ pub(super) fn unpack(args: &UnpackArgs) -> Outcome {
 }
 
 pub(super) fn pack(args: &PackArgs) -> Outcome {
-    let file = files::file(&args.folder)?;
-    let (variant, path) = Variant::of_name(args.file.to_str().unwrap_or_default());
-    let (path, bytes) = match variant {
-        Some(variant) => (Path::new(path), xml::write(&as_saved(file)?, variant).into_bytes()),
-        None => (args.file.as_path(), readable_bytes(&file, None).map_err(|error| error.to_string())?),
-    };
-    write_whole(path, &bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    write(files::file(&args.folder)?, &args.file)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Writes a scene or model; the ending of the name says in which format.
+pub(super) fn write(file: File, path: &Path) -> Result<(), String> {
+    let (variant, name) = Variant::of_name(path.to_str().unwrap_or_default());
+    let (path, bytes) = match variant {
+        Some(variant) => (Path::new(name), xml::write(&as_saved(file)?, variant).into_bytes()),
+        None => (path, readable_bytes(&file, None).map_err(|error| error.to_string())?),
+    };
+    write_whole(path, &bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))
 }
 
 /// XML has elements for what CoppeliaSim saves today, not for data of older versions.

@@ -6,6 +6,7 @@ pub(crate) mod picture;
 #[cfg(feature = "plots")]
 pub(crate) mod plot;
 
+pub(crate) mod robot_file;
 pub(crate) mod scene_file;
 pub(crate) mod scene_folder;
 pub(crate) mod scene_input;

@@ -1,7 +1,8 @@
-//! A scene as users name it: a Lua file, a file of CoppeliaSim, or a folder made by `unpack`.
+//! A scene as users name it: a Lua file, a file of CoppeliaSim, a robot in URDF, or a folder made by `unpack`.
 
 use std::path::Path;
 
+use super::robot_file::RobotFile;
 use super::scene_file::{self, SceneFile, ScriptSources};
 use super::scene_folder;
 use super::script_file;
@@ -22,9 +23,15 @@ pub struct InputFile {
     file: File,
     /// Where the texts of its scripts are, of an unpacked scene.
     sources: ScriptSources,
+    messages: Vec<String>,
 }
 
 impl InputFile {
+    /// What was guessed or left out while it was read, a line each.
+    pub fn messages(&self) -> &[String] {
+        &self.messages
+    }
+
     /// # Errors
     /// When geometry is damaged.
     pub fn scene(&self) -> FileResult<SceneFile> {
@@ -54,17 +61,25 @@ fn read_folder(path: &Path, permissions: &Permissions) -> Result<SceneInput, Str
     if !scene_folder::is_scene(path) {
         return Err("it is a folder, and no unpacked scene: scene.json is missing".into());
     }
-    let file =
-        InputFile { file: scene_folder::pack(path, permissions)?, sources: scene_folder::sources(path, permissions)? };
-    Ok(SceneInput::File(Box::new(file)))
+    let (file, sources) = (scene_folder::pack(path, permissions)?, scene_folder::sources(path, permissions)?);
+    Ok(SceneInput::File(Box::new(InputFile { file, sources, messages: Vec::new() })))
+}
+
+/// A robot becomes a model, with the usual options.
+fn read_robot(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
+    let (file, messages) = RobotFile::read(path, None, permissions)?.model()?;
+    Ok(SceneInput::File(Box::new(InputFile { file, sources: ScriptSources::default(), messages })))
 }
 
 fn read_file(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
+    if RobotFile::has_name_of(path) {
+        return read_robot(path, permissions);
+    }
     let bytes = read_bounded(path).map_err(|error| error.to_string())?;
     if !scene_file::is_scene(&bytes) || script_file::check_no_robot(path).is_err() {
         script_file::check(path, &bytes).map_err(|reason| reason.to_string())?;
         return Ok(SceneInput::Script(bytes));
     }
     let file = scene_file::read_file(&bytes, path.parent(), permissions).map_err(|error| error.to_string())?;
-    Ok(SceneInput::File(Box::new(InputFile { file, sources: ScriptSources::default() })))
+    Ok(SceneInput::File(Box::new(InputFile { file, sources: ScriptSources::default(), messages: Vec::new() })))
 }

@@ -13,6 +13,8 @@ pub enum NotAScript {
     NotAScene,
     #[error("robots described in {0} cannot be imported yet (docs/PLUGINS.md)")]
     Robot(&'static str),
+    #[error("it is a xacro file. Expand it first: xacro FILE > robot.urdf (pip install xacro, or a ROS installation)")]
+    Xacro,
     #[error("it holds a mesh, and no scene")]
     Mesh,
     #[error("it is a part of an unpacked scene: name the folder instead")]
@@ -24,9 +26,12 @@ pub enum NotAScript {
 /// Checks that the name is not that of a robot's description: some are XML, as scenes may be.
 ///
 /// # Errors
-/// [`NotAScript::Robot`].
+/// [`NotAScript::Robot`], [`NotAScript::Xacro`].
 pub fn check_no_robot(path: &Path) -> Result<(), NotAScript> {
     let name = path.to_string_lossy().to_lowercase();
+    if name.ends_with(".xacro") {
+        return Err(NotAScript::Xacro);
+    }
     let found = ROBOTS.iter().find(|(ending, _)| name.ends_with(ending));
     found.map_or(Ok(()), |(_, format)| Err(NotAScript::Robot(format)))
 }
@@ -73,7 +78,7 @@ pub(crate) fn language(path: Option<&Path>, text: &[u8]) -> &'static str {
 }
 
 /// Descriptions of robots, by the endings of their files.
-const ROBOTS: [(&str, &str); 4] = [(".urdf", "URDF"), (".xacro", "URDF"), (".sdf", "SDF"), (".mjcf", "MJCF")];
+const ROBOTS: [(&str, &str); 2] = [(".sdf", "SDF"), (".mjcf", "MJCF")];
 
 #[cfg(test)]
 mod tests {
@@ -87,10 +92,11 @@ mod tests {
     fn names_of_other_kinds_are_no_scripts() {
         assert_eq!(refusal("r.ttt", b"print(1)"), Some(NotAScript::NotAScene));
         assert_eq!(refusal("a/R.TTM", b"\x8f\x00"), Some(NotAScript::NotAScene));
-        assert_eq!(refusal("x.urdf", b"<robot/>"), Some(NotAScript::Robot("URDF")));
+        assert_eq!(refusal("x.sdf", b"<sdf/>"), Some(NotAScript::Robot("SDF")));
+        assert_eq!(refusal("x.urdf.xacro", b"<robot/>"), Some(NotAScript::Xacro));
         assert_eq!(refusal("x.stl", b"solid x"), Some(NotAScript::Mesh));
         assert_eq!(refusal("x/scene.json", b"{}"), Some(NotAScript::PartOfFolder));
-        for name in ["x.ttt", "x.urdf", "x"] {
+        for name in ["x.ttt", "x.sdf", "x"] {
             assert_eq!(refusal(name, b""), Some(NotAScript::Empty), "{name}");
         }
     }

@@ -16,6 +16,7 @@ mod sim_ompl;
 pub(crate) mod sim_remote_api;
 mod sim_subprocess;
 mod sim_ui;
+mod sim_urdf;
 mod sim_vision;
 mod sim_ws;
 pub(crate) mod sim_zmq;
@@ -52,6 +53,7 @@ pub(crate) static ALL: &[&Module] = &[
     &sim_remote_api::MODULE,
     &sim_subprocess::MODULE,
     &sim_ui::MODULE,
+    &sim_urdf::MODULE,
     &sim_vision::MODULE,
     &sim_ws::MODULE,
     &sim_zmq::MODULE,

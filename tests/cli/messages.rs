@@ -22,8 +22,10 @@ fn files_of_other_kinds_are_not_run_as_lua() {
         ("r.ttt", &noise[..], "not a scene or model of CoppeliaSim"),
         ("r", &noise, "neither a script in Lua or Python nor a scene"),
         ("empty.ttt", b"", "the file is empty"),
-        ("empty.urdf", b"", "the file is empty"),
-        ("robot.urdf", b"<?xml version='1.0'?><robot name='a'/>", "URDF cannot be imported yet"),
+        ("empty.urdf", b"", "no valid XML"),
+        ("robot.urdf", b"<?xml version='1.0'?><robot name='a'/>", "the robot has no links"),
+        ("robot.urdf.xacro", b"<?xml version='1.0'?><robot name='a'/>", "xacro FILE > robot.urdf"),
+        ("robot.sdf", b"<?xml version='1.0'?><sdf/>", "SDF cannot be imported yet"),
     ] {
         let said = said_about("run", name, content);
         assert!(said.contains(reason) && said.contains(name), "{name}: {said}");

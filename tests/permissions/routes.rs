@@ -73,6 +73,7 @@ pub const READS: &[Route] = &[
     route("sim.loadScene", "return require('sim').loadScene(FOLDER .. '/scene.ttt') == 1"),
     route("sim.loadScene, Lua", "return require('sim').loadScene(FOLDER .. '/secret.lua') == 1"),
     route("sim.loadScene, XML", "return require('sim').loadScene(FOLDER .. '/scene.xml') == 1"),
+    half("simURDF.import", "return require('simURDF').import(FOLDER .. '/secret.lua') ~= nil"),
     half("sim.loadScene, a folder", "return require('sim').loadScene(FOLDER) == 1"),
     route("sim.loadModel", "return require('sim').loadModel(FOLDER .. '/model.ttm') >= 0"),
     route("sim.loadImage", "return #require('sim').loadImage(0, FOLDER .. '/picture.png') == 12"),
@@ -128,6 +129,10 @@ pub const WRITES: &[Route] = &[
     route(
         "simAssimp.exportMeshes",
         "require('simAssimp').exportMeshes({{0,0,0, 1,0,0, 0,1,0}}, {{0,1,2}}, FOLDER .. '/new.obj', 'obj') return true",
+    ),
+    route(
+        "simURDF.export",
+        "require('simURDF').export(require('sim').createDummy(0.1), FOLDER .. '/new.urdf') return true",
     ),
     route("sim.saveImage", "require('sim').saveImage(('a'):rep(12), {2, 2}, 0, FOLDER .. '/new.png') return true"),
     route(

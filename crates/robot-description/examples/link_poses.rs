@@ -1,15 +1,15 @@
-//! Prints what was read from a file, and where its links are: `cargo run --example link_poses -- robot.urdf < positions`.
+//! Prints what was read from a URDF file, or of the first model of an SDF file, and where its links are: `cargo run --example link_poses -- robot.urdf < positions`.
 //!
 //! A line of the input has pairs `joint=position`; joints without are at 0. For each, a line of the output has x, y, z, qx, qy, qz, qw of every link.
 //! Before them: a line for each warning, joint and link. `tests/compare.py` compares them with other programs.
 
 use std::io::BufRead;
 
-use robot_description::{Robot, urdf};
+use robot_description::{Parsed, Robot, sdf, urdf};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args().nth(1).ok_or("which file?")?;
-    let parsed = urdf::read(&std::fs::read(&file)?)?;
+    let parsed = read(&file)?;
     for warning in &parsed.warnings {
         println!("warning\t{warning}");
     }
@@ -18,6 +18,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("poses\t{}", poses(&parsed.value, &line?)?);
     }
     Ok(())
+}
+
+fn read(file: &str) -> Result<Parsed<Robot>, Box<dyn std::error::Error>> {
+    let bytes = std::fs::read(file)?;
+    if file.ends_with(".urdf") {
+        return Ok(urdf::read(&bytes)?);
+    }
+    let parsed = sdf::read(&bytes, &mut |name| Err(format!("{name}: not looked for")))?;
+    let model = parsed.value.models.into_iter().next().ok_or("the file has no model")?;
+    Ok(Parsed { value: model.robot, warnings: parsed.warnings, further_warnings: parsed.further_warnings })
 }
 
 fn print_parts(robot: &Robot) {

@@ -19,8 +19,8 @@
 //!
 //! Metres, radians, kilograms, seconds, newtons; poses are frames in the frame of their parent.
 
-mod kinematics;
 mod model;
+mod positions;
 mod report;
 mod resolve;
 pub mod sdf;
@@ -28,11 +28,11 @@ mod tree;
 pub mod urdf;
 mod xml;
 
-pub use kinematics::PositionError;
 pub use model::{
     Collision, Dynamics, Geometry, Inertial, Joint, JointKind, Limits, Link, Material, Mimic, Pose, Robot, Sensor,
     SensorKind, Visual,
 };
+pub use positions::PositionError;
 pub use report::{Parsed, ReadError, Warning, WarningKind};
 pub use resolve::{Search, Unresolved};
 

@@ -6,6 +6,7 @@ use super::interrupt::Interrupt;
 use super::output::{Format, Output};
 use super::progress::Progress;
 use super::resources::ResourceArgs;
+use crate::cli::complain;
 use crate::format::scene_file::{self, SceneFile};
 use crate::format::scene_input::SceneInput;
 use crate::format::script_file;
@@ -206,7 +207,10 @@ fn read_scene(path: &Path) -> Result<Scene, String> {
     let unreadable = |error: FileError| format!("cannot read {}: {error}", path.display());
     match SceneInput::read(path, &Permissions::all())? {
         SceneInput::Script(code) => Ok(Scene::Script(Source { name: name_of(path), code, path: path.to_owned() })),
-        SceneInput::File(file) => Ok(Scene::File(Box::new(file.scene().map_err(unreadable)?))),
+        SceneInput::File(file) => {
+            file.messages().iter().for_each(|message| complain(&format!("{}: {message}", path.display())));
+            Ok(Scene::File(Box::new(file.scene().map_err(unreadable)?)))
+        }
     }
 }
 

@@ -224,6 +224,16 @@ impl Scene {
     }
 }
 
+impl Shape {
+    /// One shape of several, with their poses in its frame: material and flags of `master`, the mass of all.
+    ///
+    /// # Errors
+    /// When there are none, or they have no extent.
+    pub fn from_placed(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Self> {
+        grouped(placed, master)
+    }
+}
+
 /// A compound in the master's frame; `placed` are shapes with their poses in it.
 fn grouped(placed: &[(Pose, &Shape)], master: &Shape) -> SceneResult<Shape> {
     let pure = placed.iter().all(|(_, shape)| shape.is_pure_solid());

@@ -81,7 +81,7 @@ impl Collection<'_, '_> {
         match node.tag_name().name() {
             "model" => self.add_model(source, node, place, draft, Overrides::default()),
             "include" => self.add_file(source, node, place, draft),
-            _ => return false,
+            _ => false,
         }
     }
 

@@ -3,8 +3,8 @@
 use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use roxmltree::Node;
 
-use crate::kinematics::from_rpy;
 use crate::model::Pose;
+use crate::positions::from_rpy;
 use crate::xml::Source;
 
 /// The text of a child, without blanks around it.

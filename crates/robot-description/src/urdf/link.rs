@@ -3,8 +3,8 @@
 use nalgebra::Translation3;
 use roxmltree::Node;
 
-use crate::kinematics::from_rpy;
 use crate::model::{Collision, Geometry, Inertial, Link, Material, Pose, Sensor, SensorKind, Visual};
+use crate::positions::from_rpy;
 use crate::xml::{Source, elements, named, short};
 
 /// What a link may contain; contact and audio are Bullet's.

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::kinematics::to_rpy;
 use crate::model::{Geometry, Inertial, Joint, JointKind, Link, Material, Pose, Robot};
+use crate::positions::to_rpy;
 
 /// The text of a URDF file. Numbers are written so that the same ones are read again; frames of links become those of their joints, as URDF has it.
 pub fn write(robot: &Robot) -> String {

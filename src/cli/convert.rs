@@ -1,0 +1,62 @@
+//! `swanilda convert`: scenes, models and robots from one format to another.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use super::{Outcome, files, unpack};
+use crate::format::robot_file::{ExportOptions, RobotFile, export};
+use crate::format::scene_file::{SceneFile, write_whole};
+use crate::format::scene_folder;
+use crate::format::ttt::File;
+use crate::scene::{Handle, Scene};
+
+/// Convert a scene, a model or a robot to another format
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// A .ttt, .ttm or .urdf file, XML, or a folder made by unpack
+    from: PathBuf,
+    /// Output: .ttt, .ttm, .urdf, .simscene.xml or .simmodel.xml (append @simpleXml for the simple XML variant); a name without ending becomes a folder
+    to: PathBuf,
+}
+
+pub(super) fn convert(args: &Args) -> Outcome {
+    let file = files::file(&args.from)?;
+    match args.to.extension() {
+        Some(_) if RobotFile::has_name_of(&args.to) => write_robot(file, &args.to)?,
+        Some(_) => unpack::write(file, &args.to)?,
+        None => scene_folder::unpack(&file, &args.to)?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn write_robot(file: File, path: &Path) -> Result<(), String> {
+    let reason = |error: &dyn std::fmt::Display| format!("cannot write {}: {error}", path.display());
+    let file = SceneFile::new(file).map_err(|error| reason(&error))?;
+    let mut scene = Scene::new();
+    let loaded = file.add_to(&mut scene, false).map_err(|error| reason(&error))?;
+    let base = match loaded.root {
+        Some(root) => root,
+        None => only_model(&scene).map_err(|error| reason(&error))?,
+    };
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    for file in export(&scene, base, &stem, ExportOptions::default()).map_err(|error| reason(&error))? {
+        let path = path.with_file_name(&file.name);
+        write_whole(&path, &file.bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    }
+    Ok(())
+}
+
+/// A URDF file has one robot: the model of a scene that has joints.
+fn only_model(scene: &Scene) -> Result<Handle, String> {
+    let has_joints = |base: &Handle| scene.subtree(*base).iter().any(|handle| is_joint(scene, *handle));
+    let models =
+        scene.objects().filter(|object| object.is_model() && object.parent().is_none()).map(|object| object.handle());
+    match models.filter(has_joints).collect::<Vec<_>>().as_slice() {
+        [model] => Ok(*model),
+        models => Err(format!("a URDF file has one robot, and the scene has {} models with joints", models.len())),
+    }
+}
+
+fn is_joint(scene: &Scene, handle: Handle) -> bool {
+    scene.object(handle).is_ok_and(|object| object.joint().is_ok())
+}

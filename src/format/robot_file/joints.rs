@@ -1,0 +1,104 @@
+//! Joints become joints, force sensors and dummies.
+
+use nalgebra::{UnitQuaternion, Vector3};
+use robot_description::{Joint as Description, JointKind, Limits, Robot};
+
+use super::{Import, ImportOptions};
+use crate::scene::joint::{Control, Joint, JointMode, JointType};
+use crate::scene::object::dummy::Dummy;
+use crate::scene::sensor::force_sensor::{Filter, ForceSensor};
+use crate::scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
+
+/// Torque of a motor with limits, N m; force of one that slides, or that turns without end, N or N m; speed of both (spec: import 1).
+const TORQUE: f64 = 2.0;
+const FORCE: f64 = 200.0;
+const VELOCITY: f64 = 20.0;
+/// Diameter of a dummy, metres.
+pub(super) const DUMMY: f64 = 0.01;
+
+impl Import<'_> {
+    /// Adds a joint below what carries its parent.
+    pub(super) fn add_joint(&mut self, index: usize, parent: Option<Handle>) -> SceneResult<Handle> {
+        let joint = &self.robot.joints[index];
+        let origin = self.placed[joint.parent] * joint.origin;
+        let kind = match joint.kind {
+            JointKind::Fixed => Kind::ForceSensor(Box::new(rigid_link())),
+            JointKind::Floating | JointKind::Planar => Kind::Dummy(Dummy::new(DUMMY)),
+            JointKind::Revolute | JointKind::Continuous => {
+                return self.add_motor(joint, JointType::Revolute, origin, parent);
+            }
+            JointKind::Prismatic => return self.add_motor(joint, JointType::Prismatic, origin, parent),
+            JointKind::Spherical => return self.add_motor(joint, JointType::Spherical, origin, parent),
+        };
+        self.add(&joint.name, kind, origin, parent)
+    }
+
+    fn add_motor(
+        &mut self,
+        description: &Description,
+        joint_type: JointType,
+        origin: Pose,
+        parent: Option<Handle>,
+    ) -> SceneResult<Handle> {
+        let mut joint = Joint::new(joint_type, JointMode::Dynamic);
+        if joint_type != JointType::Spherical {
+            set_limits(&mut joint, description);
+            joint.set_control(if self.options.contains(ImportOptions::FREE_JOINTS) {
+                Control::Free
+            } else {
+                Control::Position
+            });
+        }
+        let pose = origin * along_axis(description);
+        let handle = self.add(&description.name, Kind::Joint(Box::new(joint)), pose, parent)?;
+        if !self.options.contains(ImportOptions::SHOW_JOINTS) {
+            self.scene.modify(handle, Field::Layer, |object| object.layer = Layers::JOINTS.hidden())?;
+        }
+        Ok(handle)
+    }
+}
+
+/// The smallest rotation that takes z to the axis; about x, if it is half a turn.
+fn along_axis(joint: &Description) -> Pose {
+    let half_turn = || UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
+    let rotation = UnitQuaternion::rotation_between(&Vector3::z(), &joint.unit_axis()).unwrap_or_else(half_turn);
+    Pose::from_parts(Default::default(), rotation)
+}
+
+/// Where the joints of a robot are at first.
+pub(super) fn first_positions(robot: &Robot) -> Vec<f64> {
+    let mut positions = robot.zero_positions();
+    let mut start = 0;
+    for joint in &robot.joints {
+        if joint.kind.numbers() == 1 {
+            positions[start] = first_position(joint);
+        }
+        start += joint.kind.numbers();
+    }
+    positions
+}
+
+/// 0, or the limit that is nearest to it.
+fn first_position(joint: &Description) -> f64 {
+    match (joint.limits.lower, joint.limits.upper, joint.kind) {
+        (Some(lower), Some(upper), JointKind::Revolute | JointKind::Prismatic) => 0.0_f64.min(upper).max(lower),
+        _ => 0.0,
+    }
+}
+
+fn set_limits(joint: &mut Joint, description: &Description) {
+    let Limits { lower, upper, effort, velocity } = description.limits;
+    let is_limited = description.kind != JointKind::Continuous;
+    if let (Some(lower), Some(upper), true) = (lower, upper, is_limited) {
+        joint.set_interval(false, lower, upper - lower);
+        joint.position = first_position(description);
+        joint.target_position = joint.position;
+    }
+    let usual = if description.kind == JointKind::Revolute { TORQUE } else { FORCE };
+    joint.set_target_force(effort.unwrap_or(usual), false);
+    joint.max_vel = velocity.unwrap_or(VELOCITY);
+}
+
+fn rigid_link() -> ForceSensor {
+    ForceSensor { size: 0.02, filter: Filter::Median, sample_size: 4, ..ForceSensor::default() }
+}

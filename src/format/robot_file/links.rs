@@ -1,0 +1,137 @@
+//! Links become shapes: one that is touched, and one that is seen.
+
+use geometry::MassProperties;
+use robot_description::{Geometry, Inertial, Link};
+
+use super::{Import, ImportOptions, Node};
+use crate::scene::shape::{RespondableMask, Shape};
+use crate::scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
+
+/// Diameter of the body of a link that has mass and nothing to touch, metres.
+const CARRIER: f64 = 0.05;
+/// Edge and mass of what is seen of a link without any geometry, metres and kilograms.
+const SPECK: (f64, f64) = (5e-4, 1e-5);
+/// What stands for an inertia that is zero, kg m².
+const SMALL_INERTIA: f64 = 1e-3;
+/// The high byte: touched by all other trees. The low one: by none of its own tree, or by every second link.
+const MASK: i64 = 0xff00;
+
+impl Import<'_> {
+    /// Adds all links, with the joints that they hang on, from the roots outwards.
+    pub(super) fn add_links(&mut self) -> SceneResult<()> {
+        let parents = self.robot.parent_joints();
+        for link in self.robot.links_from_the_roots() {
+            let parent = parents[link].map(|joint| (joint, self.nodes[self.robot.joints[joint].parent]));
+            let (joint, depth) = match parent {
+                Some((joint, node)) => (Some(self.add_joint(joint, node.carrier)?), node.depth + 1),
+                None => (None, 0),
+            };
+            let shape = self.add_link(link, joint, depth)?;
+            self.nodes[link] = Node { carrier: shape.or(joint), depth };
+        }
+        Ok(())
+    }
+
+    /// Adds the shapes of a link below its joint. The result is the one that carries what hangs on the link.
+    fn add_link(&mut self, index: usize, joint: Option<Handle>, depth: usize) -> SceneResult<Option<Handle>> {
+        let link = &self.robot.links[index];
+        let (frame, hull) = (self.placed[index], self.collision_form());
+        let collisions =
+            self.shapes_of(link, link.collisions.iter().map(|part| (part.pose, &part.geometry, None, part.line)), hull);
+        let mut touched = self.joined(collisions.clone());
+        if touched.is_none() && link.inertial.is_some() {
+            touched = Some((self.carrier_pose(link), Shape::ball(CARRIER)?));
+        }
+        let mut seen = self.visual(link, touched.as_ref().filter(|_| !collisions.is_empty()))?;
+        let body = match touched {
+            Some((pose, mut shape)) => {
+                shape.dynamics.respondable = !collisions.is_empty();
+                shape.dynamics.respondable_mask = RespondableMask(MASK | self.local_mask(depth));
+                self.set_inertia(link, pose, &mut shape);
+                Some(self.add_body(&link.name, frame * pose, shape, joint)?)
+            }
+            None => None,
+        };
+        if seen.is_none() && body.is_none() && self.options.contains(ImportOptions::CREATE_VISUALS) {
+            let mut speck = Shape::cube(SPECK.0)?;
+            speck.mass.set_mass(SPECK.1);
+            seen = Some((Pose::identity(), speck));
+        }
+        let Some((pose, shape)) = seen else { return Ok(body) };
+        let visual =
+            self.add(&format!("{}_visual", link.name), Kind::Shape(Box::new(shape)), frame * pose, body.or(joint))?;
+        Ok(body.or(Some(visual)))
+    }
+
+    /// What is seen of a link: its visuals, or a copy of what is touched.
+    fn visual(&mut self, link: &Link, touched: Option<&(Pose, Shape)>) -> SceneResult<Option<(Pose, Shape)>> {
+        let robot = self.robot;
+        let looks = link.visuals.iter().map(|part| (part.pose, &part.geometry, robot.look(part), part.line));
+        let shapes = self.shapes_of(link, looks, super::shapes::Form::AsItIs);
+        let own = self.joined(shapes);
+        let copies = self.options.contains(ImportOptions::CREATE_VISUALS);
+        Ok(own.or_else(|| touched.filter(|_| copies).cloned()))
+    }
+
+    fn carrier_pose(&self, link: &Link) -> Pose {
+        let at_joint = self.options.contains(ImportOptions::FRAMES_AT_JOINTS);
+        let centre = link.inertial.as_ref().filter(|_| !at_joint).map(|inertial| inertial.pose.translation);
+        centre.map_or_else(Pose::identity, Into::into)
+    }
+
+    /// Adds the shape that has the mass of a link.
+    fn add_body(&mut self, link: &str, pose: Pose, shape: Shape, joint: Option<Handle>) -> SceneResult<Handle> {
+        let body = self.add(&format!("{link}_respondable"), Kind::Shape(Box::new(shape)), pose, joint)?;
+        if !self.options.contains(ImportOptions::SHOW_COLLISIONS) {
+            self.scene.modify(body, Field::Layer, |object| object.layer = Layers::SHAPES.hidden())?;
+        }
+        Ok(body)
+    }
+
+    fn local_mask(&self, depth: usize) -> i64 {
+        match (self.options.contains(ImportOptions::ALTERNATE_MASKS), depth % 2) {
+            (false, _) => 0,
+            (true, 0) => 1,
+            (true, _) => 2,
+        }
+    }
+
+    /// A link without inertia is static. `pose` is that of the shape in the link's frame.
+    fn set_inertia(&mut self, link: &Link, pose: Pose, shape: &mut Shape) {
+        shape.dynamics.is_static = link.inertial.is_none();
+        match &link.inertial {
+            Some(inertial) => self.set_mass(link, inertial, pose.inverse() * inertial.pose, &mut shape.mass),
+            None => self.message(format!("link '{}' has no inertia: it is static", link.name)),
+        }
+    }
+
+    /// Mass and inertia as the file says, where they are possible.
+    fn set_mass(&mut self, link: &Link, inertial: &Inertial, in_shape: Pose, mass: &mut MassProperties) {
+        if inertial.mass > 0.0 {
+            mass.set_mass(inertial.mass);
+        } else {
+            self.message(format!("link '{}' has no mass: that of its shape is taken", link.name));
+        }
+        let [mut xx, xy, xz, mut yy, yz, mut zz] = inertial.inertia;
+        if inertial.inertia == [0.0; 6] {
+            (xx, yy, zz) = (SMALL_INERTIA, SMALL_INERTIA, SMALL_INERTIA);
+            self.message(format!("link '{}' has no inertia: {SMALL_INERTIA} is taken", link.name));
+        }
+        let frame = geometry::pose::pose_to_matrix(&in_shape);
+        mass.set_absolute_inertia(&[xx, xy, xz, xy, yy, yz, xz, yz, zz], &frame);
+    }
+
+    fn collision_form(&self) -> super::shapes::Form {
+        use super::shapes::Form;
+        if self.options.contains(ImportOptions::HULLS_OF_COLLISIONS) {
+            Form::Hull
+        } else if self.options.contains(ImportOptions::DECOMPOSE_COLLISIONS) {
+            Form::Pieces
+        } else {
+            Form::AsItIs
+        }
+    }
+}
+
+/// A geometry of a link: its pose in the link's frame, how it looks, its line.
+pub(super) type Part<'a> = (Pose, &'a Geometry, Option<&'a robot_description::Material>, u32);
