@@ -2,7 +2,7 @@
 sim = require 'sim'
 local file, isPart = sim.getNamedStringParam('file'), sim.getNamedStringParam('part')
 
-local KINDS <const> = 'shape 7, joint 6, graph 1, camera 1, light 1, dummy 4, proximitysensor 1, visionsensor 1, forcesensor 1, octree 2, '
+local KINDS <const> = 'shape 7, joint 6, graph 1, camera 1, light 1, dummy 3, path 1, proximitysensor 1, visionsensor 1, forcesensor 1, octree 2, '
     .. 'pointcloud 2, script 3'
 local checks = 0
 local function same(what, value, wanted)
@@ -101,7 +101,7 @@ end
 local function checkWorld()
     same('loaded', sim.loadScene(file), 1)
     local kinds = {}
-    for _, name in ipairs {'shape', 'joint', 'graph', 'camera', 'light', 'dummy', 'proximitysensor', 'visionsensor', 'forcesensor', 'octree',
+    for _, name in ipairs {'shape', 'joint', 'graph', 'camera', 'light', 'dummy', 'path', 'proximitysensor', 'visionsensor', 'forcesensor', 'octree',
         'pointcloud', 'script'} do
         kinds[#kinds + 1] = name .. ' ' .. count(sim['sceneobject_' .. name])
     end

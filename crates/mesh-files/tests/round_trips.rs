@@ -49,13 +49,14 @@ fn example() -> MeshFile {
 }
 
 fn again(file: &MeshFile, format: ExportFormat, as_format: Format) -> MeshFile {
-    let written = write(file, format, "out/mesh.any").unwrap();
+    let written = write(file, format, "out/mesh.any").expect("the format can be written");
     assert_eq!(written[0].name, "out/mesh.any");
     let mut beside = |name: &str| {
         let found = written.iter().find(|file| file.name == name || file.name == format!("out/{name}"));
         found.map(|file| file.bytes.clone()).ok_or_else(|| "not written".to_owned())
     };
-    let mut file = read(&written[0].bytes, as_format, Limits::default(), &mut beside).unwrap();
+    let mut file =
+        read(&written[0].bytes, as_format, Limits::default(), &mut beside).expect("what was written can be read");
     if format == ExportFormat::Glb {
         file.turn_up(UpAxis::Y);
     }
