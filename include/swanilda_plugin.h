@@ -1673,13 +1673,11 @@ enum {
     X(double, simGetSimulationTime, "simGetSimulationTime_D", (void)) \
     X(int, simGetSimulationState, "simGetSimulationState", (void)) \
     X(double, simGetSimulationTimeStep, "simGetSimulationTimeStep_D", (void)) \
-    X(int, simSetSimulationTimeStep, "simSetSimulationTimeStep_D", (double a)) \
     X(int, simGetRealTimeSimulation, "simGetRealTimeSimulation", (void)) \
     X(double, simGetSystemTime, "simGetSystemTime_D", (void)) \
     X(int, simStartSimulation, "simStartSimulation", (void)) \
     X(int, simPauseSimulation, "simPauseSimulation", (void)) \
     X(int, simStopSimulation, "simStopSimulation", (void)) \
-    X(int, simAnnounceSceneContentChange, "simAnnounceSceneContentChange", (void)) \
     X(int, simLoadScene, "simLoadScene", (const char* a)) \
     X(int, simLoadModel, "simLoadModel", (const char* a)) \
     X(int, simSaveScene, "simSaveScene", (const char* a)) \
