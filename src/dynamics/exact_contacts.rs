@@ -23,7 +23,7 @@ const LARGEST_GROUP: usize = 4;
 /// Normals of points of one surface differ by less: cosine.
 const SAME_NORMAL: f64 = 0.99;
 /// Points that a mechanism solves at most, and its guests.
-const MOST_POINTS: usize = 48;
+const MOST_POINTS: usize = 128;
 const MOST_GUESTS: usize = 12;
 
 type Manifold = ContactManifold<(), [f64; 3]>;

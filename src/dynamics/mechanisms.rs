@@ -10,9 +10,9 @@ use std::collections::BTreeMap;
 use articulation::{BodyMotion, BodyProperties, BodyState, JointProperties, JointState, Mechanism, spatial};
 use geometry::{Finite, partition};
 use nalgebra::Vector6;
-use rapier3d_f64::prelude::{RigidBody, RigidBodyHandle};
+use rapier3d_f64::prelude::{Collider, RigidBody, RigidBodyHandle};
 
-use super::bodies::{Bodies, Body};
+use super::bodies::{Bodies, Body, Tag};
 use super::contacts;
 use super::contacts::Verdicts;
 use super::convert::{from_pose, from_vector, to_pose, to_vector};
@@ -145,6 +145,12 @@ impl Mechanisms {
     /// The contacts that mechanisms solve.
     pub(super) fn contacts(&mut self) -> &mut ExactContacts {
         &mut self.contacts
+    }
+
+    /// Whether the contacts of a collider are solved with its mechanism, and by nobody else.
+    pub(super) fn solves(&self, collider: &Collider) -> bool {
+        let shape = Tag::unpack(collider.user_data).shape;
+        self.places.get(&shape).is_some_and(|place| !self.all[place.0].shared)
     }
 
     /// Adds the impulses that contacts are expected to exert: those rapier starts from.

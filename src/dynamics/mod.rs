@@ -258,7 +258,7 @@ impl Dynamics {
         }
         let apart = self.mechanisms.contacts().pairs();
         contacts::set_hooks(&mut world, &verdicts, &apart);
-        world.divide_touching();
+        world.divide_touching(|collider| self.mechanisms.solves(collider));
         self.mechanisms.note_parts(&mut self.links, &mut world);
         let seen = attention.watched || sub_step == call.sub_steps;
         Some(SubStep { world, gravity: convert::to_vector(gravity), step: call.step, seen, verdicts, apart })

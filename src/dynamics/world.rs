@@ -5,7 +5,7 @@
 
 use rapier3d_f64::math::{Rotation, Vector};
 use rapier3d_f64::prelude::{
-    ActiveHooks, BroadPhaseBvh, CCDSolver, ColliderHandle, ColliderSet, ContactManifold, FrictionModel,
+    ActiveHooks, BroadPhaseBvh, CCDSolver, Collider, ColliderHandle, ColliderSet, ContactManifold, FrictionModel,
     ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, NarrowPhase, PhysicsHooks,
     PhysicsPipeline, RigidBody, RigidBodyHandle, RigidBodySet, SoftBodySet, SpringCoefficients,
 };
@@ -98,9 +98,10 @@ impl World {
         }
     }
 
-    /// Selects the bodies that are solved in parts: those in contact.
-    pub(super) fn divide_touching(&mut self) {
-        let touching = self.touching();
+    /// Selects the bodies that are solved in parts: those in contact. Mechanisms solve their own contacts, in whole sub-steps: `exact` says which
+    /// colliders are theirs.
+    pub(super) fn divide_touching(&mut self, exact: impl Fn(&Collider) -> bool) {
+        let touching = self.touching(exact);
         let extra = |handle: RigidBodyHandle| {
             let touches = touching.get(index_of(handle)).copied().unwrap_or(false);
             if touches { PARTS - 1 } else { 0 }
@@ -118,11 +119,12 @@ impl World {
     }
 
     /// Whether bodies are in contact, by index.
-    fn touching(&self) -> Vec<bool> {
+    fn touching(&self, exact: impl Fn(&Collider) -> bool) -> Vec<bool> {
         let mut touching = vec![false; self.bodies.len()];
         for pair in self.narrow_phase.contact_pairs().filter(|pair| pair.has_any_active_contact()) {
             let colliders = [pair.collider1, pair.collider2].map(|collider| self.colliders.get(collider));
-            for body in colliders.into_iter().filter_map(|collider| collider?.parent()) {
+            let divided = colliders.into_iter().flatten().filter(|collider| !exact(collider));
+            for body in divided.filter_map(Collider::parent) {
                 let index = index_of(body);
                 touching.resize(touching.len().max(index + 1), false);
                 touching[index] = true;
