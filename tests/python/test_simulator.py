@@ -248,12 +248,17 @@ def test_other_threads_run_while_it_steps():
         s.start()
         thread = threading.Thread(target=counts)
         thread.start()
-        before = count[0]
-        s.step()
-        after = count[0]
+        counted = 0
+        # A busy machine may have no processor for the thread during a single step.
+        for _ in range(100):
+            before = count[0]
+            s.step()
+            counted = count[0] - before
+            if counted > 1000:
+                break
         done.set()
         thread.join()
-    assert after - before > 1000
+    assert counted > 1000
 
 
 def _steps_in_a_process(number):
