@@ -147,10 +147,14 @@ impl Mechanisms {
         &mut self.contacts
     }
 
-    /// Whether the contacts of a collider are solved with its mechanism, and by nobody else.
+    /// Whether the contacts of a collider are solved with a mechanism, and by nobody else.
     pub(super) fn solves(&self, collider: &Collider) -> bool {
         let shape = Tag::unpack(collider.user_data).shape;
-        self.places.get(&shape).is_some_and(|place| !self.all[place.0].shared)
+        let is_guest = |linked: &Linked| linked.guests.iter().any(|guest| guest.shape == shape);
+        match self.places.get(&shape) {
+            Some(place) => !self.all[place.0].shared,
+            None => self.all.iter().any(|linked| !linked.shared && is_guest(linked)),
+        }
     }
 
     /// Adds the impulses that contacts are expected to exert: those rapier starts from.

@@ -27,7 +27,7 @@ local rolling, sliding = cart(0, 1), cart(3, 0)
 
 bench.run(function()
     bench.untilTime(3)
-    local free = sim.getObjectOrientation(sliding)[3]
-    bench.check('yaw of one with casters without friction after 3 s, rad', free, -1.15, 0.15)
-    bench.check('yaw of one with rolling casters, rad', sim.getObjectOrientation(rolling)[3], free, 0.1)
+    -- Other engines turn it by 0.8 to 1.2 rad, without friction by 1.02 (MuJoCo).
+    bench.check('yaw of one with casters without friction after 3 s, rad', sim.getObjectOrientation(sliding)[3], -1.1, 0.15)
+    bench.check('yaw of one with rolling casters, rad', sim.getObjectOrientation(rolling)[3], -1.1, 0.15)
 end)

@@ -7,11 +7,13 @@
 //! touching bodies by `R`, until they do not change any more: normal impulses push, tangential ones lie in the friction cone (M. Jean, *The
 //! non-smooth contact dynamics method*, 1999).
 //!
-//! Neighbours at a joint that overlap where the joint lets neither of them escape do not push each other.
+//! Neighbours at a joint that overlap where the joint lets neither of them escape do not push each other: neither where its motion does not
+//! separate them, nor where what separates them at one point brings them together at another one, as around a ball joint between two faces.
 
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, SMatrix, Vector3, Vector6};
 
 use crate::block_cholesky::Block;
+use crate::joint::Joint;
 use crate::linked_body::LinkedBody;
 use crate::mechanism::Mechanism;
 
@@ -44,6 +46,10 @@ const RECOVERY: f64 = 0.2;
 const FASTEST_RECOVERY: f64 = 0.2;
 /// Neighbours at a joint push each other if its motion separates them at this part of its speed at least.
 const SEPARATING: f64 = 1e-3;
+/// Points of neighbours that are closer than this touch, metres.
+const TOUCHING: f64 = 2e-4;
+/// Visits of all points in the search for a motion that separates neighbours at all of them.
+const SEPARATION_SEARCH: usize = 8;
 /// Slower impacts do not rebound, m/s.
 const REBOUND: f64 = 0.05;
 /// Compliance of a contact as a part of the response of its bodies without joints: shares the load between points where it is not determined,
@@ -165,7 +171,7 @@ fn tangents(normal: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
 impl Mechanism {
     /// Sets the contacts for the step that has begun; [`solve`](Self::solve) finds their impulses.
     pub fn set_contacts(&mut self, contacts: &[Contact]) {
-        let possible: Vec<bool> = contacts.iter().map(|contact| self.can_separate(contact)).collect();
+        let possible: Vec<bool> = contacts.iter().map(|contact| self.can_separate(contact, contacts)).collect();
         let Self { bodies, contacts: system, step, .. } = self;
         let Contacts { rows, bodies: places, .. } = system;
         places.clear();
@@ -238,16 +244,51 @@ impl Mechanism {
         changed
     }
 
-    /// Whether the bodies of a contact can be separated: those of a joint only where its motion does so.
-    fn can_separate(&self, contact: &Contact) -> bool {
-        let (normal, point) = (Vector3::from(contact.normal), Vector3::from(contact.point));
-        let is_end = |body: usize| match contact.bodies {
+    /// Whether the bodies of a contact can be separated: those of a joint only where its motion does so at all points where they touch.
+    fn can_separate(&self, contact: &Contact, all: &[Contact]) -> bool {
+        let joins = |joint: &&Joint| joint.properties.bodies.into_iter().all(|body| contact.is_of(body));
+        self.joints.iter().filter(joins).all(|joint| {
+            let touching = all.iter().filter(|other| other.distance < TOUCHING && other.has_bodies_of(contact));
+            let directions: Vec<Vector3<f64>> = touching.map(|contact| joint.separation(contact)).collect();
+            joint.separation(contact).norm() > SEPARATING && is_separable(&directions)
+        })
+    }
+}
+
+/// Whether some motion has a positive part along all these directions: the perceptron finds it unless it hardly does (F. Rosenblatt, 1958).
+fn is_separable(directions: &[Vector3<f64>]) -> bool {
+    let mut motion: Vector3<f64> = directions.iter().sum();
+    for _ in 0..SEPARATION_SEARCH {
+        let mut is_found = true;
+        for direction in directions.iter().filter(|direction| direction.norm() > SEPARATING) {
+            if direction.dot(&motion) <= 0.0 {
+                motion += direction;
+                is_found = false;
+            }
+        }
+        if is_found {
+            return true;
+        }
+    }
+    false
+}
+
+impl Contact {
+    /// Whether a body of the mechanism is one of the two.
+    fn is_of(&self, body: usize) -> bool {
+        match self.bodies {
             [Some(first), Some(second)] => body == first || body == second,
-            [Some(only), None] | [None, Some(only)] => body == only || contact.base == Some(body),
+            [Some(only), None] | [None, Some(only)] => body == only || self.base == Some(body),
             [None, None] => false,
+        }
+    }
+
+    fn has_bodies_of(&self, other: &Self) -> bool {
+        let ends = |contact: &Self| {
+            let [first, second] = contact.bodies.map(|body| body.or(contact.base));
+            (first.min(second), first.max(second))
         };
-        let mut joints = self.joints.iter().filter(|joint| joint.properties.bodies.into_iter().all(is_end));
-        joints.all(|joint| joint.separation(&point, &normal) > SEPARATING)
+        ends(self) == ends(other)
     }
 }
 

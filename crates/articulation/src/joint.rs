@@ -7,6 +7,7 @@ use geometry::pose::euler::wrap_angle;
 use nalgebra::{Matrix6, Vector3};
 
 use crate::block_cholesky::Segment;
+use crate::contact::Contact;
 use crate::free_axis::{FreeAxis, MotorState};
 use crate::linked_body::LinkedBody;
 use crate::spatial;
@@ -251,20 +252,23 @@ impl Joint {
         changed
     }
 
-    /// How fast the motion of the joint separates its bodies at a point along a normal, as a part of the speed of the point.
-    pub(crate) fn separation(&self, point: &Vector3<f64>, normal: &Vector3<f64>) -> f64 {
-        let rows = self.jacobians[1].fixed_rows::<3>(0);
-        let axis = |row: usize| rows.row(row).fixed_columns::<3>(0).transpose();
-        let lever = point - self.point;
+    /// How the motions of the joint separate its bodies at a contact: the one that does so fastest, as a part of the speed of the point. For one
+    /// axis the first coordinate, for a spherical joint a vector of rotation.
+    pub(crate) fn separation(&self, contact: &Contact) -> Vector3<f64> {
+        let normal = Vector3::from(contact.normal);
+        let lever = Vector3::from(contact.point) - self.point;
+        // Motions are those of the joint's second body: the first one of the contact may be the other one.
+        let sign = if contact.bodies[0].or(contact.base) == Some(self.properties.bodies[1]) { 1.0 } else { -1.0 };
         let along = |velocity: Vector3<f64>| {
             let speed = velocity.norm();
-            if speed > 0.0 { velocity.dot(normal).abs() / speed } else { 0.0 }
+            Vector3::x() * if speed > 0.0 { sign * velocity.dot(&normal) / speed } else { 0.0 }
         };
+        let axis = |row: usize, column: usize| self.jacobians[1].row(row).fixed_columns::<3>(column).transpose();
         match self.properties.kind {
-            JointKind::Revolute => along(self.jacobians[1].row(5).fixed_columns::<3>(3).transpose().cross(&lever)),
-            JointKind::Prismatic => along(axis(2)),
-            JointKind::Spherical => along(lever.cross(normal).cross(&lever)),
-            JointKind::Fixed => 0.0,
+            JointKind::Revolute => along(axis(5, 3).cross(&lever)),
+            JointKind::Prismatic => along(axis(2, 0)),
+            JointKind::Spherical if lever != Vector3::zeros() => sign * lever.cross(&normal) / lever.norm(),
+            JointKind::Spherical | JointKind::Fixed => Vector3::zeros(),
         }
     }
 

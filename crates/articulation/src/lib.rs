@@ -41,7 +41,7 @@
 //!
 //! Joints are revolute (with a pitch: screws), prismatic, spherical or fixed. Where a mechanism touches
 //! another one, contacts enter as expected impulses only, and the engine should have its own joints active as well. The response of contacts to
-//! each other is a dense matrix: some dozens of points are the limit. [`Mechanism::solve`] returns false where numbers leave the range of
+//! each other is dense: about a hundred points are the limit. [`Mechanism::solve`] returns false where numbers leave the range of
 //! floating point; nothing panics on any state. Fill-in makes loops cost more: a grid of `n` loops is superlinear.
 //!
 //! # Determinism
