@@ -108,6 +108,11 @@ local function nextBox()
     sim.setObjectSpecialProperty(moving, sim.objectspecialproperty_collidable | sim.objectspecialproperty_detectable | sim.objectspecialproperty_renderable)
 end
 
+-- A step. When a simulation ends it takes the boxes with it, and there is nothing left to do.
+local function nextStep()
+    repeat sim.step() until sim.getSimulationState() ~= sim.simulation_stopped
+end
+
 ---------------------------------------------------------------- postures and ways
 
 -- Where the tip is to be: over a point, the fingers down, across the belt.
@@ -128,7 +133,7 @@ local function follow(path)
                 local from, to = path[i + j - n], path[i + j]
                 sim.setJointPosition(joints[j + 1], from + (to - from) * step / steps)
             end
-            sim.step()
+            nextStep()
         end
     end
 end
@@ -180,7 +185,7 @@ local function grip(width)
     for step = 1, 10 do
         local now = sim.getJointPosition(fingers)
         sim.setJointPosition(fingers, now + (width / 2 - now) * step / 10)
-        sim.step()
+        nextStep()
     end
 end
 
@@ -231,7 +236,7 @@ function sysCall_thread()
         while sim.readProximitySensor(beam) ~= 1 do
             local p = sim.getObjectPosition(moving)
             sim.setObjectPosition(moving, {p[1], p[2] + BELT_SPEED * sim.getSimulationTimeStep(), p[3]})
-            sim.step()
+            nextStep()
         end
         carry(number)
     end
