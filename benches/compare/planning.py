@@ -22,26 +22,12 @@ from ompl import base as ob
 from ompl import geometric as og
 from ompl import util as ou
 
+from bumpy_ball import ball, tree
 from kinematics import ur5
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PLANNERS = ["RRTConnect", "RRT", "PRM"]
 SECONDS, RESOLUTION = 20.0, 0.01
-
-
-def ball(triangles, size):
-    """A bumpy ball: vertices and triangles."""
-    rings = int(math.sqrt(triangles / 4))
-    sides = 2 * rings
-    theta = math.pi * np.arange(rings + 1)[:, None] / rings
-    phi = 2 * math.pi * np.arange(sides)[None, :] / sides
-    radius = 0.49 + 0.01 * np.sin(9 * theta) * np.cos(7 * phi)
-    xyz = radius * np.sin(theta) * np.cos(phi), radius * np.sin(theta) * np.sin(phi), radius * np.cos(theta)
-    i, j = np.meshgrid(np.arange(rings), np.arange(sides), indexing="ij")
-    a, b = i * sides + j, (i + 1) * sides + j
-    c, d = (i + 1) * sides + (j + 1) % sides, i * sides + (j + 1) % sides
-    faces = np.stack([a, b, c, a, c, d], axis=-1).reshape(-1, 3)
-    return np.stack(np.broadcast_arrays(*xyz), axis=-1).reshape(-1, 3) * size, faces
 
 
 def link(begin, end, radius):
@@ -66,12 +52,8 @@ def merged(meshes):
     return np.concatenate([m[0] for m in meshes]), np.concatenate([m[1] + o for m, o in zip(meshes, offsets)])
 
 
-def tree(mesh):
-    model = fcl.BVHModel()
-    model.beginModel(len(mesh[0]), len(mesh[1]))
-    model.addSubModel(*mesh)
-    model.endModel()
-    return fcl.CollisionObject(model, fcl.Transform())
+def collision_object(mesh):
+    return fcl.CollisionObject(tree(*mesh), fcl.Transform())
 
 
 class Task:
@@ -79,7 +61,7 @@ class Task:
 
     def __init__(self, name, links, obstacles):
         self.name, self.links, self.obstacles = name, links, obstacles
-        self.bodies, self.still = [tree(mesh) for mesh in links], tree(merged(obstacles))
+        self.bodies, self.still = [collision_object(mesh) for mesh in links], collision_object(merged(obstacles))
         self.request = fcl.CollisionRequest()
         self.checks, self.checking = 0, 0.0
 

@@ -13,25 +13,7 @@ import time
 import fcl
 import numpy as np
 
-
-def ball(triangles):
-    """A ball of diameter 1 m with bumps of up to 1 cm."""
-    rings = int(math.sqrt(triangles / 4))
-    sides = 2 * rings
-    theta = math.pi * np.arange(rings + 1)[:, None] / rings
-    phi = 2 * math.pi * np.arange(sides)[None, :] / sides
-    radius = 0.49 + 0.01 * np.sin(9 * theta) * np.cos(7 * phi)
-    xyz = radius * np.sin(theta) * np.cos(phi), radius * np.sin(theta) * np.sin(phi), radius * np.cos(theta)
-    i, j = np.meshgrid(np.arange(rings), np.arange(sides), indexing="ij")
-    a, b = i * sides + j, (i + 1) * sides + j
-    c, d = (i + 1) * sides + (j + 1) % sides, i * sides + (j + 1) % sides
-    faces = np.stack([a, b, c, a, c, d], axis=-1).reshape(-1, 3)
-    vertices = np.stack(np.broadcast_arrays(*xyz), axis=-1).reshape(-1, 3)
-    model = fcl.BVHModel()
-    model.beginModel(len(vertices), len(faces))
-    model.addSubModel(vertices, faces)
-    model.endModel()
-    return model
+from bumpy_ball import ball, tree
 
 
 def direction(i):
@@ -58,7 +40,7 @@ def median(call, poses):
 
 
 def rows(name, triangles):
-    model = ball(triangles)
+    model = tree(*ball(triangles))
     fixed = fcl.CollisionObject(model, fcl.Transform())
     box = fcl.Box(0.1, 0.1, 0.1)
 
