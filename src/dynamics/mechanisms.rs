@@ -5,7 +5,7 @@
 //! system of its own: what one does costs the others nothing. Where mechanisms touch each other rapier solves contacts and joints; the
 //! mechanisms then start from the contact impulses of the sub-step before, so that rapier only answers what changes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use articulation::{BodyMotion, BodyProperties, BodyState, JointProperties, JointState, Mechanism, spatial};
 use geometry::{Finite, partition};
@@ -37,6 +37,8 @@ pub(super) struct Mechanisms {
     of_rapier: Vec<(Vec<LinkedShape>, Vec<Handle>)>,
     /// The mechanism of a body that moves, and its index there.
     places: BTreeMap<Handle, (usize, usize)>,
+    /// Free bodies of which mechanisms solve the contacts in the present sub-step.
+    guests: BTreeSet<Handle>,
     contacts: ExactContacts,
 }
 
@@ -140,6 +142,8 @@ impl Mechanisms {
                 linked.apply_forces(links, world);
             }
         }
+        let alone = self.all.iter().filter(|linked| !linked.shared);
+        self.guests = alone.flat_map(|linked| linked.guests.iter().map(|guest| guest.shape)).collect();
     }
 
     /// The contacts that mechanisms solve.
@@ -150,10 +154,9 @@ impl Mechanisms {
     /// Whether the contacts of a collider are solved with a mechanism, and by nobody else.
     pub(super) fn solves(&self, collider: &Collider) -> bool {
         let shape = Tag::unpack(collider.user_data).shape;
-        let is_guest = |linked: &Linked| linked.guests.iter().any(|guest| guest.shape == shape);
         match self.places.get(&shape) {
             Some(place) => !self.all[place.0].shared,
-            None => self.all.iter().any(|linked| !linked.shared && is_guest(linked)),
+            None => self.guests.contains(&shape),
         }
     }
 
