@@ -1,4 +1,4 @@
-"""Pictures per second of MuJoCo's renderer and of PyBullet's TinyRenderer, of the scene of `cargo bench -p rendering`: a floor, 49 boxes
+"""Pictures per second of MuJoCo's renderer and of PyBullet's TinyRenderer, of the scene of `cargo bench -p swanilda-rendering`: a floor, 49 boxes
 and a bumpy ball. Run both one after the other on the same machine: `MUJOCO_GL=osmesa python pictures.py` (or egl); what is not installed
 is left out."""
 

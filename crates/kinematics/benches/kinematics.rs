@@ -1,6 +1,6 @@
 //! How fast inverse kinematics is, and how often it succeeds:
 //!
-//!     cargo bench --package kinematics
+//!     cargo bench --package swanilda-kinematics
 //!
 //! First a table over 1000 random reachable poses of a UR5 and a Panda: any posture from a fixed start and from near starts, every answer checked by forward
 //! kinematics at 0.1 mm and 1 mrad. Then criterion's times of single calls. `benches/compare/kinematics.py` does the same with other solvers.

@@ -1,6 +1,6 @@
 //! How fast planners are, and how much of that is the checking of states:
 //!
-//!     cargo bench --package planning
+//!     cargo bench --package swanilda-planning
 //!
 //! An arm of six joints (UR5, links and ten obstacles of triangles) between random free postures whose straight motion is blocked. Every path is checked
 //! again, at the states of its motions. `benches/compare/planning.py` does the same by simOMPL and by OMPL.

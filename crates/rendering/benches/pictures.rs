@@ -1,4 +1,4 @@
-//! Pictures of a floor, 49 boxes and one bumpy ball: `cargo bench -p rendering`.
+//! Pictures of a floor, 49 boxes and one bumpy ball: `cargo bench -p swanilda-rendering`.
 
 use std::hint::black_box;
 

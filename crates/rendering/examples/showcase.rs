@@ -1,4 +1,4 @@
-//! Writes a picture of the scene that tests use, as a portable pixmap: `cargo run -p rendering --example showcase picture.ppm`.
+//! Writes a picture of the scene that tests use, as a portable pixmap: `cargo run -p swanilda-rendering --example showcase picture.ppm`.
 
 #[path = "../tests/common/mod.rs"]
 mod common;

@@ -1,6 +1,6 @@
 """Compares this crate's robots with those of yourdfpy and pinocchio: frames of links at random positions, masses, inertias.
 
-    cargo build --release -p robot-description --example link_poses
+    cargo build --release -p swanilda-robot-description --example link_poses
     pip install yourdfpy pin
     python compare.py target/release/examples/link_poses FOLDER_OR_FILE...
 
