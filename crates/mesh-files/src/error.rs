@@ -60,6 +60,12 @@ pub enum WriteError {
         /// Which vertex of it, from 0.
         vertex: usize,
     },
+    /// A node without its parent before it, without its mesh, or somewhere infinite.
+    #[error("node {node}: its parent, its mesh or its place is not there")]
+    NoSuchNode {
+        /// Which node, from 0.
+        node: usize,
+    },
     /// The counts of this format have 32 bits.
     #[error("the mesh is too large for this format")]
     TooLarge,

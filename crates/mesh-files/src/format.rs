@@ -2,7 +2,7 @@
 
 use crate::error::{Place, ReadError, Result, WriteError};
 use crate::limits::Limits;
-use crate::mesh_file::MeshFile;
+use crate::mesh_file::{MeshFile, Part};
 use crate::{Resolve, collada, dxf, gltf, obj, ply, stl, three_ds};
 
 /// A format that is read.
@@ -97,7 +97,7 @@ fn largest_file(format: Format) -> usize {
 ///
 /// Triangles of vertices that are not there, coordinates that are not finite, and more elements than the format can count.
 pub fn write(file: &MeshFile, format: ExportFormat, name: &str) -> std::result::Result<Vec<Written>, WriteError> {
-    check(file)?;
+    check_parts(file.parts.iter())?;
     let bytes = match format {
         ExportFormat::Obj => return Ok(obj::write(file, name)),
         ExportFormat::Collada => return Ok(collada::write(file, name)),
@@ -110,8 +110,9 @@ pub fn write(file: &MeshFile, format: ExportFormat, name: &str) -> std::result::
     Ok(vec![Written { name: name.into(), bytes }])
 }
 
-fn check(file: &MeshFile) -> std::result::Result<(), WriteError> {
-    for (number, part) in file.parts.iter().enumerate() {
+/// What every writer relies on.
+pub(crate) fn check_parts<'a>(parts: impl Iterator<Item = &'a Part> + Clone) -> std::result::Result<(), WriteError> {
+    for (number, part) in parts.clone().enumerate() {
         if let Some(vertex) = part.vertices.iter().position(|vertex| !vertex.iter().all(|x| x.is_finite())) {
             return Err(WriteError::NotFinite { part: number, vertex });
         }
@@ -120,8 +121,8 @@ fn check(file: &MeshFile) -> std::result::Result<(), WriteError> {
             return Err(WriteError::NoSuchVertex { part: number, triangle });
         }
     }
-    let vertices: usize = file.parts.iter().map(|part| part.vertices.len()).sum();
-    let triangles: usize = file.parts.iter().map(|part| part.triangles.len()).sum();
+    let vertices: usize = parts.clone().map(|part| part.vertices.len()).sum();
+    let triangles: usize = parts.map(|part| part.triangles.len()).sum();
     // Indices, byte lengths of 60 bytes a triangle included, stay below 2^32.
     if vertices.max(triangles) > u32::MAX as usize / 60 { Err(WriteError::TooLarge) } else { Ok(()) }
 }

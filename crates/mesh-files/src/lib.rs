@@ -10,6 +10,7 @@
 //! | PLY | text and binary of both byte orders; lists, strips | text, binary |
 //! | COLLADA | visual scene with its transforms, materials, textures, unit and up axis | yes |
 //! | glTF, GLB | the scene with its transforms, materials, textures; no compression (Draco, meshopt) | GLB |
+//! | glTF, GLB as nodes ([`gltf::Asset`]) | nodes, meshes, cameras, lights | text and GLB, animations too |
 //! | 3DS | meshes, materials, textures | |
 //! | DXF | `3DFACE`, polyface and polygon meshes of a text file | |
 //!
@@ -35,7 +36,7 @@ mod corners;
 mod dxf;
 mod error;
 mod format;
-mod gltf;
+pub mod gltf;
 mod limits;
 mod mesh_file;
 mod obj;

@@ -36,11 +36,21 @@ pub struct Material {
     pub transparency: f64,
     /// An index of [`MeshFile::textures`].
     pub texture: Option<usize>,
+    /// Whether the back of its triangles is seen too.
+    pub double_sided: bool,
 }
 
 impl Default for Material {
     fn default() -> Self {
-        Self { name: String::new(), diffuse: None, specular: None, emission: None, transparency: 0.0, texture: None }
+        Self {
+            name: String::new(),
+            diffuse: None,
+            specular: None,
+            emission: None,
+            transparency: 0.0,
+            texture: None,
+            double_sided: false,
+        }
     }
 }
 

@@ -71,12 +71,52 @@ impl Transform {
         unit(turned)
     }
 
+    /// Its place and directions without scales, shears and mirrors: x as it is, y in the plane of x and y (Gram and Schmidt). What has no
+    /// direction is not turned.
+    pub(crate) fn rigid(&self) -> Self {
+        let column = |k: usize| self.0.map(|row| row[k]);
+        let x = unit(column(0));
+        let y = column(1);
+        let along = x.iter().zip(y).map(|(a, b)| a * b).sum::<f64>();
+        let y = unit([0, 1, 2].map(|k| y[k] - along * x[k]));
+        let z = cross(x, y);
+        let [x, y, z] =
+            if unit(z) == [0.0; 3] { [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] } else { [x, y, z] };
+        Self([0, 1, 2].map(|k| [x[k], y[k], z[k], self.0[k][3]]))
+    }
+
+    /// The way back from a rigid transform.
+    pub(crate) fn rigid_inverse(&self) -> Self {
+        let [a, b, c] = self.0;
+        let turned = [0, 1, 2].map(|k| [a[k], b[k], c[k]]);
+        Self(turned.map(|[x, y, z]| [x, y, z, -(x * a[3] + y * b[3] + z * c[3])]))
+    }
+
+    /// The unit quaternion x, y, z, w of a rigid transform, by its largest component (S. W. Shepperd 1978).
+    pub(crate) fn quaternion(&self) -> [f64; 4] {
+        let [[xx, xy, xz, _], [yx, yy, yz, _], [zx, zy, zz, _]] = self.0;
+        let squares = [1.0 + xx - yy - zz, 1.0 - xx + yy - zz, 1.0 - xx - yy + zz, 1.0 + xx + yy + zz];
+        let largest = (0..4).fold(3, |best, k| if squares[k] > squares[best] { k } else { best });
+        let rows = [
+            [squares[0], xy + yx, xz + zx, zy - yz],
+            [xy + yx, squares[1], yz + zy, xz - zx],
+            [xz + zx, yz + zy, squares[2], yx - xy],
+            [zy - yz, xz - zx, yx - xy, squares[3]],
+        ];
+        let length = rows[largest].iter().map(|x| x * x).sum::<f64>().sqrt();
+        rows[largest].map(|x| x / length)
+    }
+
     /// Whether it turns a mesh inside out.
     pub(crate) fn mirrors(&self) -> bool {
         let [a, b, c] = self.0;
         a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
             < 0.0
     }
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// Of length 1, or zero if it has no direction.
@@ -96,6 +136,28 @@ mod tests {
             let turned = turn.apply([1.0, 0.0, 0.0]);
             assert!(turned.iter().zip([0.0, 1.0, 0.0]).all(|(a, b)| (a - b).abs() < 1e-15));
         }
+    }
+
+    #[test]
+    fn what_is_rigid_of_a_transform_has_its_place_and_quaternion() {
+        let turns = [
+            [0.5, 0.5, 0.5, 0.5],
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 0.6, 0.8, 0.0],
+            [-0.1, 0.7, -0.1, 0.7],
+            [0.0, 0.0, 0.0, 1.0],
+        ];
+        for turn in turns {
+            let placed = Transform::translation([1.0, -2.0, 3.0]).after(&Transform::rotation(turn));
+            let rigid = placed.after(&Transform::scaling([2.0, 3.0, 4.0])).rigid();
+            let [x, y, z, w] = rigid.quaternion();
+            let along: f64 = turn.iter().zip([x, y, z, w]).map(|(a, b)| a * b).sum();
+            assert!((along.abs() - 1.0).abs() < 1e-14, "{turn:?} became {:?}", [x, y, z, w]);
+            let back = rigid.rigid_inverse().after(&rigid);
+            let both = back.0.as_flattened().iter().zip(Transform::IDENTITY.0.as_flattened());
+            assert!(both.into_iter().all(|(a, b)| (a - b).abs() < 1e-14), "{back:?}");
+        }
+        assert_eq!(Transform::scaling([0.0; 3]).rigid(), Transform::IDENTITY);
     }
 
     #[test]

@@ -12,22 +12,22 @@ pub(crate) fn weld(vertices: &mut Vec<[f64; 3]>, triangles: &mut [[u32; 3]]) {
 
 /// A hash table of indices with linear probing. Its order is never looked at. It grows, since few of many vertices are different: a small
 /// table stays in the processor's cache.
-struct Table {
+pub(crate) struct Table<const N: usize> {
     slots: Vec<u32>,
-    seen: Vec<[f64; 3]>,
+    pub(crate) seen: Vec<[f64; N]>,
 }
 
 const FREE: u32 = u32::MAX;
 
-impl Default for Table {
+impl<const N: usize> Default for Table<N> {
     fn default() -> Self {
         Self { slots: vec![FREE; 64], seen: Vec::new() }
     }
 }
 
-impl Table {
+impl<const N: usize> Table<N> {
     /// The index of a vertex among those that were seen; a new one is added.
-    fn index(&mut self, vertex: [f64; 3]) -> u32 {
+    pub(crate) fn index(&mut self, vertex: [f64; N]) -> u32 {
         // -0 becomes 0: they are equal, their bits are not.
         let vertex = vertex.map(|x| x + 0.0);
         let slot = self.find(vertex);
@@ -44,7 +44,7 @@ impl Table {
     }
 
     /// The slot of a vertex, or the free one where it belongs.
-    fn find(&self, vertex: [f64; 3]) -> usize {
+    fn find(&self, vertex: [f64; N]) -> usize {
         let last = self.slots.len() - 1;
         let mut slot = hash(vertex) as usize & last;
         while self.slots[slot] != FREE && self.seen[self.slots[slot] as usize] != vertex {
@@ -63,7 +63,7 @@ impl Table {
 }
 
 /// Multiplications and shifts after Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators (2014).
-fn hash(vertex: [f64; 3]) -> u64 {
+fn hash<const N: usize>(vertex: [f64; N]) -> u64 {
     vertex.iter().fold(0x9e37_79b9_7f4a_7c15_u64, |hash, x| {
         let mixed = (hash ^ x.to_bits()).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let mixed = (mixed ^ (mixed >> 29)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -30,6 +30,7 @@ fn example() -> MeshFile {
         emission: Some([0.0, 0.0, 0.125]),
         transparency: 0.25,
         texture: Some(0),
+        double_sided: false,
     };
     let painted = Part {
         normals: vec![[[0.0, 0.0, -1.0]; 3], [[0.0, -1.0, 0.0]; 3], [[-1.0, 0.0, 0.0]; 3], [[0.0, 0.0, 1.0]; 3]],

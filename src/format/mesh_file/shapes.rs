@@ -106,7 +106,8 @@ fn appearance(material: &Material, looks: Looks) -> Appearance {
 /// The meshes of shapes as parts of a file.
 pub(crate) struct ShapeParts {
     pub(crate) file: MeshFile,
-    pub(crate) textures: bool,
+    /// The kind of textures, an extension such as `png`. None: without.
+    pub(crate) textures: Option<&'static str>,
     pub(crate) colours: bool,
     pub(crate) normals: bool,
 }
@@ -120,7 +121,8 @@ impl ShapeParts {
         for part in &shape.parts {
             let mut mesh = Mesh::default();
             mesh.append(&part.mesh, &(pose * part.pose));
-            let mapping = part.texture.as_deref().filter(|mapping| self.textures && !mapping.coordinates.is_empty());
+            let mapping =
+                part.texture.as_deref().filter(|mapping| self.textures.is_some() && !mapping.coordinates.is_empty());
             let uv = mapping.map_or_else(Vec::new, |mapping| corners(&mapping.coordinates));
             let texture = match mapping {
                 Some(mapping) if uv.len() == mesh.triangles.len() => self.texture(mapping, scene),
@@ -130,7 +132,7 @@ impl ShapeParts {
                 name: name.into(),
                 normals: if self.normals { mesh.normals.as_chunks().0.to_vec() } else { Vec::new() },
                 uv: if texture.is_some() { uv } else { Vec::new() },
-                material: self.material(&part.appearance.colour, texture),
+                material: self.material(&part.appearance, texture),
                 vertices: mesh.vertices,
                 triangles: mesh.triangles,
             });
@@ -138,7 +140,8 @@ impl ShapeParts {
         Ok(())
     }
 
-    fn material(&self, colour: &Colour, texture: Option<usize>) -> Material {
+    fn material(&self, appearance: &Appearance, texture: Option<usize>) -> Material {
+        let colour = &appearance.colour;
         let double = |colour: [f32; 3]| self.colours.then(|| colour.map(|x| f64::from(x).clamp(0.0, 1.0)));
         Material {
             name: String::new(),
@@ -147,19 +150,21 @@ impl ShapeParts {
             emission: double(colour.emission).filter(|emission| *emission != [0.0; 3]),
             transparency: if self.colours { 1.0 - f64::from(colour.opacity).clamp(0.0, 1.0) } else { 0.0 },
             texture,
+            double_sided: !appearance.culling,
         }
     }
 
-    /// The number of a texture among those of the file, as PNG. None for the picture of a vision sensor.
+    /// The number of a texture among those of the file. None for the picture of a vision sensor.
     fn texture(&mut self, mapping: &TextureMapping, scene: &Scene) -> Option<usize> {
         let TextureSource::Texture(id) = mapping.source else { return None };
         let texture = scene.textures().get(id).ok()?;
-        let name = format!("texture{id}.png");
+        let kind = self.textures?;
+        let name = format!("texture{id}.{kind}");
         if let Some(known) = self.file.textures.iter().position(|texture| texture.name == name) {
             return Some(known);
         }
         let picture = Picture::new(texture.rgba(), texture.size().map(i64::from), Layout::Rgba).ok()?;
-        let bytes = picture.flipped(false, true).encode("png", 100).ok()?;
+        let bytes = picture.flipped(false, true).encode(kind, 100).ok()?;
         self.file.textures.push(mesh_files::Texture { name, bytes });
         Some(self.file.textures.len() - 1)
     }

@@ -53,7 +53,7 @@ fn parts(scene: &Scene, handles: &[i64], options: i64) -> Result<ShapeParts> {
     let has = |bit: i64| options & bit != 0;
     let mut parts = ShapeParts {
         file: MeshFile::default(),
-        textures: !has(option::DROP_TEXTURES),
+        textures: (!has(option::DROP_TEXTURES)).then_some("png"),
         colours: !has(option::DROP_COLOURS),
         normals: !has(option::DROP_NORMALS),
     };

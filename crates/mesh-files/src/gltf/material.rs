@@ -30,6 +30,7 @@ impl Reader<'_, '_> {
             specular: specular.map(|colour| colour.map(|x| x.clamp(0.0, 1.0))),
             emission,
             transparency: if string(source, "alphaMode") == Some("BLEND") { 1.0 - alpha } else { 0.0 },
+            double_sided: source.get("doubleSided").and_then(Value::as_bool).unwrap_or(false),
             texture: base.get(texture).map_or(Ok(None), |texture| self.texture(texture, &element))?,
         })
     }

@@ -1,15 +1,19 @@
-//! glTF 2.0, JSON or binary: the triangles of its scene, placed by its nodes. Points, lines, animations, skins (which are read in the pose of
-//! their mesh) and vertex colours are left out; extensions that a file requires are refused.
+//! glTF 2.0, JSON or binary: the triangles of its scene, placed by its nodes; or its nodes with their meshes, cameras and lights. Points, lines,
+//! animations, skins (which are read in the pose of their mesh) and vertex colours are left out; extensions that a file requires are refused.
 
 mod accessor;
+mod asset;
 mod buffers;
 mod material;
 mod primitive;
+mod read_asset;
 mod scene;
+mod viewers;
 mod write;
 
 use std::rc::Rc;
 
+pub use asset::{Animation, Asset, Camera, Extent, Light, LightKind, Node, Track};
 use serde_json::Value;
 pub(crate) use write::write;
 
@@ -47,7 +51,20 @@ struct Reader<'a, 'r> {
     resolve: Resolve<'r>,
 }
 
+/// The triangles of a file.
 pub(crate) fn read(bytes: &[u8], limits: Limits, resolve: Resolve) -> Result<MeshFile> {
+    with_reader(bytes, limits, resolve, |mut reader| {
+        reader.flatten()?;
+        Ok(reader.file)
+    })
+}
+
+fn with_reader<T>(
+    bytes: &[u8],
+    limits: Limits,
+    resolve: Resolve,
+    use_it: impl FnOnce(Reader<'_, '_>) -> Result<T>,
+) -> Result<T> {
     let (json, binary) = buffers::container(bytes)?;
     let root: Value = serde_json::from_slice(json).map_err(not_json)?;
     let version = string(&root["asset"], "version").unwrap_or("");
@@ -55,7 +72,7 @@ pub(crate) fn read(bytes: &[u8], limits: Limits, resolve: Resolve) -> Result<Mes
         return Err(ReadError::new(Place::File, "asset", format!("version {version:?} instead of 2.0")));
     }
     check_extensions(&root)?;
-    let mut reader = Reader {
+    use_it(Reader {
         root: &root,
         buffers: Buffers::load(&root, binary, resolve)?,
         meshes: vec![None; list(&root, "meshes").len()],
@@ -63,9 +80,7 @@ pub(crate) fn read(bytes: &[u8], limits: Limits, resolve: Resolve) -> Result<Mes
         limits,
         file: MeshFile { unit: Some(1.0), up: Some(UpAxis::Y), ..MeshFile::default() },
         resolve,
-    };
-    reader.scene()?;
-    Ok(reader.file)
+    })
 }
 
 fn not_json(error: serde_json::Error) -> ReadError {
