@@ -5929,6 +5929,73 @@ class _simEigen:
         b: right sides
         """
 
+class _simGLTF:
+    TextureFormat: Any
+    def animationFrameCount(self, /) -> int:
+        """How many steps were recorded.
+        """
+    def clear(self, /) -> Any:
+        """Empties the file in memory.
+        """
+    def exportAllObjects(self, /) -> Any:
+        """Adds all objects of the scene to the file in memory, with their tree; scripts are left out.
+        """
+    def exportAnimation(self, /) -> Any:
+        """Adds what was recorded to the file in memory, as an animation of the objects that were exported.
+        """
+    def exportObject(self, objectHandle: int, /) -> int:
+        """Adds an object to the file in memory, below the node of its parent, if that was added before.
+
+        Shapes that are not visible, and objects without a mesh, a camera or a light, become nodes without contents.
+        objectHandle: the object
+        """
+    def exportObjects(self, objectHandles: Sequence[int], /) -> None:
+        """Adds objects to the file in memory, with their tree; scripts are left out.
+        objectHandles: the objects
+        """
+    def exportSelectedObjects(self, /) -> Any:
+        """Adds the selected objects to the file in memory, with their tree; scripts are left out.
+        """
+    def exportShape(self, shapeHandle: int, parentHandle: int | None = ..., parentNodeIndex: int | None = ..., /) -> int:
+        """Adds a shape to the file in memory, also one that is not visible.
+        shapeHandle: the shape
+        parentHandle: the object in whose frame the shape is placed; -1: the world
+        parentNodeIndex: the node below which it is; 0: the scene
+        """
+    def getExportTextureFormat(self, /) -> tuple[int, str]:
+        """The format of textures in exports.
+        """
+    def importObjects(self, /) -> list[int]:
+        """Adds the nodes of the file in memory to the scene: shapes, cameras, lights, and dummies for nodes that only have a name. Not in CoppeliaSim.
+        """
+    def loadASCII(self, filepath: str, /) -> tuple[bool, str, str]:
+        """Reads a file of text (`.gltf`) in place of the one in memory. importObjects adds it to the scene.
+        filepath: the file
+        """
+    def loadBinary(self, filepath: str, /) -> tuple[bool, str, str]:
+        """Reads a binary file (`.glb`) in place of the one in memory. importObjects adds it to the scene.
+        filepath: the file
+        """
+    def recordAnimation(self, enable: bool, /) -> None:
+        """Records how objects move, from the next simulation step on, in place of what was recorded before; or ends that.
+        enable: whether to record
+        """
+    def saveASCII(self, filepath: str, /) -> bool:
+        """Writes the file in memory as text (`.gltf`), with buffers and textures inside.
+        filepath: the file
+        """
+    def saveBinary(self, filepath: str, /) -> bool:
+        """Writes the file in memory as a binary one (`.glb`).
+        filepath: the file
+        """
+    def serialize(self, /) -> str:
+        """The file in memory as text.
+        """
+    def setExportTextureFormat(self, textureFormat: int, /) -> None:
+        """Sets the format of textures in exports. glTF knows PNG and JPEG; few programs read BMP in it.
+        textureFormat: simGLTF.TextureFormat
+        """
+
 class _simGeom:
     def copyMesh(self, meshHandle: int, /) -> int:
         """Copies a mesh.
@@ -10007,6 +10074,8 @@ class Requires:
     def require(self, name: Literal["simConvex"], script: int | None = None) -> _simConvex: ...
     @overload
     def require(self, name: Literal["simEigen"], script: int | None = None) -> _simEigen: ...
+    @overload
+    def require(self, name: Literal["simGLTF"], script: int | None = None) -> _simGLTF: ...
     @overload
     def require(self, name: Literal["simGeom"], script: int | None = None) -> _simGeom: ...
     @overload

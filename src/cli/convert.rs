@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use super::{Outcome, files, unpack};
+use crate::format::gltf_file::GltfFile;
 use crate::format::robot_file::{ExportOptions, RobotFile, export};
 use crate::format::scene_file::{SceneFile, write_whole};
 use crate::format::scene_folder;
@@ -13,9 +14,9 @@ use crate::scene::{Handle, Scene};
 /// Convert a scene, a model or a robot to another format
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// A .ttt, .ttm or .urdf file, XML, or a folder made by unpack
+    /// A .ttt, .ttm, .urdf, .glb or .gltf file, XML, or a folder made by unpack
     from: PathBuf,
-    /// Output: .ttt, .ttm, .urdf, .simscene.xml or .simmodel.xml (append @simpleXml for the simple XML variant); a name without ending becomes a folder
+    /// Output: .ttt, .ttm, .urdf, .glb, .gltf, .simscene.xml or .simmodel.xml (append @simpleXml for the simple XML variant); a name without ending becomes a folder
     to: PathBuf,
 }
 
@@ -23,10 +24,20 @@ pub(super) fn convert(args: &Args) -> Outcome {
     let file = files::file(&args.from)?;
     match args.to.extension() {
         Some(_) if RobotFile::has_name_of(&args.to) => write_robot(file, &args.to)?,
+        Some(_) if GltfFile::has_name_of(&args.to) => write_gltf(file, &args.to)?,
         Some(_) => unpack::write(file, &args.to)?,
         None => scene_folder::unpack(&file, &args.to)?,
     }
     Ok(ExitCode::SUCCESS)
+}
+
+fn write_gltf(file: File, path: &Path) -> Result<(), String> {
+    let reason = |error: &dyn std::fmt::Display| format!("cannot write {}: {error}", path.display());
+    let mut scene = Scene::new();
+    let file = SceneFile::new(file).map_err(|error| reason(&error))?;
+    file.add_to(&mut scene, false).map_err(|error| reason(&error))?;
+    let file = GltfFile::of_scene(&scene).map_err(|error| reason(&error))?;
+    file.write(path).map_err(|error| reason(&error))
 }
 
 fn write_robot(file: File, path: &Path) -> Result<(), String> {

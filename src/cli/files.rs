@@ -1,8 +1,9 @@
-//! Scenes and models of the command line: files, robots in URDF, and folders made by `unpack`.
+//! Scenes and models of the command line: files, robots in URDF, glTF files, and folders made by `unpack`.
 
 use std::path::Path;
 
 use super::complain;
+use crate::format::gltf_file::GltfFile;
 use crate::format::robot_file::RobotFile;
 use crate::format::scene_file::{self, SceneFile};
 use crate::format::scene_folder;
@@ -17,8 +18,13 @@ pub(super) fn file(path: &Path) -> Result<File, String> {
     if scene_folder::is_scene(path) {
         return scene_folder::pack(path, &Permissions::all()).map_err(unreadable);
     }
-    if RobotFile::has_name_of(path) {
-        let model = RobotFile::read(path, None, &Permissions::all()).and_then(RobotFile::model);
+    let model = if RobotFile::has_name_of(path) {
+        Some(RobotFile::read(path, None, &Permissions::all()).and_then(RobotFile::model))
+    } else {
+        let is_gltf = GltfFile::has_name_of(path);
+        is_gltf.then(|| GltfFile::open(path, &Permissions::all()).and_then(|file| file.model(path)))
+    };
+    if let Some(model) = model {
         let (file, messages) = model.map_err(unreadable)?;
         messages.iter().for_each(|message| complain(&format!("{}: {message}", path.display())));
         return Ok(file);

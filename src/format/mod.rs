@@ -1,5 +1,6 @@
 //! Files of other programs.
 
+pub(crate) mod gltf_file;
 pub(crate) mod graph_file;
 pub(crate) mod mesh_file;
 pub(crate) mod picture;

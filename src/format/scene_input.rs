@@ -1,7 +1,8 @@
-//! A scene as users name it: a Lua file, a file of CoppeliaSim, a robot in URDF, or a folder made by `unpack`.
+//! A scene as users name it: a Lua file, a file of CoppeliaSim, a robot in URDF, a glTF file, or a folder made by `unpack`.
 
 use std::path::Path;
 
+use super::gltf_file::GltfFile;
 use super::robot_file::RobotFile;
 use super::scene_file::{self, SceneFile, ScriptSources};
 use super::scene_folder;
@@ -68,12 +69,20 @@ fn read_folder(path: &Path, permissions: &Permissions) -> Result<SceneInput, Str
 /// A robot becomes a model, with the usual options.
 fn read_robot(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
     let (file, messages) = RobotFile::read(path, None, permissions)?.model()?;
-    Ok(SceneInput::File(Box::new(InputFile { file, sources: ScriptSources::default(), messages })))
+    Ok(model_input(file, messages))
+}
+
+fn model_input(file: File, messages: Vec<String>) -> SceneInput {
+    SceneInput::File(Box::new(InputFile { file, sources: ScriptSources::default(), messages }))
 }
 
 fn read_file(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
     if RobotFile::has_name_of(path) {
         return read_robot(path, permissions);
+    }
+    if GltfFile::has_name_of(path) {
+        let (file, messages) = GltfFile::open(path, permissions)?.model(path)?;
+        return Ok(model_input(file, messages));
     }
     let bytes = read_bounded(path).map_err(|error| error.to_string())?;
     if !scene_file::is_scene(&bytes) || script_file::check_no_robot(path).is_err() {

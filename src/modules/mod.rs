@@ -10,6 +10,7 @@ mod sim_assimp;
 mod sim_convex;
 mod sim_eigen;
 mod sim_geom;
+mod sim_gltf;
 mod sim_ik;
 mod sim_im;
 mod sim_ompl;
@@ -47,6 +48,7 @@ pub(crate) static ALL: &[&Module] = &[
     &sim_convex::MODULE,
     &sim_eigen::MODULE,
     &sim_geom::MODULE,
+    &sim_gltf::MODULE,
     &sim_ik::MODULE,
     &sim_im::MODULE,
     &sim_ompl::MODULE,

@@ -83,8 +83,10 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("memchr", "src/io/socket"),
     ("memchr", "src/wire/mime"),
     ("mesh_files", "src/api/shapes/mesh_file.rs"),
+    ("mesh_files", "src/format/gltf_file"),
     ("mesh_files", "src/format/mesh_file"),
     ("mesh_files", "src/modules/sim_assimp"),
+    ("mesh_files", "src/modules/sim_gltf.rs"),
     ("mlua", "src/lib.rs"),
     ("mlua", "src/script/lua"),
     ("mlua", "src/script/lua_runtime"),
@@ -217,6 +219,7 @@ const PERCEPTION: Rooms = &[
 
 const FORMAT: Rooms = &[
     ("picture", &[]),
+    ("gltf_file", &["mesh_file", "scene_file", "ttt"]),
     ("mesh_file", &["picture", "scene_file"]),
     ("ttt", &[]),
     ("xml", &["picture", "ttt"]),
@@ -228,7 +231,7 @@ const FORMAT: Rooms = &[
     ("scene_folder", &["scene_file", "ttt"]),
     ("scene_outline", &["scene_file", "ttt"]),
     ("script_file", &[]),
-    ("scene_input", &["robot_file", "scene_file", "scene_folder", "script_file", "ttt"]),
+    ("scene_input", &["gltf_file", "robot_file", "scene_file", "scene_folder", "script_file", "ttt"]),
 ];
 
 /// `sim` is the simulator that consists of all, `error` and `log` are for all. The host speaks to `runtime`; the languages are behind it.

@@ -5,6 +5,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "tests start programs and look at the environment")]
 
+mod gltf;
 mod motion;
 mod package;
 mod recordings;

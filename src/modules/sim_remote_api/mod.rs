@@ -36,6 +36,7 @@ pub(super) static MODULE: Module = Module {
     hooks: Hooks {
         start_of_iteration: Some(services::start_of_iteration),
         before_step: Some(services::before_step),
+        after_step: None,
         end_of_simulation: Some(services::end_of_simulation),
     },
     ..Module::new("simRemoteApi")

@@ -22,12 +22,15 @@ pub struct Hooks {
     pub start_of_iteration: Option<ModuleHook>,
     /// Before each simulation step that is due; true holds it back. It is asked again in the next iteration.
     pub before_step: Option<fn(&Host<'_>) -> bool>,
+    /// After each simulation step, before time goes on.
+    pub after_step: Option<ModuleHook>,
     /// At the end of a simulation, after `sysCall_afterSimulation`.
     pub end_of_simulation: Option<ModuleHook>,
 }
 
 impl Hooks {
-    pub const NONE: Self = Self { start_of_iteration: None, before_step: None, end_of_simulation: None };
+    pub const NONE: Self =
+        Self { start_of_iteration: None, before_step: None, after_step: None, end_of_simulation: None };
 }
 
 /// The parts of the simulator that a hook may access.

@@ -50,6 +50,7 @@ impl Sim {
         } else if !self.main_script_is_vetoed() {
             self.scene.borrow_mut().button_interfaces_mut().next_pass();
             self.simulation_step();
+            self.run_hooks(|hooks| hooks.after_step);
             self.advance();
             self.film();
             self.show_to_watcher();
