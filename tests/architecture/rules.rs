@@ -79,6 +79,7 @@ pub const OWNERS: &[(&str, &str)] = &[
     ("libm", "crates/planning"),
     ("libm", "crates/rendering"),
     ("libm", "crates/robot-description"),
+    ("md5", "crates/ros-interfaces"),
     ("memchr", "src/format/xml"),
     ("memchr", "src/io/socket"),
     ("memchr", "src/wire/mime"),
