@@ -135,7 +135,7 @@ impl Row {
     fn free_response(&self, bodies: &[LinkedBody]) -> f64 {
         let of_side = |side: &Side| {
             let normal = side.jacobian.row(0).transpose();
-            normal.dot(&(bodies[side.body].inverse_mass_matrix * normal))
+            normal.dot(&bodies[side.body].inverse_mass.times(&normal))
         };
         self.sides.iter().flatten().map(of_side).sum()
     }
@@ -209,7 +209,7 @@ impl Mechanism {
             blocks.resize(self.joints.len(), None);
             for (joint, block) in self.joints.iter().zip(blocks.iter_mut()) {
                 for side in (0..2).filter(|&side| joint.body(side) == body) {
-                    *block.get_or_insert_with(Block::zeros) += joint.active_inverse_mass[side];
+                    *block.get_or_insert_with(Block::zeros) += joint.active_inverse_mass[side].dense();
                 }
             }
             self.matrix.carry(&self.pattern, blocks);
@@ -219,7 +219,7 @@ impl Mechanism {
         for (i, first) in carried.iter().enumerate() {
             for (j, second) in carried.iter().enumerate() {
                 let own =
-                    if i == j { self.bodies[self.contacts.bodies[i]].inverse_mass_matrix } else { Matrix6::zeros() };
+                    if i == j { self.bodies[self.contacts.bodies[i]].inverse_mass.dense() } else { Matrix6::zeros() };
                 let shared = first.iter().zip(second).filter_map(|(a, b)| Some(a.as_ref()?.tr_mul(b.as_ref()?)));
                 bodies.push(shared.fold(own, |sum, product| sum - product));
             }

@@ -76,7 +76,7 @@ impl Mechanism {
 impl LinkedBody {
     fn add_tension(&mut self, joint: &Joint, side: usize, other_moves: bool, step: f64) {
         let lever = joint.point - self.com;
-        let force = (joint.jacobians[side].transpose() * joint.impulse).fixed_rows::<3>(0).into_owned();
+        let force = joint.jacobians[side].linear.tr_mul(&joint.impulse.fixed_rows::<3>(0));
         let across = lever * force.transpose();
         let restoring = Matrix3::identity() * lever.dot(&force) - (across + across.transpose()) * 0.5;
         self.geometric_stiffness.stiffness += restoring * step;
@@ -90,7 +90,7 @@ impl LinkedBody {
     fn add_inertia(&mut self, axis: &Vector3<f64>, largest_ratio: f64) -> bool {
         let of_body = &self.geometric_stiffness;
         let stiffness = axis.dot(&(of_body.stiffness * axis));
-        let response = axis.dot(&(self.inverse_mass_matrix.fixed_view::<3, 3>(3, 3) * axis));
+        let response = axis.dot(&(self.inverse_mass.angular * axis));
         if !(self.is_dynamic() && stiffness.is_finite() && stiffness * response > largest_ratio) {
             return false;
         }

@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 
 use geometry::Pose;
 use geometry::pose::euler::wrap_angle;
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::Vector3;
 
 use crate::block_cholesky::Segment;
 use crate::contact::Contact;
 use crate::free_axis::{FreeAxis, MotorState};
+use crate::jacobian::Jacobian;
 use crate::linked_body::LinkedBody;
 use crate::spatial;
 
@@ -98,21 +99,21 @@ pub(crate) struct Joint {
     pub properties: JointProperties,
     pub state: JointState,
     /// The Jacobian of the joint: from the velocities of its two bodies to its rows.
-    pub jacobians: [Matrix6<f64>; 2],
+    pub jacobians: [Jacobian; 2],
     /// The point at which the forces of the joint act, world.
     pub point: Vector3<f64>,
     locked: [bool; 6],
     pub axis: Option<FreeAxis>,
     pub impulse: Segment,
     /// The Jacobians of the active rows; other rows are zero.
-    pub active: [Matrix6<f64>; 2],
+    pub active: [Jacobian; 2],
     /// The same times the inverse masses of the bodies: the halves of the inverse effective mass.
-    pub active_inverse_mass: [Matrix6<f64>; 2],
+    pub active_inverse_mass: [Jacobian; 2],
 }
 
 impl Joint {
     pub(crate) fn new(properties: JointProperties) -> Self {
-        let none = [Matrix6::zeros(); 2];
+        let none = [Jacobian::zeros(); 2];
         Self {
             properties,
             state: JointState { position: 0.0, velocity: 0.0, motor: None, limits: None },
@@ -135,27 +136,25 @@ impl Joint {
     pub(crate) fn update_jacobians(&mut self, bodies: &[LinkedBody]) {
         let JointProperties { base, tip, pitch, .. } = &self.properties;
         let [first, second] = self.properties.bodies.map(|body| &bodies[body]);
-        let axes = (first.pose.rotation * base.rotation).to_rotation_matrix();
-        let point = (second.pose * tip).translation.vector;
-        self.point = point;
-        for row in 0..3 {
-            let direction = axes.matrix().column(row).into_owned();
-            for (side, (body, sign)) in [(first, -1.0), (second, 1.0)].into_iter().enumerate() {
-                let lever = point - body.com;
-                let along = spatial(direction, lever.cross(&direction)) * sign;
-                self.jacobians[side].set_row(row, &along.transpose());
-                self.jacobians[side].set_row(row + 3, &spatial(Vector3::zeros(), direction * sign).transpose());
-            }
+        let axes = (first.pose.rotation * base.rotation).to_rotation_matrix().into_inner().transpose();
+        self.point = (second.pose * tip).translation.vector;
+        for (side, (body, axes)) in [(first, -axes), (second, axes)].into_iter().enumerate() {
+            let mut lever = axes * (body.com - self.point).cross_matrix();
+            let screwed = lever.row(2) - axes.row(2) * *pitch;
+            lever.set_row(2, &screwed);
+            self.jacobians[side] = Jacobian { linear: axes, lever, angular: axes };
         }
-        for jacobian in self.jacobians.iter_mut().filter(|_| *pitch != 0.0) {
-            let screwed = jacobian.row(2) - jacobian.row(5) * *pitch;
-            jacobian.set_row(2, &screwed);
-        }
+    }
+
+    /// Velocities along the rows.
+    fn velocity(&self, bodies: &[LinkedBody]) -> Segment {
+        let [first, second] = self.properties.bodies.map(|body| &bodies[body].velocity);
+        self.jacobians[0].velocity(first) + self.jacobians[1].velocity(second)
     }
 
     /// Velocity along a row.
     fn row_velocity(&self, row: usize, bodies: &[LinkedBody]) -> f64 {
-        (0..2).map(|side| (self.jacobians[side].row(row) * bodies[self.body(side)].velocity)[0]).sum()
+        self.velocity(bodies)[row]
     }
 
     /// By how much the locked rows are violated: metres and radians. `turned`: how far the joint turned in this step.
@@ -183,13 +182,11 @@ impl Joint {
 
     /// Computes what the active rows add to the inverse effective mass of the system.
     pub(crate) fn update_effective_mass(&mut self, bodies: &[LinkedBody]) {
+        let active = std::array::from_fn(|row| self.is_active(row));
         for side in 0..2 {
-            let mut rows = self.jacobians[side];
-            for row in (0..6).filter(|&row| !self.is_active(row)) {
-                rows.row_mut(row).fill(0.0);
-            }
+            let rows = self.jacobians[side].with_rows(&active);
             self.active[side] = rows;
-            self.active_inverse_mass[side] = rows * bodies[self.body(side)].inverse_mass_matrix;
+            self.active_inverse_mass[side] = rows.times(&bodies[self.body(side)].inverse_mass);
         }
     }
 
@@ -202,10 +199,11 @@ impl Joint {
 
     /// The change of velocity that the active rows require.
     pub(crate) fn right_hand_side(&self, bodies: &[LinkedBody]) -> Segment {
+        let velocity = self.velocity(bodies);
         Segment::from_fn(|row, _| match (self.is_active(row), &self.axis) {
             (false, _) => 0.0,
-            (true, Some(axis)) if axis.row == row => axis.target_velocity() - self.row_velocity(row, bodies),
-            (true, _) => -self.row_velocity(row, bodies),
+            (true, Some(axis)) if axis.row == row => axis.target_velocity() - velocity[row],
+            (true, _) => -velocity[row],
         })
     }
 
@@ -239,7 +237,7 @@ impl Joint {
     pub(crate) fn apply_impulse(&self, bodies: &mut [LinkedBody], impulse: &Segment) {
         for side in 0..2 {
             let body = &mut bodies[self.body(side)];
-            body.velocity += body.inverse_mass_matrix * (self.jacobians[side].transpose() * impulse);
+            body.velocity += body.inverse_mass.times(&self.jacobians[side].impulse(impulse));
         }
     }
 
@@ -263,10 +261,10 @@ impl Joint {
             let speed = velocity.norm();
             Vector3::x() * if speed > 0.0 { sign * velocity.dot(&normal) / speed } else { 0.0 }
         };
-        let axis = |row: usize, column: usize| self.jacobians[1].row(row).fixed_columns::<3>(column).transpose();
+        let Jacobian { linear, angular, .. } = &self.jacobians[1];
         match self.properties.kind {
-            JointKind::Revolute => along(axis(5, 3).cross(&lever)),
-            JointKind::Prismatic => along(axis(2, 0)),
+            JointKind::Revolute => along(angular.row(2).transpose().cross(&lever)),
+            JointKind::Prismatic => along(linear.row(2).transpose()),
             JointKind::Spherical if lever != Vector3::zeros() => sign * lever.cross(&normal) / lever.norm(),
             JointKind::Spherical | JointKind::Fixed => Vector3::zeros(),
         }
@@ -279,7 +277,7 @@ impl Joint {
 
     /// The axes its bodies may turn about against each other, world.
     pub(crate) fn free_rotation_axes(&self) -> impl Iterator<Item = Vector3<f64>> {
-        let axis = |row: usize| self.jacobians[1].row(row).fixed_columns::<3>(3).transpose();
+        let axis = |row: usize| self.jacobians[1].angular.row(row - 3).transpose();
         (3..6).filter(|&row| !self.is_active(row)).map(axis)
     }
 }

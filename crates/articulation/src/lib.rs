@@ -79,6 +79,7 @@ mod contact;
 mod fast_rotor;
 mod free_axis;
 mod geometric_stiffness;
+mod jacobian;
 mod joint;
 mod linked_body;
 mod mechanism;

@@ -1,10 +1,11 @@
 //! A body on joints: where it is, how it responds to impulses, what velocity it gets.
 
 use geometry::Pose;
-use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3, Vector6};
 
 use crate::fast_rotor::FastRotor;
 use crate::geometric_stiffness::GeometricStiffness;
+use crate::jacobian::InverseMass;
 use crate::spatial;
 
 /// The constant properties of a body.
@@ -63,7 +64,7 @@ pub(crate) struct LinkedBody {
     /// Centre of mass, world.
     pub com: Vector3<f64>,
     /// Response to impulses about the centre of mass, world axes.
-    pub inverse_mass_matrix: Matrix6<f64>,
+    pub inverse_mass: InverseMass,
     /// Velocity before all impulses, gravity included, and with them.
     free_velocity: Vector6<f64>,
     present_velocity: Vector6<f64>,
@@ -94,7 +95,7 @@ impl LinkedBody {
             properties,
             pose: Pose::identity(),
             com: Vector3::zeros(),
-            inverse_mass_matrix: Matrix6::zeros(),
+            inverse_mass: InverseMass { linear: properties.inverse_mass, ..InverseMass::zero() },
             free_velocity: Vector6::zeros(),
             present_velocity: Vector6::zeros(),
             velocity: Vector6::zeros(),
@@ -117,11 +118,14 @@ impl LinkedBody {
     }
 
     pub(crate) fn set_pose(&mut self, pose: Pose) {
+        self.place(pose);
+        self.update_inverse_inertia();
+    }
+
+    /// Moves the body without changing its response to impulses.
+    pub(crate) fn place(&mut self, pose: Pose) {
         self.pose = pose;
         self.com = pose.transform_point(&self.properties.com.into()).coords;
-        let linear = Matrix3::identity() * self.properties.inverse_mass;
-        self.inverse_mass_matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&linear);
-        self.update_inverse_inertia();
     }
 
     /// Computes the response to angular impulses for the present orientation and added inertia.
@@ -132,7 +136,7 @@ impl LinkedBody {
             Some(added) => (self.world_inertia() + added).try_inverse().unwrap_or(inverse),
             None => inverse,
         };
-        self.inverse_mass_matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&inverse);
+        self.inverse_mass.angular = inverse;
     }
 
     /// Predicts the velocity at the end of the step without joints, and collects the other impulses.
@@ -146,7 +150,7 @@ impl LinkedBody {
         let spin = state.motion.velocity.fixed_rows::<3>(3).into_owned();
         self.gyroscopic_impulse = self
             .rotor_impulse(&spin, step)
-            .unwrap_or_else(|| self.world_inertia() * (state.gyroscopic_velocity - spin));
+            .unwrap_or_else(|| self.angular_momentum(&(state.gyroscopic_velocity - spin)));
         self.external_impulse = state.force * step + spatial(Vector3::zeros(), self.gyroscopic_impulse);
         self.free_velocity = spatial(linear, spin);
     }
@@ -160,7 +164,7 @@ impl LinkedBody {
 
     /// The velocity with all impulses but those of joints and contacts.
     pub(crate) fn reset_velocity(&mut self) {
-        self.velocity = self.free_velocity + self.inverse_mass_matrix * self.external_impulse;
+        self.velocity = self.free_velocity + self.inverse_mass.times(&self.external_impulse);
     }
 
     /// The velocity before the step.
@@ -172,6 +176,12 @@ impl LinkedBody {
     pub(crate) fn world_inertia(&self) -> Matrix3<f64> {
         let turn = self.pose.rotation.to_rotation_matrix();
         turn.matrix() * self.properties.inertia * turn.matrix().transpose()
+    }
+
+    /// The inertia times an angular velocity, both along the axes of the world.
+    fn angular_momentum(&self, velocity: &Vector3<f64>) -> Vector3<f64> {
+        let turn = self.pose.rotation;
+        turn * (self.properties.inertia * turn.inverse_transform_vector(velocity))
     }
 
     /// Moves the centre of mass and turns about it.
@@ -210,7 +220,6 @@ impl LinkedBody {
             return angular;
         }
         let external = self.external_impulse.fixed_rows::<3>(3) - self.gyroscopic_impulse;
-        let response = self.inverse_mass_matrix.fixed_view::<3, 3>(3, 3);
-        self.world_inertia() * (response * (angular + external)) - external
+        self.angular_momentum(&(self.inverse_mass.angular * (angular + external))) - external
     }
 }

@@ -5,7 +5,7 @@
 
 use nalgebra::{Vector3, Vector6};
 
-use crate::block_cholesky::{Matrix, Pattern, Segment};
+use crate::block_cholesky::{Matrix, Pattern, Place, Segment};
 use crate::contact::Contacts;
 use crate::joint::{Joint, JointLoad, JointProperties, JointState};
 use crate::linked_body::{BodyProperties, BodyState, LinkedBody};
@@ -34,10 +34,12 @@ pub struct Mechanism {
     pub(crate) step: f64,
 }
 
-/// Two joints, or one with itself, at a body that moves: each by index and side. The block of the system that they share.
+/// Two joints, or one with itself, at a body that moves: each by index and side, the column no greater than the row.
 struct Coupling {
     row: (usize, usize),
     column: (usize, usize),
+    /// Of the block of the system that they share.
+    place: Place,
 }
 
 impl Mechanism {
@@ -52,8 +54,11 @@ impl Mechanism {
         );
         let bodies: Vec<LinkedBody> = bodies.into_iter().map(LinkedBody::new).collect();
         let joints: Vec<Joint> = joints.into_iter().map(Joint::new).collect();
-        let couplings = couplings(&bodies, &joints);
-        let pattern = Pattern::new(joints.len(), couplings.iter().map(|coupling| (coupling.row.0, coupling.column.0)));
+        let pairs = coupled_pairs(&bodies, &joints);
+        let pattern = Pattern::new(joints.len(), pairs.iter().map(|(row, column)| (row.0, column.0)));
+        let couplings =
+            pairs.into_iter().map(|(row, column)| Coupling { row, column, place: pattern.place(row.0, column.0) });
+        let couplings = couplings.collect();
         let linked = bodies.len();
         Self {
             bodies,
@@ -135,7 +140,7 @@ impl Mechanism {
         for joint in &self.joints {
             let total = joint.total_impulse();
             for side in 0..2 {
-                impulses[joint.body(side)] += joint.jacobians[side].transpose() * total;
+                impulses[joint.body(side)] += joint.jacobians[side].impulse(&total);
             }
         }
         self.add_contact_impulses(&mut impulses);
@@ -153,10 +158,13 @@ impl Mechanism {
     pub(crate) fn assemble(&mut self) {
         self.matrix.clear(&self.pattern);
         self.joints.iter_mut().for_each(|joint| joint.update_effective_mass(&self.bodies));
-        for Coupling { row, column } in &self.couplings {
-            let block =
-                self.joints[row.0].active_inverse_mass[row.1] * self.joints[column.0].active[column.1].transpose();
-            self.matrix.add(&self.pattern, row.0, column.0, &block);
+        for Coupling { row, column, place } in &self.couplings {
+            let (left, right) =
+                (&self.joints[row.0].active_inverse_mass[row.1], &self.joints[column.0].active[column.1]);
+            match *place {
+                Place::Diagonal(index) => left.add_lower_product(right, &mut self.matrix.diagonal[index]),
+                Place::Below(index) => left.add_product(right, &mut self.matrix.below[index]),
+            }
         }
         for diagonal in &mut self.matrix.diagonal {
             for row in 0..6 {
@@ -173,7 +181,7 @@ impl Mechanism {
             let mut impulses = vec![Vector6::zeros(); self.bodies.len()];
             self.add_contact_impulses(&mut impulses);
             for (body, impulse) in self.bodies.iter_mut().zip(impulses) {
-                body.velocity += body.inverse_mass_matrix * impulse;
+                body.velocity += body.inverse_mass.times(&impulse);
             }
         }
         for joint in &self.joints {
@@ -188,20 +196,21 @@ impl Mechanism {
     }
 }
 
-fn couplings(bodies: &[LinkedBody], joints: &[Joint]) -> Vec<Coupling> {
+/// The pairs of joints that share a body that moves: index and side of the later one, then of the other.
+fn coupled_pairs(bodies: &[LinkedBody], joints: &[Joint]) -> Vec<((usize, usize), (usize, usize))> {
     let mut at_body: Vec<Vec<(usize, usize)>> = vec![Vec::new(); bodies.len()];
     for (index, joint) in joints.iter().enumerate() {
         for side in (0..2).filter(|&side| bodies[joint.body(side)].is_dynamic()) {
             at_body[joint.body(side)].push((index, side));
         }
     }
-    let mut couplings = Vec::new();
+    let mut pairs = Vec::new();
     for ends in at_body {
         for (i, &row) in ends.iter().enumerate() {
-            couplings.extend(ends[..=i].iter().map(|&column| Coupling { row, column }));
+            pairs.extend(ends[..=i].iter().map(|&column| (row, column)));
         }
     }
-    couplings
+    pairs
 }
 
 #[cfg(test)]

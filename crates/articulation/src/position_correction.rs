@@ -28,7 +28,7 @@ impl Mechanism {
         let spins = self.fast_spins(motions, self.step);
         for ((body, motion), spin) in self.bodies.iter_mut().zip(motions).zip(spins) {
             let before = body.pose.rotation;
-            body.set_pose(motion.pose);
+            body.place(motion.pose);
             body.correction = Vector6::zeros();
             body.turn_with_axis(spin, before, self.step);
         }
@@ -89,6 +89,7 @@ impl Mechanism {
 
     /// The system for where the bodies are now; false when it cannot be solved.
     fn update_system(&mut self) -> bool {
+        self.bodies.iter_mut().for_each(LinkedBody::update_inverse_inertia);
         for joint in &mut self.joints {
             joint.update_jacobians(&self.bodies);
         }
@@ -101,11 +102,11 @@ impl Mechanism {
         let mut impulses = vec![Vector6::zeros(); self.bodies.len()];
         for (joint, multiplier) in self.joints.iter().zip(multipliers) {
             for side in 0..2 {
-                impulses[joint.body(side)] -= joint.jacobians[side].transpose() * multiplier;
+                impulses[joint.body(side)] -= joint.jacobians[side].impulse(multiplier);
             }
         }
         for (body, impulse) in self.bodies.iter_mut().zip(impulses).filter(|(body, _)| body.is_dynamic()) {
-            body.displace(&(body.inverse_mass_matrix * impulse));
+            body.displace(&body.inverse_mass.times(&impulse));
         }
     }
 }
