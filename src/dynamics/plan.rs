@@ -162,7 +162,7 @@ fn body(scene: &Scene, handle: Handle, frozen: &Frozen) -> Option<BodyPlan> {
         uid: object.uid(),
         dynamic: dynamic_tree && !dynamics.is_static && !frozen.contains(handle),
         respondable: respondable_tree && dynamics.respondable,
-        mass: shape.mass,
+        mass: shape.mass.with_positive_moments(),
         parts: shape.parts.iter().map(PartForm::of).collect(),
     };
     Some(BodyPlan { build, surface: surface(scene, handle, shape), asleep: dynamics.start_asleep })

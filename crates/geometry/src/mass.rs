@@ -15,6 +15,8 @@ use crate::pose::{Pose, pose_from_matrix, pose_to_matrix};
 pub const MIN_MASS: f64 = 1e-7;
 /// Smallest principal moment per unit mass (m2).
 pub const MIN_MOMENT: f64 = 1e-8;
+/// A moment below this part of the largest one is zero but for rounding.
+const POSITIVE: f64 = 1e-12;
 /// Largest mass (kg), so that no product overflows.
 const MAX_MASS: f64 = 1e30;
 
@@ -132,6 +134,23 @@ impl MassProperties {
         let axes = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, y, x.cross(&y)]));
         let moments = Vector3::from(order.map(|i| eigen.eigenvalues[i] * scale));
         (UnitQuaternion::from_rotation_matrix(&axes), floor(moments))
+    }
+}
+
+impl MassProperties {
+    /// The body as physics moves it. Moments that are not positive, which no body has and no solver inverts, are raised to [`MIN_MOMENT`], and then the
+    /// two smaller ones, by equal amounts, until they reach the largest together, as those of any real body do. An inertia whose moments are all
+    /// positive stays as it is, to the bit.
+    pub fn with_positive_moments(&self) -> Self {
+        let (axes, moments) = self.principal_axes();
+        let largest = moments.iter().copied().fold(0.0, f64::max);
+        let is_positive = |moment: &f64| *moment > MIN_MOMENT && *moment > largest * POSITIVE;
+        if moments.iter().all(is_positive) || !self.inertia.iter().all(|x| x.is_finite()) {
+            return *self;
+        }
+        let missing = (2.0 * largest - moments.iter().sum::<f64>()).max(0.0) / 2.0;
+        let raised = moments.map(|moment| if moment == largest { moment } else { moment + missing });
+        Self { inertia: turned(&Matrix3::from_diagonal(&raised.into()), &axes), ..*self }
     }
 }
 
@@ -313,6 +332,26 @@ mod tests {
         assert_eq!(compute_mass_and_inertia(None, &[], 1200.0), None);
         assert_eq!(compute_mass_and_inertia(None, &vertices, f64::NAN), None);
         assert_eq!(compute_mass_and_inertia(Some((PrimitiveKind::Plane, [1.; 3])), &[], 1.0), None);
+    }
+
+    #[test]
+    fn inertias_that_no_body_has_become_positive() {
+        let body = |inertia: Matrix3<f64>| MassProperties { inertia, ..MassProperties::default() };
+        // All nine numbers equal, as robots' files have it: the moments are 3, 0 and 0.
+        let raised = body(Matrix3::repeat(1.0)).with_positive_moments();
+        close(&raised.principal_axes().1, &[1.5, 1.5, 3.0], 1e-7);
+        // The axis of the largest moment stays.
+        assert!((raised.inertia * Vector3::repeat(1.0) - Vector3::repeat(3.0)).norm() < 1e-7);
+        let raised = body(Matrix3::from_diagonal(&Vector3::new(9.0, -4.0, 3.0))).with_positive_moments();
+        close(&[raised.inertia[(0, 0)], raised.inertia[(1, 1)], raised.inertia[(2, 2)]], &[9.0, 3.0, 6.0], 1e-7);
+        // A rod without thickness gets the smallest one; a body that only is unusual stays.
+        let rod = body(Matrix3::from_diagonal(&Vector3::new(0.0, 1.0, 1.0))).with_positive_moments();
+        assert_eq!(rod.inertia.diagonal(), Vector3::new(MIN_MOMENT, 1.0, 1.0));
+        let unusual = body(Matrix3::new(1.0, 0.1, 0.0, 0.1, 2.0, 0.0, 0.0, 0.0, 30.0));
+        assert_eq!(unusual.with_positive_moments(), unusual);
+        let nothing = body(Matrix3::zeros()).with_positive_moments();
+        assert_eq!(nothing.inertia, Matrix3::from_diagonal_element(MIN_MOMENT));
+        assert!(body(Matrix3::repeat(f64::NAN)).with_positive_moments().inertia[(0, 0)].is_nan());
     }
 
     #[test]
