@@ -11,7 +11,8 @@ use crate::scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
 const CARRIER: f64 = 0.05;
 /// Edge and mass of what is seen of a link without any geometry, metres and kilograms.
 const SPECK: (f64, f64) = (5e-4, 1e-5);
-/// What stands for an inertia that is zero, kg m².
+/// Inertias below are zero but for rounding, kg m²; and what stands for them.
+const NO_INERTIA: f64 = 1e-15;
 const SMALL_INERTIA: f64 = 1e-3;
 /// The high byte: touched by all other trees. The low one: by none of its own tree, or by every second link.
 const MASK: i64 = 0xff00;
@@ -113,7 +114,7 @@ impl Import<'_> {
             self.message(format!("link '{}' has no mass: that of its shape is taken", link.name));
         }
         let [mut xx, xy, xz, mut yy, yz, mut zz] = inertial.inertia;
-        if inertial.inertia == [0.0; 6] {
+        if inertial.inertia.iter().all(|number| number.abs() < NO_INERTIA) {
             (xx, yy, zz) = (SMALL_INERTIA, SMALL_INERTIA, SMALL_INERTIA);
             self.message(format!("link '{}' has no inertia: {SMALL_INERTIA} is taken", link.name));
         }
