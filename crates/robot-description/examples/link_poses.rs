@@ -1,10 +1,13 @@
-//! Prints what was read from a URDF file, or of the first model of an SDF file, and where its links are: `cargo run --example link_poses -- robot.urdf < positions`.
+//! Prints what was read from a URDF or MJCF file, or of the first model of an SDF file, and where its links are: `cargo run --example link_poses -- robot.urdf < positions`.
 //!
-//! A line of the input has pairs `joint=position`; joints without are at 0. For each, a line of the output has x, y, z, qx, qy, qz, qw of every link.
+//! A line of the input has pairs `joint=position`, with commas between the numbers of a position; joints without are at 0. For each, a line of the output has x, y, z, qx, qy, qz, qw of every link.
 //! Before them: a line for each warning, joint and link. `tests/compare.py` compares them with other programs.
 
 use std::io::BufRead;
+use std::path::{Path, PathBuf};
 
+use mesh_files::Format;
+use robot_description::mjcf::{self, Files, Triangles};
 use robot_description::{Parsed, Robot, sdf, urdf};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -20,10 +23,41 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
+/// Files in a folder.
+struct Beside(PathBuf);
+
+impl Files for Beside {
+    fn include(&mut self, name: &str) -> Result<Vec<u8>, String> {
+        std::fs::read(self.0.join(name)).map_err(|error| error.to_string())
+    }
+
+    fn triangles(&mut self, file: &str) -> Result<Triangles, String> {
+        let path = self.0.join(file);
+        let bytes = std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let format = Format::of_name(file).ok_or("a format that is not known")?;
+        let mut nothing = |_: &str| Err("not looked for".to_owned());
+        let file = mesh_files::read(&bytes, format, mesh_files::Limits::default(), &mut nothing)
+            .map_err(|error| error.to_string())?;
+        let mut mesh = Triangles::default();
+        for part in &file.parts {
+            let first = mesh.vertices.len() as u32;
+            mesh.vertices.extend(part.vertices.iter().copied());
+            mesh.corners.extend(part.triangles.iter().map(|triangle| triangle.map(|corner| corner + first)));
+        }
+        Ok(mesh)
+    }
+}
+
 fn read(file: &str) -> Result<Parsed<Robot>, Box<dyn std::error::Error>> {
     let bytes = std::fs::read(file)?;
     if file.ends_with(".urdf") {
         return Ok(urdf::read(&bytes)?);
+    }
+    if mjcf::is_mjcf(&bytes) {
+        let folder = Path::new(&file).parent().unwrap_or(Path::new("")).to_owned();
+        let parsed = mjcf::read(&bytes, &mut Beside(folder))?;
+        let Parsed { value, warnings, further_warnings } = parsed;
+        return Ok(Parsed { value: value.robot, warnings, further_warnings });
     }
     let parsed = sdf::read(&bytes, &mut |name| Err(format!("{name}: not looked for")))?;
     let model = parsed.value.models.into_iter().next().ok_or("the file has no model")?;
@@ -35,6 +69,7 @@ fn print_parts(robot: &Robot) {
         println!("joint\t{}\t{:?}\t{}", joint.name, joint.kind, joint.mimic.is_some());
     }
     for link in &robot.links {
+        println!("line\t{}\t{}", link.name, link.line);
         let Some(inertial) = &link.inertial else {
             println!("link\t{}", link.name);
             continue;
@@ -57,7 +92,9 @@ fn poses(robot: &Robot, line: &str) -> Result<String, Box<dyn std::error::Error>
         let (name, value) = pair.rsplit_once('=').ok_or("pairs are joint=position")?;
         let index = robot.joint(name).ok_or_else(|| format!("no joint '{name}'"))?;
         let start: usize = robot.joints[..index].iter().map(|joint| joint.kind.numbers()).sum();
-        positions[start] = value.parse()?;
+        for (place, number) in value.split(',').enumerate() {
+            *positions.get_mut(start + place).ok_or("too many numbers")? = number.parse()?;
+        }
     }
     let poses = robot.link_poses(&positions)?;
     let numbers = poses.iter().flat_map(|pose| {

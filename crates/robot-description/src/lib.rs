@@ -1,4 +1,4 @@
-//! Descriptions of robots: URDF and SDF as plain values, with warnings instead of failures; URDF is written as well.
+//! Descriptions of robots: URDF, SDF and MJCF as plain values, with warnings instead of failures; URDF is written as well.
 //!
 //! This crate knows no scene and opens no file: the caller passes bytes, and says which files exist.
 //!
@@ -6,6 +6,7 @@
 //! |---|---|
 //! | read and write URDF | [`urdf::read`], [`urdf::write`] |
 //! | read models and worlds in SDF | [`sdf::read`] |
+//! | read models in MJCF | [`mjcf::read`] |
 //! | see what was read | [`Robot`], and the [`Warning`]s beside it |
 //! | find the meshes that a file names | [`Search`] |
 //! | place the links at positions of the joints | [`Robot::link_poses`] |
@@ -19,6 +20,7 @@
 //!
 //! Metres, radians, kilograms, seconds, newtons; poses are frames in the frame of their parent.
 
+pub mod mjcf;
 mod model;
 mod positions;
 mod report;

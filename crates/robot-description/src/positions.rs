@@ -91,7 +91,7 @@ impl Joint {
     }
 
     /// How far a position of the joint moves its frame.
-    fn motion(&self, position: &[f64]) -> Pose {
+    pub(crate) fn motion(&self, position: &[f64]) -> Pose {
         let axis = self.unit_axis();
         match (self.kind, position) {
             (JointKind::Revolute | JointKind::Continuous, [angle]) => {
@@ -115,7 +115,7 @@ impl Joint {
 }
 
 /// A rotation about an axis, with sine and cosine that are the same on every machine.
-fn turn(axis: &Unit<Vector3<f64>>, angle: f64) -> UnitQuaternion<f64> {
+pub(crate) fn turn(axis: &Unit<Vector3<f64>>, angle: f64) -> UnitQuaternion<f64> {
     let (sine, cosine) = libm::sincos(angle / 2.0);
     UnitQuaternion::new_unchecked(Quaternion::from_parts(cosine, axis.into_inner() * sine))
 }

@@ -208,6 +208,7 @@ fn joint_of(name: &str, kind: JointKind, [parent, child]: [usize; 2], origin: Po
         limits: Limits::default(),
         dynamics: Dynamics::default(),
         mimic: None,
+        reference: 0.0,
         line: 0,
     }
 }

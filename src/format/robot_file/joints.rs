@@ -78,11 +78,11 @@ pub(super) fn first_positions(robot: &Robot) -> Vec<f64> {
     positions
 }
 
-/// 0, or the limit that is nearest to it.
+/// Where the file has it at first, or the limit that is nearest to it.
 fn first_position(joint: &Description) -> f64 {
     match (joint.limits.lower, joint.limits.upper, joint.kind) {
-        (Some(lower), Some(upper), JointKind::Revolute | JointKind::Prismatic) => 0.0_f64.min(upper).max(lower),
-        _ => 0.0,
+        (Some(lower), Some(upper), JointKind::Revolute | JointKind::Prismatic) => joint.reference.min(upper).max(lower),
+        _ => joint.reference,
     }
 }
 
@@ -91,9 +91,9 @@ fn set_limits(joint: &mut Joint, description: &Description) {
     let is_limited = description.kind != JointKind::Continuous;
     if let (Some(lower), Some(upper), true) = (lower, upper, is_limited) {
         joint.set_interval(false, lower, upper - lower);
-        joint.position = first_position(description);
-        joint.target_position = joint.position;
     }
+    joint.position = first_position(description);
+    joint.target_position = joint.position;
     let usual = if description.kind == JointKind::Revolute { TORQUE } else { FORCE };
     joint.set_target_force(effort.unwrap_or(usual), false);
     joint.max_vel = velocity.unwrap_or(VELOCITY);

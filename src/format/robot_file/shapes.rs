@@ -66,6 +66,7 @@ impl Import<'_> {
             Geometry::Capsule { radius, length } => {
                 (PrimitiveKind::Capsule, [2.0 * radius, 2.0 * radius, length + 2.0 * radius])
             }
+            Geometry::Ellipsoid { radii } => (PrimitiveKind::Spheroid, radii.map(|radius| 2.0 * radius)),
             Geometry::Plane { normal } => return plane(*normal).map_err(|error| error.to_string()),
             Geometry::Mesh { file, scale } => {
                 let shape = self.meshes.shape(file, usual_scale(*scale))?;

@@ -20,6 +20,8 @@ pub struct Joint {
     pub limits: Limits,
     pub dynamics: Dynamics,
     pub mimic: Option<Mimic>,
+    /// Where it is at first.
+    pub reference: f64,
     pub line: u32,
 }
 
@@ -74,6 +76,9 @@ pub struct Dynamics {
     pub damping: f64,
     /// Torque or force.
     pub friction: f64,
+    /// Torque or force per distance from `rest`.
+    pub stiffness: f64,
+    pub rest: f64,
 }
 
 /// A joint whose position is `multiplier` times that of another one, plus `offset`.

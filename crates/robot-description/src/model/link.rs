@@ -68,6 +68,10 @@ pub enum Geometry {
     Sphere {
         radius: f64,
     },
+    /// Centred.
+    Ellipsoid {
+        radii: [f64; 3],
+    },
     /// Without end, through the origin.
     Plane {
         normal: [f64; 3],

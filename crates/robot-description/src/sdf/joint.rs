@@ -79,7 +79,12 @@ fn read_axis(source: &mut Source, node: Node, version: f64) -> AxisText {
     let mut dynamics = Dynamics::default();
     if let Some(element) = source.child(node, "dynamics") {
         let mut value = |name: &str| number(source, element, name).unwrap_or(0.0);
-        dynamics = Dynamics { damping: value("damping"), friction: value("friction") };
+        dynamics = Dynamics {
+            damping: value("damping"),
+            friction: value("friction"),
+            stiffness: value("spring_stiffness"),
+            rest: value("spring_reference"),
+        };
     }
     let mimic = source.child(node, "mimic").map(|mimic| {
         let master = source.required(mimic, "joint");

@@ -83,6 +83,7 @@ fn read_geometry(source: &mut Source, node: Node, folder: &str) -> Option<Geomet
         "sphere" => Geometry::Sphere { radius: size("radius", 1.0) },
         "cylinder" => Geometry::Cylinder { radius: size("radius", 1.0), length: size("length", 1.0) },
         "capsule" => Geometry::Capsule { radius: size("radius", 0.5), length: size("length", 1.0) },
+        "ellipsoid" => Geometry::Ellipsoid { radii: child_numbers(source, shape, "radii", [1.0; 3]).map(f64::abs) },
         "plane" => Geometry::Plane { normal: child_numbers(source, shape, "normal", [0.0, 0.0, 1.0]) },
         "mesh" => read_mesh(source, shape, folder)?,
         "empty" => return None,

@@ -338,6 +338,7 @@ impl Assembly<'_> {
             limits: Default::default(),
             dynamics: Default::default(),
             mimic: None,
+            reference: 0.0,
             line: text.line,
         };
         if let Some(axis) = axis {

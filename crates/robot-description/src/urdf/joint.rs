@@ -37,6 +37,7 @@ pub fn read_joint(source: &mut Source, node: Node) -> JointText {
         limits: read_limits(source, node),
         dynamics: read_dynamics(source, node),
         mimic: None,
+        reference: 0.0,
         line: source.line(node),
     };
     JointText {
@@ -92,7 +93,7 @@ fn read_limits(source: &mut Source, node: Node) -> Limits {
 fn read_dynamics(source: &mut Source, node: Node) -> Dynamics {
     let Some(element) = source.child(node, "dynamics") else { return Dynamics::default() };
     let mut number = |name: &str| source.number(element, name).unwrap_or(0.0);
-    Dynamics { damping: number("damping"), friction: number("friction") }
+    Dynamics { damping: number("damping"), friction: number("friction"), ..Dynamics::default() }
 }
 
 fn read_mimic(source: &mut Source, node: Node) -> Option<MimicText> {

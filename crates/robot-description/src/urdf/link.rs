@@ -94,6 +94,7 @@ fn read_shape(source: &mut Source, node: Node) -> Option<Geometry> {
         "capsule" => {
             Geometry::Capsule { radius: length(source, node, "radius"), length: length(source, node, "length") }
         }
+        "ellipsoid" => Geometry::Ellipsoid { radii: source.numbers(node, "radii", [0.0; 3]).map(f64::abs) },
         "plane" => Geometry::Plane { normal: source.numbers(node, "normal", [0.0, 0.0, 1.0]) },
         "mesh" => read_mesh(source, node)?,
         other => {

@@ -87,6 +87,7 @@ fn write_geometry(text: &mut String, geometry: &Geometry) {
         Geometry::Cylinder { radius, length } => format!("<cylinder radius=\"{radius}\" length=\"{length}\"/>"),
         Geometry::Capsule { radius, length } => format!("<capsule radius=\"{radius}\" length=\"{length}\"/>"),
         Geometry::Sphere { radius } => format!("<sphere radius=\"{radius}\"/>"),
+        Geometry::Ellipsoid { radii: [x, y, z] } => format!("<ellipsoid radii=\"{x} {y} {z}\"/>"),
         Geometry::Plane { normal: [x, y, z] } => format!("<plane normal=\"{x} {y} {z}\"/>"),
         Geometry::Mesh { file, scale: [x, y, z] } => {
             format!("<mesh filename=\"{}\" scale=\"{x} {y} {z}\"/>", escaped(file))

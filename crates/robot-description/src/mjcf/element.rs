@@ -1,0 +1,218 @@
+//! The elements of a file and of those it includes, as one tree.
+
+use std::rc::Rc;
+
+use roxmltree::Node;
+
+use super::Files;
+use crate::limits;
+use crate::report::{Parsed, ReadError, Warning, WarningKind};
+use crate::xml::{self, Source, short};
+
+/// Elements inside of each other; bodies are.
+const DEEPEST: usize = 128;
+/// Files inside of each other, and all together.
+const DEEPEST_FILE: usize = 8;
+const MOST_FILES: usize = 500;
+/// Numbers beyond are taken for errors: what is computed from them would not be finite.
+const LARGEST: f64 = 1e30;
+
+/// An element, wherever it was written.
+#[derive(Debug, Clone, Default)]
+pub struct Element {
+    pub name: String,
+    pub attributes: Vec<(String, String)>,
+    pub children: Vec<Element>,
+    pub line: u32,
+    /// The file that it is in, if that is included.
+    file: Option<Rc<str>>,
+}
+
+impl Element {
+    pub fn attribute(&self, name: &str) -> Option<&str> {
+        self.attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
+    }
+
+    /// The elements of that name inside of this one.
+    pub fn named<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Element> {
+        self.children.iter().filter(move |child| child.name == name)
+    }
+}
+
+/// The warnings about a file.
+#[derive(Debug, Default)]
+pub struct Report {
+    warnings: Vec<Warning>,
+    further: usize,
+}
+
+impl Report {
+    /// Something is wrong, and was read as the message says.
+    pub fn warn(&mut self, element: &Element, message: impl Into<String>) {
+        self.add(element, WarningKind::Corrected, message.into());
+    }
+
+    /// Something is left out.
+    pub fn leave_out(&mut self, element: &Element, message: impl Into<String>) {
+        self.add(element, WarningKind::NotUnderstood, message.into());
+    }
+
+    fn add(&mut self, element: &Element, kind: WarningKind, mut message: String) {
+        if self.warnings.len() >= limits::WARNINGS {
+            self.further += 1;
+            return;
+        }
+        if let Some(file) = &element.file {
+            message = format!("{message} (in {})", short(file));
+        }
+        self.warnings.push(Warning { line: element.line, element: short(&element.name), message, kind });
+    }
+
+    pub fn finish<T>(self, value: T) -> Parsed<T> {
+        Parsed { value, warnings: self.warnings, further_warnings: self.further }
+    }
+
+    /// The numbers of a text; what is no number ends them.
+    pub fn numbers(&mut self, element: &Element, what: &str, text: &str) -> Vec<f64> {
+        let mut numbers = Vec::new();
+        for word in text.split_whitespace().take(64) {
+            match word.parse::<f64>() {
+                Ok(number) if number.abs() <= LARGEST => numbers.push(number),
+                _ => {
+                    self.warn(element, format!("{what} has '{}', which is no number", short(word)));
+                    break;
+                }
+            }
+        }
+        numbers
+    }
+}
+
+/// Reads a file and those it includes.
+pub fn read(bytes: &[u8], files: &mut dyn Files, report: &mut Report) -> Result<Element, ReadError> {
+    let mut reader = Reader { files, report, open: Vec::new(), count: 0, bytes: 0, nodes: 0 };
+    let mut roots = Vec::new();
+    reader.add_file(bytes, None, 0, &mut roots)?;
+    let root = roots.pop().unwrap_or_default();
+    if root.name != "mujoco" {
+        return Err(ReadError::WrongRoot { line: root.line, found: short(&root.name), expected: "mujoco" });
+    }
+    Ok(root)
+}
+
+struct Reader<'a> {
+    files: &'a mut dyn Files,
+    report: &'a mut Report,
+    open: Vec<String>,
+    count: usize,
+    bytes: usize,
+    nodes: usize,
+}
+
+impl Reader<'_> {
+    /// Adds the root of a file; of one that is included, what is inside of it.
+    fn add_file(
+        &mut self,
+        bytes: &[u8],
+        file: Option<Rc<str>>,
+        depth: usize,
+        into: &mut Vec<Element>,
+    ) -> Result<(), ReadError> {
+        let before = xml::lines_before(bytes);
+        let text = xml::text_of(bytes)?;
+        let document = xml::document(&text, before)?;
+        let source = Source::new(&text, before);
+        let root = document.root_element();
+        match &file {
+            None => into.push(self.element(root, &source, None, depth)?),
+            Some(_) => self.add_children(root, &source, &file, depth, into)?,
+        }
+        Ok(())
+    }
+
+    fn element(
+        &mut self,
+        node: Node,
+        source: &Source,
+        file: Option<Rc<str>>,
+        depth: usize,
+    ) -> Result<Element, ReadError> {
+        self.nodes += 1 + node.attributes().len();
+        if self.nodes > limits::NODES as usize {
+            return Err(ReadError::TooManyNodes);
+        }
+        let attributes =
+            node.attributes().map(|attribute| (attribute.name().to_owned(), attribute.value().trim().to_owned()));
+        let mut element = Element {
+            name: node.tag_name().name().to_owned(),
+            attributes: attributes.collect(),
+            children: Vec::new(),
+            line: source.line(node),
+            file: file.clone(),
+        };
+        if depth >= DEEPEST && node.first_element_child().is_some() {
+            self.report.leave_out(&element, format!("more than {DEEPEST} elements inside of each other are not read"));
+            return Ok(element);
+        }
+        let mut children = Vec::new();
+        self.add_children(node, source, &file, depth + 1, &mut children)?;
+        element.children = children;
+        Ok(element)
+    }
+
+    fn add_children(
+        &mut self,
+        node: Node,
+        source: &Source,
+        file: &Option<Rc<str>>,
+        depth: usize,
+        into: &mut Vec<Element>,
+    ) -> Result<(), ReadError> {
+        for child in xml::elements(node) {
+            let is_include = child.tag_name().name() == "include";
+            if depth > DEEPEST {
+                break;
+            }
+            let element = self.element(child, source, file.clone(), depth)?;
+            if is_include { self.include(&element, depth, into)? } else { into.push(element) }
+        }
+        Ok(())
+    }
+
+    fn include(&mut self, element: &Element, depth: usize, into: &mut Vec<Element>) -> Result<(), ReadError> {
+        let name = element.attribute("file").unwrap_or_default().to_owned();
+        let reason = match self.open(&name) {
+            Ok(bytes) => {
+                self.open.push(name.clone());
+                let outcome = self.add_file(&bytes, Some(name.as_str().into()), depth, into);
+                self.open.pop();
+                match outcome {
+                    Err(ReadError::TooManyNodes) => return Err(ReadError::TooManyNodes),
+                    outcome => outcome.err().map(|error| error.to_string()),
+                }
+            }
+            Err(reason) => Some(reason),
+        };
+        if let Some(reason) = reason {
+            self.report.leave_out(element, format!("'{}': {reason}", short(&name)));
+        }
+        Ok(())
+    }
+
+    fn open(&mut self, name: &str) -> Result<Vec<u8>, String> {
+        if self.open.iter().any(|open| open == name) {
+            return Err("it includes itself".into());
+        }
+        if self.open.len() >= DEEPEST_FILE || self.count >= MOST_FILES {
+            return Err(format!(
+                "more than {DEEPEST_FILE} files inside of each other, or {MOST_FILES} in all, are not read"
+            ));
+        }
+        let bytes = self.files.include(name)?;
+        (self.count, self.bytes) = (self.count + 1, self.bytes + bytes.len());
+        if self.bytes > limits::BYTES {
+            return Err(format!("the files have more than {} bytes together", limits::BYTES));
+        }
+        Ok(bytes)
+    }
+}

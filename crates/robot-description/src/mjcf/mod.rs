@@ -1,0 +1,144 @@
+//! MJCF, the XML format of MuJoCo (<https://mujoco.readthedocs.io/en/stable/XMLreference.html>): bodies, joints, geoms, actuators, sites, equality constraints.
+//!
+//! Files that a file includes are a part of it, classes of defaults and the settings of `<compiler>` are applied. A body with several joints becomes links
+//! without mass between them. What is not understood is a warning with its line.
+
+mod actuator;
+mod attributes;
+mod body;
+mod document;
+mod element;
+mod equality;
+mod geom;
+mod inertia;
+mod mesh_solid;
+mod orientation;
+
+use crate::model::{Pose, Robot};
+use crate::report::{Parsed, ReadError};
+use body::Builder;
+use document::Document;
+use element::Report;
+
+/// What an MJCF file contains.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Model {
+    /// Link 0 is the world. A body without joints is fixed to what it is in; one that moves freely hangs on nothing.
+    pub robot: Robot,
+    /// m/s², if the file says it.
+    pub gravity: Option<[f64; 3]>,
+    /// The links that never move: the world, and what is fixed to it.
+    pub fixed: Vec<usize>,
+    pub actuators: Vec<Actuator>,
+    pub sites: Vec<Site>,
+    pub equalities: Vec<Equality>,
+}
+
+/// A motor of a joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Actuator {
+    pub name: String,
+    /// The index of its joint.
+    pub joint: usize,
+    pub drive: Drive,
+    /// The greatest force or torque on the joint, N or N m, if it has one.
+    pub effort: Option<f64>,
+    pub line: u32,
+}
+
+/// What an actuator does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Drive {
+    /// Moves the joint to a position: force per error, and per speed.
+    Position { stiffness: f64, damping: f64 },
+    /// Moves the joint at a speed: force per error of it.
+    Velocity { damping: f64 },
+    /// Exerts a force.
+    Force,
+}
+
+/// A marked place on a link.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Site {
+    pub name: String,
+    /// The index of its link.
+    pub link: usize,
+    /// In the link's frame.
+    pub pose: Pose,
+}
+
+/// What holds joints or links together, beside the joints of the tree.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Equality {
+    /// The position of a joint is a polynomial of that of another one, both counted from where they are at first; of no other one: a constant.
+    Joint { joint: usize, master: Option<usize>, polynomial: [f64; 5], line: u32 },
+    /// A point of a link, in the frames of both, stays at that of the other one.
+    Connect { links: [usize; 2], points: [[f64; 3]; 2], line: u32 },
+    /// A frame of a link, in the frames of both, stays at that of the other one.
+    Weld { links: [usize; 2], frames: [Pose; 2], line: u32 },
+}
+
+/// The triangles of a mesh file, metres.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Triangles {
+    pub vertices: Vec<[f64; 3]>,
+    /// Indices of vertices; those that are not there are not looked at.
+    pub corners: Vec<[u32; 3]>,
+}
+
+/// The files that a model names.
+pub trait Files {
+    /// The text of a file that is included; its name is relative to the folder of the model.
+    ///
+    /// # Errors
+    /// When it cannot be had; in words.
+    fn include(&mut self, name: &str) -> Result<Vec<u8>, String>;
+
+    /// The triangles of a mesh: for bodies whose mass follows from their geoms.
+    ///
+    /// # Errors
+    /// When they cannot be had; in words.
+    fn triangles(&mut self, file: &str) -> Result<Triangles, String>;
+}
+
+/// Whether a text is MJCF: its first element is `<mujoco>`.
+pub fn is_mjcf(bytes: &[u8]) -> bool {
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(64 << 10)]).into_owned();
+    let mut rest = start.as_str();
+    loop {
+        rest = rest.trim_start_matches(|c: char| c == '\u{feff}' || c.is_whitespace());
+        let end = if rest.starts_with("<!--") {
+            "-->"
+        } else if rest.starts_with("<?") || rest.starts_with("<!") {
+            ">"
+        } else {
+            return rest
+                .strip_prefix("<mujoco")
+                .is_some_and(|rest| rest.starts_with([' ', '>', '/', '\n', '\r', '\t']));
+        };
+        let Some(at) = rest.find(end) else { return false };
+        rest = &rest[at + end.len()..];
+    }
+}
+
+/// Reads an MJCF file.
+///
+/// # Errors
+///
+/// If it is no XML, does not begin with `<mujoco>`, or exceeds a limit.
+pub fn read(bytes: &[u8], files: &mut dyn Files) -> Result<Parsed<Model>, ReadError> {
+    let mut report = Report::default();
+    let root = element::read(bytes, files, &mut report)?;
+    let document = Document::new(&root, &mut report);
+    let mut builder = Builder::new(&document, files, report);
+    for world in root.named("worldbody") {
+        builder.add_world(world);
+    }
+    builder.finish_masses();
+    let (mut model, mut report) = builder.into_parts();
+    model.robot.name = root.attribute("model").unwrap_or("mujoco").to_owned();
+    model.gravity = document.gravity;
+    model.actuators = actuator::read(&root, &document, &model.robot, &mut report);
+    model.equalities = equality::read(&root, &model, &mut report);
+    Ok(report.finish(model))
+}
