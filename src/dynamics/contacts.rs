@@ -5,12 +5,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
-    ActiveHooks, ColliderHandle, ColliderSet, ContactManifold, ContactModificationContext, PairFilterContext,
-    PhysicsHooks, RigidBody, SolverFlags,
+    ActiveHooks, CoefficientCombineRule, Collider, ColliderHandle, ColliderSet, ContactManifold,
+    ContactModificationContext, PairFilterContext, PhysicsHooks, RigidBody, SolverFlags,
 };
 
 use super::bodies::Tag;
 use super::convert::from_vector;
+use super::flat_faces;
 use super::world::{ALL_HOOKS, World, parts_of_impulse};
 use crate::scene::Handle;
 
@@ -113,9 +114,13 @@ impl PhysicsHooks for Rules<'_> {
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
         let Some([a, b]) = tags(context.colliders, context.collider1, context.collider2) else { return };
         let response = self.response(a, b);
-        if let (ContactResponse::Collide { friction, restitution }, Some(contact)) = (response, context.rigid_mut()) {
+        let Some(contact) = context.rigid_mut() else { return };
+        if let ContactResponse::Collide { friction, restitution } = response {
             *contact.friction = friction;
             *contact.restitution = restitution;
+        }
+        if *contact.friction == 0.0 {
+            flat_faces::level(context);
         }
     }
 }
@@ -144,7 +149,7 @@ pub(super) fn tags(
     Some([Tag::unpack(colliders.get(first)?.user_data), Tag::unpack(colliders.get(second)?.user_data)])
 }
 
-/// Sets for which colliders rapier asks the rules: those in pairs that mechanisms solve or that do not just collide, and those so fast that
+/// Sets for which colliders rapier asks the rules: those in pairs that mechanisms solve or that do not just collide with friction, and those so fast that
 /// they may touch within the sub-step in which a pair is found. rapier computes resting contacts anew where it has to ask, so that it
 /// shall not for others; whether scripts look on changes nothing.
 pub(super) fn set_hooks(world: &mut World, verdicts: &Verdicts, apart: &[ColliderPair]) {
@@ -172,22 +177,30 @@ pub(super) fn set_hooks(world: &mut World, verdicts: &Verdicts, apart: &[Collide
 /// The colliders in pairs that do not just collide, by index.
 fn asked_about(world: &World, verdicts: &Verdicts, apart: &[ColliderPair]) -> BTreeSet<u32> {
     let mut asked: BTreeSet<u32> = apart.iter().flat_map(|&(first, second)| [first, second]).collect();
-    if !world.has_masks && !verdicts.has_special() {
+    if !world.is_special && !verdicts.has_special() {
         return asked;
     }
     for pair in world.narrow_phase.contact_pairs() {
         let colliders = [pair.collider1, pair.collider2];
-        let Some([a, b]) = tags(&world.colliders, colliders[0], colliders[1]) else { continue };
-        if verdicts.response(a, b) != ContactResponse::Default {
+        let [Some(first), Some(second)] = colliders.map(|collider| world.colliders.get(collider)) else { continue };
+        let response = verdicts.response(Tag::unpack(first.user_data), Tag::unpack(second.user_data));
+        if response != ContactResponse::Default || friction(first, second) == 0.0 {
             asked.extend(colliders.map(|collider| collider.into_raw_parts().0));
         }
     }
     asked
 }
 
-/// Notes whether shapes have masks of their own.
-pub(super) fn note_masks(world: &mut World) {
-    world.has_masks = world.colliders.iter().any(|(_, collider)| Tag::unpack(collider.user_data).mask != u16::MAX);
+/// Notes whether shapes have masks of their own, or no friction.
+pub(super) fn note_special(world: &mut World) {
+    let special = |collider: &Collider| Tag::unpack(collider.user_data).mask != u16::MAX || collider.friction() == 0.0;
+    world.is_special = world.colliders.iter().any(|(_, collider)| special(collider));
+}
+
+/// Friction between two colliders.
+pub(super) fn friction(first: &Collider, second: &Collider) -> f64 {
+    let rules = (first.friction_combine_rule(), second.friction_combine_rule());
+    CoefficientCombineRule::combine(first.friction(), second.friction(), rules.0, rules.1)
 }
 
 /// Whether a body may reach something that is farther away than contacts are prepared.

@@ -13,7 +13,7 @@ use rapier3d_f64::parry::query::{ContactManifold, DefaultQueryDispatcher, Persis
 use rapier3d_f64::prelude::{CoefficientCombineRule, Collider, ColliderHandle, RigidBody};
 
 use super::bodies::Tag;
-use super::contacts::{ColliderPair, ContactResponse, Verdicts, pair_of, tags};
+use super::contacts::{self, ColliderPair, ContactResponse, Verdicts, pair_of, tags};
 use super::convert::{from_vector, to_vector};
 use super::world::{PREDICTION, World};
 use crate::scene::Handle;
@@ -270,13 +270,12 @@ impl Search<'_> {
 
 fn surface(first: &Collider, second: &Collider, response: ContactResponse) -> Option<Surface> {
     let combine = CoefficientCombineRule::combine;
-    let rules = (first.friction_combine_rule(), second.friction_combine_rule());
     let restitutions = (first.restitution_combine_rule(), second.restitution_combine_rule());
     match response {
         ContactResponse::NoCollision => None,
         ContactResponse::Collide { friction, restitution } => Some(Surface { friction, restitution }),
         ContactResponse::Default => Some(Surface {
-            friction: combine(first.friction(), second.friction(), rules.0, rules.1),
+            friction: contacts::friction(first, second),
             restitution: combine(first.restitution(), second.restitution(), restitutions.0, restitutions.1),
         }),
     }

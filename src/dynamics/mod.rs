@@ -8,7 +8,7 @@
 //!
 //! - `plan`: the bodies and constraints that the scene needs; compared with those that exist, so that only changes reach the engine.
 //! - `bodies`, `colliders`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`.
-//! - `contacts`: collision filters; `exact_contacts`: what mechanisms touch; `motors`: the control law.
+//! - `contacts`: collision filters; `exact_contacts`: what mechanisms touch; `flat_faces`: contacts without friction; `motors`: the control law.
 //! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
 //!
 //! Free bodies at rest fall asleep, which no reading shows. No state outlives the run: the same scene produces the same bytes.
@@ -19,6 +19,7 @@ mod contact_log;
 mod contacts;
 mod convert;
 mod exact_contacts;
+mod flat_faces;
 mod frozen;
 mod links;
 mod load;
@@ -183,7 +184,7 @@ impl Dynamics {
         links::move_with_joints(&self.links, &plan.links, &self.bodies, world, scene);
         links::apply_plan(&mut self.links, plan.links, &self.bodies, world, scene);
         links::clear_resets(&self.links, scene);
-        contacts::note_masks(world);
+        contacts::note_special(world);
         let_sleep(&self.bodies, &self.links, world);
         self.contacts.forget_resting();
         self.mechanisms.rebuild(&mut self.links, &scene.all_breadth_first(), &self.bodies, world);

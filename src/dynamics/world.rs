@@ -44,8 +44,8 @@ pub(super) struct World {
     parameters: IntegrationParameters,
     /// Of the step before.
     gravity: Option<Vector>,
-    /// Whether shapes have masks of their own.
-    pub has_masks: bool,
+    /// Whether shapes have masks of their own, or no friction.
+    pub is_special: bool,
 }
 
 impl World {
@@ -63,7 +63,7 @@ impl World {
             pipeline: PhysicsPipeline::new(),
             parameters: parameters(),
             gravity: None,
-            has_masks: false,
+            is_special: false,
         }
     }
 
