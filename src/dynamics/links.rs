@@ -167,8 +167,15 @@ impl Link {
 
     /// Sets the motor for the next sub-step; None switches it off.
     pub(super) fn set_drive(&mut self, drive: Option<Drive>, world: &mut World) {
-        let (Some(axis), Some(link)) = (self.axis(), world.joints.get_mut(self.joint, true)) else { return };
         self.drive = drive.filter(|drive| drive.velocity.is_finite() && drive.force.is_finite());
+        if self.shared {
+            self.set_engine_motor(world);
+        }
+    }
+
+    /// Sets rapier's motor, which matters only where rapier solves the link as well.
+    fn set_engine_motor(&self, world: &mut World) {
+        let (Some(axis), Some(link)) = (self.axis(), world.joints.get_mut(self.joint, true)) else { return };
         match self.drive {
             Some(Drive { velocity, force }) => {
                 link.data.set_motor_model(axis, MotorModel::AccelerationBased);
@@ -186,13 +193,16 @@ impl Link {
         {
             link.data.set_enabled(with_engine);
             self.shared = with_engine;
+            if with_engine {
+                self.set_engine_motor(world);
+            }
         }
     }
 
     /// Stores the exact solution; the rest is left to rapier's motor.
     pub(super) fn set_solution(&mut self, load: &JointLoad, world: &mut World) {
         self.solution = Some(*load);
-        let (Some(axis), Some(drive)) = (self.axis(), self.drive) else { return };
+        let (Some(axis), Some(drive), true) = (self.axis(), self.drive, self.shared) else { return };
         if let Some(link) = world.joints.get_mut(self.joint, true) {
             link.data.set_motor_max_force(axis, (drive.force - load.motor.abs()).max(0.0));
         }

@@ -31,7 +31,7 @@ mod report;
 mod tests;
 mod world;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use rapier3d_f64::math::Vector;
 
@@ -201,22 +201,24 @@ impl Dynamics {
     pub(crate) fn prepare(&mut self, scene: &Scene, sub_step: u32) -> Vec<JointRequest> {
         let (Some(world), Some(call)) = (self.world.as_mut(), self.call) else { return Vec::new() };
         self.bodies.sweep(f64::from(sub_step) / f64::from(call.sub_steps), call.step, world);
-        let motions: BTreeMap<Handle, Motion> =
-            self.links.iter().map(|(&handle, link)| (handle, link.motion)).collect();
         let engine = scene.settings().dynamics.engine.engine;
-        let mut requests = Vec::new();
+        let (mut requests, mut dependent) = (Vec::new(), Vec::new());
         for (&handle, link) in &mut self.links {
             let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) else { continue };
-            let drive = match joint.mode {
-                JointMode::Dependent => master_of(scene, joint, &motions)
-                    .and_then(|master| motors::coupled_drive(joint, link.motion, master, call.step)),
-                _ => {
-                    if joint.control.asks() {
-                        requests.push(request(handle, joint, link));
-                    }
-                    link.motor.drive(joint, engine, link.motion, call.step)
-                }
-            };
+            if joint.mode == JointMode::Dependent {
+                dependent.push((handle, joint));
+                continue;
+            }
+            if joint.control.asks() {
+                requests.push(request(handle, joint, link));
+            }
+            let drive = link.motor.drive(joint, engine, link.motion, call.step);
+            link.set_drive(drive, world);
+        }
+        for (handle, joint) in dependent {
+            let master = master_of(scene, joint, &self.links);
+            let Some(link) = self.links.get_mut(&handle) else { continue };
+            let drive = master.and_then(|master| motors::coupled_drive(joint, link.motion, master, call.step));
             link.set_drive(drive, world);
         }
         requests
@@ -289,9 +291,9 @@ fn let_sleep(bodies: &Bodies, links: &Links, world: &mut World) {
 }
 
 /// Where the master of a joint is; one that nothing in the physics hangs on stands where the scene has it.
-fn master_of(scene: &Scene, joint: &Joint, motions: &BTreeMap<Handle, Motion>) -> Option<Motion> {
+fn master_of(scene: &Scene, joint: &Joint, links: &Links) -> Option<Motion> {
     let master = joint.dependency?.master;
-    motions.get(&master).copied().or_else(|| {
+    links.get(&master).map(|link| link.motion).or_else(|| {
         let joint = scene.object(master).ok()?.joint().ok()?;
         Some(Motion { position: joint.position, velocity: 0.0 })
     })

@@ -1,7 +1,8 @@
 --[[
 Postures that satisfy a group: searched natively in portions, accepted by a callback, sorted by their distance from the present posture.
 
-Time limits count iterations, so that runs repeat; the clock only ends what takes longer than was allowed.
+Time limits count iterations, so that runs repeat on slow and busy machines too; the clock only ends a search whose callback takes much longer
+than was allowed.
 ]]
 
 local sim = require 'sim'
@@ -10,6 +11,8 @@ local configs = {}
 
 local ITERATIONS_PER_SECOND <const> = 100000
 local PORTION <const> = 2000
+-- How many times as long as allowed a search with a callback may take by the clock.
+local PATIENCE <const> = 10
 local MOST_ALTERNATIVES <const> = 1000
 -- Postures whose distances from the present one differ less, and whose joints differ less, are the same.
 local SAME <const> = 1e-3
@@ -78,17 +81,17 @@ end
 
 ---------------------------------------------------------------- search
 
--- Calls `found` with each posture until it returns true, or the time is over.
-local function search(simIK, task, maxTime, found)
+-- Calls `found` with each posture until it returns true, or the time is over; by the clock too if it is `slow`.
+local function search(simIK, task, maxTime, slow, found)
     local left = math.max(1, math.min(maxTime * ITERATIONS_PER_SECOND, 1 << 31) // 1 | 0)
-    local ending = sim.getSystemTime() + maxTime
+    local ending = slow and sim.getSystemTime() + PATIENCE * maxTime or math.huge
     local fromPresent = true
     while left > 0 do
         local portion = math.min(left, PORTION)
         local rest, config = simIK._findConfig(task.env, task.group, task.joints, portion, fromPresent)
         if config and found(config) or not config and rest == portion then return end
         left, fromPresent = left - portion + rest, false
-        if sim.getSystemTime() > ending then return end
+        if slow and sim.getSystemTime() > ending then return end
     end
 end
 
@@ -148,7 +151,7 @@ function configs.find(simIK, task, params, others)
         all[#all + 1] = config
         return true
     end
-    search(simIK, task, math.abs(maxTime), function(config)
+    search(simIK, task, math.abs(maxTime), accept ~= nil, function(config)
         if not add(config) then return false end
         if params.findAlt ~= false then
             for _, other in ipairs(configs.alternatives(simIK, task.env, task.joints, config)) do
