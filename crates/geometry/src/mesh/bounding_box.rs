@@ -114,6 +114,7 @@ fn flush_frame(points: &[Vector3<f64>], direction: &Vector3<f64>) -> Option<Rota
 
 /// Convex hull of points in a plane, counter-clockwise (A. M. Andrew's monotone chain).
 fn planar_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    leave_out_inner(&mut points);
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let turn = |a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
@@ -132,6 +133,30 @@ fn planar_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let mut lower = chain(&mut points.iter().copied());
     lower.extend(chain(&mut points.iter().rev().copied()));
     lower
+}
+
+/// Leaves out points inside of the octagon of the outermost ones (S. G. Akl, G. T. Toussaint 1978).
+fn leave_out_inner(points: &mut Vec<[f64; 2]>) {
+    let Some(first) = points.first() else { return };
+    let along = |[x, y]: &[f64; 2]| [*x, x + y, *y, y - x];
+    // The outermost points along four directions, and against them: a way around.
+    let mut corners = [*first; 8];
+    let (mut high, mut low) = (along(first), along(first));
+    for point in points.iter() {
+        for (k, x) in along(point).into_iter().enumerate() {
+            if x > high[k] {
+                (high[k], corners[k]) = (x, *point);
+            } else if x < low[k] {
+                (low[k], corners[k + 4]) = (x, *point);
+            }
+        }
+    }
+    let margin = 1e-12 * high.iter().chain(&low).fold(0.0_f64, |size, x| size.max(x.abs())).powi(2);
+    let sides = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| (corners[k], corners[(k + 1) % 8]));
+    let is_inner = |p: &[f64; 2]| {
+        sides.iter().all(|(a, b)| a == b || (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > margin)
+    };
+    points.retain(|p| !is_inner(p));
 }
 
 #[cfg(test)]

@@ -1,17 +1,18 @@
 //! Convex hulls of points, by parry, checked. Lengths are in metres.
 
-use std::collections::{HashMap, HashSet};
-
 use nalgebra::Vector3;
 use parry3d_f64::{math::Vector, transformation::try_convex_hull};
 
 use super::Mesh;
+use super::enclosure::Enclosure;
+use super::fast_hash::{FastMap, FastSet};
 
 /// Points whose thickness is less than this part of their length count as flat.
 const FLATTEST: f64 = 1e-7;
 
-/// Most pairs of points and faces that the check of a hull looks at.
-const CHECKED_PAIRS: usize = 20_000_000;
+/// Of more points than this, those inside of the hull of a sample are left out first.
+const MANY: usize = 5000;
+const SAMPLE: usize = 2000;
 
 impl Mesh {
     /// Convex hull of points; `None` for fewer than 4 points, points in a plane or not finite ones.
@@ -22,10 +23,10 @@ impl Mesh {
         if !points.as_flattened().iter().all(|c| c.is_finite()) {
             return None;
         }
-        let cloud = spread(points)?;
+        let (cloud, numbers) = outer(spread(points)?, (0..points.len()).collect());
         let hulls = [0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3].into_iter().filter_map(|grid| {
             let (source, hull) = hull_of_cloud(&cloud, grid)?;
-            let vertices = source.iter().map(|i| points[*i]).collect();
+            let vertices = source.iter().map(|i| points[numbers[*i]]).collect();
             let mesh = Mesh::new(vertices, hull.triangles.clone()).ok()?;
             (hull.encloses(&cloud, 1e-9 + 4.0 * grid) && mesh.volume() > 0.0).then_some(mesh)
         });
@@ -47,19 +48,25 @@ impl Mesh {
         Self::convex_hull(&hull.triangles.iter().flat_map(moved).collect::<Vec<_>>())
     }
 
-    /// Whether the mesh is closed and has the points inside, to within `tolerance` (m). Of many points a part
-    /// is looked at.
+    /// Whether the mesh is closed and has the points inside, to within `tolerance` (m).
     fn encloses(&self, points: &[[f64; 3]], tolerance: f64) -> bool {
-        let edges: HashSet<_> = self.triangles.iter().flat_map(|t| (0..3).map(|i| (t[i], t[(i + 1) % 3]))).collect();
-        let closed = edges.len() == 3 * self.triangles.len() && edges.iter().all(|(a, b)| edges.contains(&(*b, *a)));
-        let stride = 1 + points.len() * self.triangles.len() / CHECKED_PAIRS;
-        let outside = |t: &[u32; 3]| {
-            let [a, ..] = self.corners(t);
-            let normal = self.area_vector(t).try_normalize(0.0).unwrap_or_default();
-            points.iter().step_by(stride).any(|p| normal.dot(&(Vector3::from(*p) - a)) > tolerance)
-        };
-        closed && !self.triangles.iter().any(outside)
+        let Some(mut enclosure) = Enclosure::new(self) else { return false };
+        points.iter().all(|point| enclosure.outside(point) <= tolerance)
     }
+}
+
+/// Of many points, those that are not clearly inside of the hull of a few of them.
+fn outer(cloud: Vec<[f64; 3]>, numbers: Vec<usize>) -> (Vec<[f64; 3]>, Vec<usize>) {
+    if cloud.len() <= MANY {
+        return (cloud, numbers);
+    }
+    let stride = cloud.len().div_ceil(SAMPLE);
+    let sample: Vec<[f64; 3]> = cloud.iter().step_by(stride).copied().collect();
+    let Some(mut enclosure) = hull_of_cloud(&sample, 0.0).and_then(|(_, hull)| Enclosure::new(&hull)) else {
+        return (cloud, numbers);
+    };
+    let both = cloud.into_iter().zip(numbers);
+    both.filter(|(point, _)| enclosure.outside(point) > -1e-9).unzip()
 }
 
 /// The points in skewed axes in which the cloud is about as wide in all directions, which leaves hulls as
@@ -82,13 +89,13 @@ fn spread(points: &[[f64; 3]]) -> Option<Vec<[f64; 3]>> {
 
 /// Hull of the points of a cloud that differ on a grid, and which points its vertices are.
 fn hull_of_cloud(cloud: &[[f64; 3]], grid: f64) -> Option<(Vec<usize>, Mesh)> {
-    let mut seen = HashSet::new();
+    let mut seen = FastSet::default();
     let cells = cloud.iter().map(|p| p.map(|c| (c / grid.max(1e-9)).round() as i64)).enumerate();
     let kept: Vec<usize> = cells.filter(|(_, cell)| seen.insert(*cell)).map(|(i, _)| i).collect();
     let distinct: Vec<Vector> = kept.iter().map(|i| shaken(cloud[*i], grid)).collect();
     let (vertices, triangles) = try_convex_hull(&distinct).ok()?;
     let key = |v: &Vector| v.to_array().map(f64::to_bits);
-    let index: HashMap<_, _> = distinct.iter().map(key).zip(kept).collect();
+    let index: FastMap<_, _> = distinct.iter().map(key).zip(kept).collect();
     let source = vertices.iter().map(|v| index.get(&key(v)).copied()).collect::<Option<_>>()?;
     let mesh = Mesh::new(vertices.iter().map(Vector::to_array).collect(), triangles).ok()?;
     Some((source, mesh))

@@ -6,11 +6,13 @@
 mod bounding_box;
 mod decomposition;
 mod edges;
+mod enclosure;
 mod extrusion;
+mod fast_hash;
+mod half_edges;
 mod hull;
 mod islands;
-
-use std::collections::{HashMap, HashSet};
+mod normals;
 
 use nalgebra::Vector3;
 use thiserror::Error;
@@ -20,6 +22,8 @@ pub use decomposition::DecompositionParameters;
 pub use extrusion::Extrusion;
 
 use crate::Pose;
+use fast_hash::{FastMap, FastSet};
+use half_edges::HalfEdges;
 
 /// A triangle mesh.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -71,6 +75,9 @@ pub enum MeshError {
 /// The largest coordinate of a mesh, metres. Scene files hold 32-bit numbers, which end at 3e38; products of a few coordinates must
 /// fit into 64 bits.
 pub const LARGEST_COORDINATE: f64 = 1e30;
+
+/// How many faces of a mesh are compared with all vertices before the edges are looked at.
+const SAMPLED_FACES: usize = 8;
 
 fn check_coordinates(coordinates: &[f64]) -> Result<(), MeshError> {
     if !coordinates.iter().all(|c| c.is_finite()) {
@@ -153,7 +160,7 @@ impl Mesh {
     pub fn merge_duplicates(&mut self, tolerance: f64) {
         let cell = |c: f64| Some((c / tolerance).round()).filter(|k| tolerance > 0.0 && k.is_finite()).unwrap_or(c);
         let mut kept = Vec::new();
-        let mut seen = HashMap::new();
+        let mut seen = FastMap::default();
         let mut place = |v: &[f64; 3]| {
             *seen.entry(v.map(|c| (cell(c) + 0.0).to_bits())).or_insert_with(|| {
                 kept.push(*v);
@@ -163,26 +170,6 @@ impl Mesh {
         let map: Vec<u32> = self.vertices.iter().map(&mut place).collect();
         self.vertices = kept;
         self.keep_distinct_triangles(&map);
-    }
-
-    /// Recomputes the normals. Corners of triangles that share a vertex and differ by less than
-    /// `shading_angle` (rad) get the mean of their face normals, weighted by area; 0 means flat normals.
-    pub fn compute_normals(&mut self, shading_angle: f64) {
-        let areas: Vec<_> = self.triangles.iter().map(|t| self.area_vector(t)).collect();
-        let faces: Vec<_> = areas.iter().map(|a| a.try_normalize(0.0).unwrap_or_default()).collect();
-        let mut users = vec![Vec::new(); if shading_angle > 0.0 { self.vertices.len() } else { 0 }];
-        if shading_angle > 0.0 {
-            let corners = self.triangles.iter().enumerate().flat_map(|(t, c)| c.map(|v| (t, v)));
-            corners.for_each(|(t, v)| users[v as usize].push(t));
-        }
-        let smooth = |face: usize, vertex: u32| {
-            let near = |other: &&usize| faces[face].dot(&faces[**other]) > shading_angle.cos();
-            let sum: Vector3<f64> = users[vertex as usize].iter().filter(near).map(|o| areas[*o]).sum();
-            sum.try_normalize(0.0).unwrap_or(faces[face])
-        };
-        let corner = |face, vertex| if shading_angle > 0.0 { smooth(face, vertex) } else { faces[face] };
-        let corners = self.triangles.iter().enumerate().flat_map(|(f, t)| t.map(|v| corner(f, v).into()));
-        self.normals = corners.collect();
     }
 
     /// Turns the inside out.
@@ -237,16 +224,32 @@ impl Mesh {
 
     /// Whether the mesh is closed, in one piece without holes, and nowhere dented.
     pub fn is_convex(&self) -> bool {
-        let edges = self.triangles.iter().flat_map(|t| (0..3).map(|i| ((t[i], t[(i + 1) % 3]), t[(i + 2) % 3])));
-        let opposite: HashMap<(u32, u32), u32> = edges.collect();
-        let used: HashSet<u32> = self.triangles.as_flattened().iter().copied().collect();
-        let (half_edges, faces) = (3 * self.triangles.len(), self.triangles.len());
-        let closed = opposite.len() == half_edges && used.len() + faces == half_edges / 2 + 2;
-        closed && self.volume() > 0.0 && self.triangles.iter().all(|t| self.is_ridge(t, &opposite))
+        let mut is_used = vec![false; self.vertices.len()];
+        self.triangles.as_flattened().iter().for_each(|vertex| is_used[*vertex as usize] = true);
+        let (used, faces) = (is_used.iter().filter(|is_used| **is_used).count(), self.triangles.len());
+        if used + faces != 3 * faces / 2 + 2 || self.is_dented_widely(&is_used) || self.volume() <= 0.0 {
+            return false;
+        }
+        let edges = HalfEdges::new(self.vertices.len(), &self.triangles);
+        edges.are_distinct() && self.triangles.iter().all(|t| self.is_ridge(t, &edges))
+    }
+
+    /// Whether a vertex is clearly outside of one of a few faces: most meshes that are not convex are found out so.
+    fn is_dented_widely(&self, is_used: &[bool]) -> bool {
+        let stride = self.triangles.len().div_ceil(SAMPLED_FACES).max(1);
+        self.triangles.iter().step_by(stride).any(|t| {
+            let Some(normal) = self.area_vector(t).try_normalize(0.0) else { return true };
+            let [a, ..] = self.corners(t);
+            let used = self.vertices.iter().zip(is_used).filter(|(_, is_used)| **is_used);
+            used.into_iter().any(|(vertex, _)| {
+                let offset = Vector3::from(*vertex) - a;
+                normal.dot(&offset) > 1e-2 * offset.norm()
+            })
+        })
     }
 
     fn keep_distinct_triangles(&mut self, map: &[u32]) {
-        let mut seen = HashSet::new();
+        let mut seen = FastSet::default();
         let (mut triangles, mut normals) = (Vec::new(), Vec::new());
         for (t, n) in self.triangles.iter().zip(self.normals.as_chunks::<3>().0) {
             let mut turned = t.map(|i| map[i as usize]);
@@ -276,12 +279,13 @@ impl Mesh {
     }
 
     /// Whether the neighbours of a triangle bend away from its outside.
-    fn is_ridge(&self, t: &[u32; 3], opposite: &HashMap<(u32, u32), u32>) -> bool {
+    fn is_ridge(&self, t: &[u32; 3], edges: &HalfEdges) -> bool {
         let Some(normal) = self.area_vector(t).try_normalize(0.0) else { return false };
         let [a, ..] = self.corners(t);
         (0..3).all(|i| {
-            let Some(far) = opposite.get(&(t[(i + 1) % 3], t[i])) else { return false };
-            let offset = Vector3::from(self.vertices[*far as usize]) - a;
+            let Some(neighbour) = edges.triangle(t[(i + 1) % 3], t[i]) else { return false };
+            let far = self.triangles[neighbour as usize].into_iter().find(|c| *c != t[i] && *c != t[(i + 1) % 3]);
+            let offset = far.map_or(Vector3::zeros(), |far| Vector3::from(self.vertices[far as usize]) - a);
             normal.dot(&offset) <= 1e-6 * offset.norm()
         })
     }
@@ -360,14 +364,5 @@ mod tests {
         let mut mirrored = tetrahedron();
         mirrored.scale([-1., 2., 3.]);
         close(&[mirrored.volume()], &[1.0]);
-    }
-
-    #[test]
-    fn shading_smooths_below_the_angle() {
-        let mut cube = block([1., 1., 1.]);
-        cube.compute_normals(0.5);
-        assert!(cube.normals.iter().all(|n| n.iter().any(|c| c.abs() > 0.999)));
-        cube.compute_normals(2.0);
-        assert!(cube.normals.iter().all(|n| n.iter().all(|c| c.abs() < 0.95)));
     }
 }
