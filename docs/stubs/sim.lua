@@ -998,6 +998,15 @@ function sim.getCustomizationScriptAssociatedWithObject(objectHandle) end
 ---@return number[] auxChannels four numbers, interpolated
 function sim.getDataOnPath(pathHandle, relativeDistance) end
 
+--- A mesh with fewer triangles.
+---@deprecated simOpenMesh.decimate
+---@param verticesIn number[] three coordinates each, metres
+---@param indicesIn integer[] three vertices per triangle, from 0
+---@param decimationPercentage number how many of the triangles remain, from 0.1 to 0.9
+---@return number[] verticesOut those that remain
+---@return integer[] indicesOut three vertices per triangle, from 0
+function sim.getDecimatedMesh(verticesIn, indicesIn, decimationPercentage) end
+
 --- The user's input; there is none.
 ---@deprecated the simUI functionality
 ---@param handle integer from sim.displayDialog

@@ -2858,6 +2858,13 @@ class _sim:
         pathHandle: the path
         relativeDistance: part of the length, from 0 to 1
         """
+    def getDecimatedMesh(self, verticesIn: Sequence[float], indicesIn: Sequence[int], decimationPercentage: float, /) -> tuple[list[float], list[int]]:
+        """A mesh with fewer triangles.
+        Deprecated: use simOpenMesh.decimate.
+        verticesIn: three coordinates each, metres
+        indicesIn: three vertices per triangle, from 0
+        decimationPercentage: how many of the triangles remain, from 0.1 to 0.9
+        """
     def getDialogInput(self, handle: int, /) -> str:
         """The user's input; there is none.
         Deprecated: use the simUI functionality.
@@ -6467,6 +6474,16 @@ class _simGeom:
         scaleFactor: positive
         """
 
+class _simICP:
+    def match(self, modelHandle: int, templateHandle: int, outlierTreshold: float | None = ..., /) -> list[float]:
+        """Where an object must be for its points to lie on those of another (iterative closest points).
+
+        The search begins where the objects are, and where their centres and principal axes are the same.
+        """
+    def matchToShape(self, modelHandle: int, templateHandle: int, outlierTreshold: float | None = ..., /) -> list[float]:
+        """Where an object must be for its points to lie on the surface of a shape.
+        """
+
 class _simIK:
     handleflag_tipdummy: int
     objecttype_joint: int
@@ -7834,6 +7851,22 @@ class _simOMPL:
         state: where to
         """
 
+class _simOpenMesh:
+    def decimate(self, inputShape: int, params: Sequence[Any] | Mapping[Any, Any] | None = ..., /) -> int:
+        """A copy of a shape with fewer triangles: edges are collapsed, those first that change the surface least.
+
+        Closed meshes stay closed and borders where they are; textures are lost.
+
+        moved, metres: edges beyond that stay)
+        inputShape: the shape, which stays as it is
+        params: percentage (0.5: how many of the triangles remain, 0 to 1), triangles or vertices (how many remain), error (how far the surface may be
+        """
+    def getDecimatedShape(self, shapeHandle: int, prop: float, /) -> int:
+        """A copy of a shape with fewer triangles.
+        shapeHandle: the shape, which stays as it is
+        prop: how many of the triangles remain, 0 to 1
+        """
+
 class _simQHull:
     def compute(self, vertices: Sequence[float], generateIndices: bool, /) -> tuple[list[float], list[int]]:
         """The convex hull of points.
@@ -7954,6 +7987,18 @@ class _simSubprocess:
         """Waits until a program exits. A program that ends by a signal is an error.
         handle: the program
         timeout: seconds; negative without limit
+        """
+
+class _simSurfRec:
+    def reconstruct_scale_space(self, pointCloudHandle: int, iterations: int | None = ..., neighbors: int | None = ..., samples: int | None = ..., squaredRadius: float | None = ..., /) -> int:
+        """The surface of a point cloud as a new shape: points are moved onto the planes of their neighbours some times, a ball rolls over the smooth points, and
+        the triangles where it rests are those of the shape, with the points as they were.
+
+        Surfaces look up at their highest point. Gaps larger than the ball stay open.
+        pointCloudHandle: the point cloud
+        iterations: how often the points are made smoother, 0 to 100
+        neighbors: how many neighbours a point has, 3 to 100
+        samples: of how many points the distances to their neighbours are measured, for the radius of the ball
         """
 
 class _simUI:
@@ -10079,11 +10124,15 @@ class Requires:
     @overload
     def require(self, name: Literal["simGeom"], script: int | None = None) -> _simGeom: ...
     @overload
+    def require(self, name: Literal["simICP"], script: int | None = None) -> _simICP: ...
+    @overload
     def require(self, name: Literal["simIK"], script: int | None = None) -> _simIK: ...
     @overload
     def require(self, name: Literal["simIM"], script: int | None = None) -> _simIM: ...
     @overload
     def require(self, name: Literal["simOMPL"], script: int | None = None) -> _simOMPL: ...
+    @overload
+    def require(self, name: Literal["simOpenMesh"], script: int | None = None) -> _simOpenMesh: ...
     @overload
     def require(self, name: Literal["simQHull"], script: int | None = None) -> _simQHull: ...
     @overload
@@ -10092,6 +10141,8 @@ class Requires:
     def require(self, name: Literal["simRemoteApi"], script: int | None = None) -> _simRemoteApi: ...
     @overload
     def require(self, name: Literal["simSubprocess"], script: int | None = None) -> _simSubprocess: ...
+    @overload
+    def require(self, name: Literal["simSurfRec"], script: int | None = None) -> _simSurfRec: ...
     @overload
     def require(self, name: Literal["simUI"], script: int | None = None) -> _simUI: ...
     @overload

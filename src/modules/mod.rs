@@ -11,11 +11,14 @@ mod sim_convex;
 mod sim_eigen;
 mod sim_geom;
 mod sim_gltf;
+mod sim_icp;
 mod sim_ik;
 mod sim_im;
 mod sim_ompl;
+mod sim_open_mesh;
 pub(crate) mod sim_remote_api;
 mod sim_subprocess;
+mod sim_surf_rec;
 mod sim_ui;
 mod sim_urdf;
 mod sim_vision;
@@ -49,11 +52,14 @@ pub(crate) static ALL: &[&Module] = &[
     &sim_eigen::MODULE,
     &sim_geom::MODULE,
     &sim_gltf::MODULE,
+    &sim_icp::MODULE,
     &sim_ik::MODULE,
     &sim_im::MODULE,
     &sim_ompl::MODULE,
+    &sim_open_mesh::MODULE,
     &sim_remote_api::MODULE,
     &sim_subprocess::MODULE,
+    &sim_surf_rec::MODULE,
     &sim_ui::MODULE,
     &sim_urdf::MODULE,
     &sim_vision::MODULE,

@@ -4,14 +4,17 @@ use api_macro::api;
 use geometry::Extrusion;
 use geometry::pose::pose_from_array;
 use geometry::{Mesh, MeshError};
+use mesh_processing::Target;
 
 use crate::api::{ApiError, ApiFn, Cx, Result, functions};
 use crate::scene::shape::Shape;
+use crate::scene::shape::decimate::decimated_mesh;
 use crate::scene::shape::options::{DecompositionOptions, PathShapeOptions};
 use crate::scene::{Handle, Kind, SceneError};
 use crate::script::{Number, Rest};
 
-pub(crate) const FUNCTIONS: &[ApiFn] = functions![get_q_hull, convex_decompose, generate_shape_from_path];
+pub(crate) const FUNCTIONS: &[ApiFn] =
+    functions![get_q_hull, get_decimated_mesh, convex_decompose, generate_shape_from_path];
 
 /// Convex hull of points.
 ///
@@ -26,6 +29,30 @@ fn get_q_hull(_cx: &Cx, vertices_in: Vec<f64>) -> Result<(Vec<f64>, Vec<i64>)> {
     let hull =
         Mesh::convex_hull(vertices_in.as_chunks().0).ok_or_else(|| refused("the points do not span a volume."))?;
     Ok((hull.flat_vertices(), hull.flat_indices()))
+}
+
+/// A mesh with fewer triangles.
+///
+/// @param verticesIn three coordinates each, metres
+/// @param indicesIn three vertices per triangle, from 0
+/// @param decimationPercentage how many of the triangles remain, from 0.1 to 0.9
+/// @return verticesOut those that remain
+/// @return indicesOut three vertices per triangle, from 0
+#[api("sim.getDecimatedMesh")]
+fn get_decimated_mesh(
+    _cx: &Cx,
+    vertices_in: Vec<f64>,
+    indices_in: Vec<i64>,
+    decimation_percentage: f64,
+) -> Result<(Vec<f64>, Vec<i64>)> {
+    if !(0.1..=0.9).contains(&decimation_percentage) {
+        return Err(refused("the share of triangles that remain lies between 0.1 and 0.9."));
+    }
+    let mesh = Mesh::from_flat(&vertices_in, &indices_in, None).map_err(|error| refused(&error.to_string()))?;
+    let triangles = (mesh.triangles.len() as f64 * decimation_percentage).ceil() as usize;
+    let target = Target { triangles, ..Target::default() };
+    let mesh = decimated_mesh(mesh, target).ok_or_else(|| refused("the mesh has no area."))?;
+    Ok((mesh.flat_vertices(), mesh.flat_indices()))
 }
 
 /// Divides a shape into convex pieces, which are one compound.

@@ -1,6 +1,7 @@
 //! Shapes as data: geometry, mass, material, appearance.
 
 pub mod build;
+pub mod decimate;
 pub(in crate::scene) mod group;
 pub(in crate::scene) mod hull_points;
 pub(in crate::scene) mod mesh_owners;
