@@ -1,0 +1,195 @@
+//! Participants that talk by a network in which datagrams are lost and damaged. Payloads are multiples of four bytes: others are filled up.
+
+use std::net::{Ipv4Addr, SocketAddrV4};
+use std::time::Duration;
+
+use rtps::{Core, Durability, EntityId, History, Limits, Qos, Reliability, Settings, Time, Written};
+
+const TYPE: &str = "std_msgs::msg::dds_::String_";
+
+/// Numbers that look random and are the same each time.
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, end: u64) -> u64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) % end
+    }
+}
+
+struct World {
+    cores: Vec<Core>,
+    now: Duration,
+    numbers: Numbers,
+    /// Of a hundred datagrams, how many are lost.
+    lost: u64,
+}
+
+fn address(index: usize) -> SocketAddrV4 {
+    SocketAddrV4::new(Ipv4Addr::LOCALHOST, 7410 + 2 * index as u16)
+}
+
+impl World {
+    fn new(count: usize, lost: u64) -> Self {
+        let cores = (0..count).map(|index| {
+            let mut prefix = [0; 12];
+            prefix[11] = index as u8 + 1;
+            Core::new(Settings {
+                prefix,
+                domain: 0,
+                unicast: address(index),
+                announce_to: (0..count).map(address).collect(),
+                name: String::new(),
+                user_data: Vec::new(),
+                is_loopback_only: true,
+                limits: Limits { max_messages: 100, max_bytes: 1 << 20, ..Limits::default() },
+            })
+        });
+        Self { cores: cores.collect(), now: Duration::ZERO, numbers: Numbers(1), lost }
+    }
+
+    /// Some time passes.
+    fn run(&mut self, milliseconds: u64) {
+        for _ in 0..milliseconds / 10 {
+            self.now += Duration::from_millis(10);
+            for sender in 0..self.cores.len() {
+                self.cores[sender].tick(self.now);
+                self.deliver(sender);
+            }
+        }
+    }
+
+    fn deliver(&mut self, sender: usize) {
+        for datagram in self.cores[sender].take_outgoing() {
+            let receiver = (0..self.cores.len()).find(|index| address(*index) == datagram.to);
+            if let Some(receiver) = receiver.filter(|_| self.numbers.below(100) >= self.lost) {
+                self.cores[receiver].receive(&datagram.bytes, address(sender), self.now);
+            }
+        }
+    }
+
+    fn write(&mut self, core: usize, writer: EntityId, text: &[u8]) {
+        let payload = [&[0, 1, 0, 0], text].concat().into();
+        self.cores[core].write(writer, &Written { payload, call: None, time: Time::default() });
+    }
+
+    fn taken(&mut self, core: usize, reader: EntityId) -> Vec<Vec<u8>> {
+        std::iter::from_fn(|| self.cores[core].take(reader)).map(|sample| sample.payload[4..].to_vec()).collect()
+    }
+}
+
+fn all() -> Qos {
+    Qos { history: History::KeepAll, ..Qos::default() }
+}
+
+#[test]
+fn reliable_messages_arrive_in_order_whatever_is_lost() {
+    let mut world = World::new(2, 30);
+    let writer = world.cores[0].create_writer("rt/a", TYPE, all(), &[]);
+    let reader = world.cores[1].create_reader("rt/a", TYPE, all(), &[]);
+    world.run(10_000);
+    assert_eq!((world.cores[0].matched(writer), world.cores[1].matched(reader)), (1, 1));
+    for number in 0..90u8 {
+        world.write(0, writer, &[number; 12]);
+    }
+    // In four fragments, of which some are lost.
+    world.write(0, writer, &[200; 60_000]);
+    world.run(10_000);
+    let taken = world.taken(1, reader);
+    let expected: Vec<Vec<u8>> = (0..90u8).map(|number| vec![number; 12]).chain([vec![200; 60_000]]).collect();
+    assert!(taken == expected, "{} of {} messages", taken.len(), expected.len());
+}
+
+#[test]
+fn late_readers_get_what_is_durable() {
+    let mut world = World::new(2, 10);
+    let durable = Qos { durability: Durability::TransientLocal, history: History::KeepLast(3), ..Qos::default() };
+    let writer = world.cores[0].create_writer("rt/a", TYPE, durable, &[]);
+    for number in 0..10 {
+        world.write(0, writer, &[number; 4]);
+    }
+    world.run(1000);
+    let late = world.cores[1].create_reader("rt/a", TYPE, durable, &[]);
+    let volatile = world.cores[1].create_reader("rt/a", TYPE, Qos::default(), &[]);
+    let here = world.cores[0].create_reader("rt/a", TYPE, durable, &[]);
+    world.run(5000);
+    world.write(0, writer, &[77; 4]);
+    world.run(1000);
+    assert_eq!(world.taken(1, late), [[8; 4], [9; 4], [77; 4]], "the newest three");
+    assert_eq!(world.taken(1, volatile), [[77; 4]]);
+    assert_eq!(world.taken(0, here), [[8; 4], [9; 4], [77; 4]]);
+}
+
+#[test]
+fn policies_that_do_not_fit_find_no_partner() {
+    let mut world = World::new(2, 0);
+    let best_effort = Qos { reliability: Reliability::BestEffort, ..Qos::default() };
+    let writer = world.cores[0].create_writer("rt/a", TYPE, best_effort, &[]);
+    let reader = world.cores[1].create_reader("rt/a", TYPE, Qos::default(), &[]);
+    let other_type = world.cores[1].create_reader("rt/a", "std_msgs::msg::dds_::Int32_", best_effort, &[]);
+    let fitting = world.cores[1].create_reader("rt/a", TYPE, best_effort, &[]);
+    world.run(3000);
+    assert_eq!(world.cores[0].matched(writer), 1);
+    world.write(0, writer, b"abcd");
+    world.run(100);
+    assert!(world.taken(1, reader).is_empty() && world.taken(1, other_type).is_empty());
+    assert_eq!(world.taken(1, fitting), [b"abcd"]);
+    world.cores[1].remove(fitting);
+    world.run(100);
+    assert_eq!(world.cores[0].matched(writer), 0, "its end is announced");
+}
+
+#[test]
+fn a_reader_that_is_flooded_keeps_the_newest() {
+    let mut world = World::new(2, 0);
+    let writer = world.cores[0].create_writer("rt/a", TYPE, all(), &[]);
+    let reader = world.cores[1].create_reader("rt/a", TYPE, Qos { history: History::KeepLast(3), ..all() }, &[]);
+    world.run(3000);
+    for number in 0..50 {
+        world.write(0, writer, &[number; 4]);
+        world.run(10);
+    }
+    assert_eq!(world.taken(1, reader), [[47; 4], [48; 4], [49; 4]]);
+    assert_eq!(world.cores[1].dropped(reader), 47);
+}
+
+#[test]
+fn participants_that_leave_or_fall_silent_are_forgotten() {
+    let mut world = World::new(3, 0);
+    world.run(1000);
+    assert_eq!(world.cores[0].peers(), 2);
+    world.cores[1].leave();
+    world.deliver(1);
+    assert_eq!(world.cores[0].peers(), 1);
+    let silent = world.cores.split_off(1);
+    world.run(30_000);
+    assert_eq!(world.cores[0].peers(), 0);
+    drop(silent);
+}
+
+#[test]
+fn damaged_datagrams_do_no_harm() {
+    let mut world = World::new(2, 0);
+    let writer = world.cores[0].create_writer("rt/a", TYPE, all(), &[]);
+    let reader = world.cores[1].create_reader("rt/a", TYPE, all(), &[]);
+    world.run(1000);
+    for round in 0..300u64 {
+        world.write(0, writer, &vec![round as u8; (round * 97 % 40_000) as usize]);
+        world.cores[0].tick(world.now);
+        for datagram in world.cores[0].take_outgoing() {
+            let mut bytes = datagram.bytes.clone();
+            for _ in 0..=world.numbers.below(4) {
+                let at = 20 + world.numbers.below(bytes.len() as u64 - 20) as usize;
+                bytes[at] = world.numbers.below(256) as u8;
+            }
+            bytes.truncate(bytes.len() - world.numbers.below(3) as usize * 5);
+            world.cores[1].receive(&bytes, address(0), world.now);
+            world.cores[1].tick(world.now);
+            world.cores[1].take_outgoing();
+        }
+        world.now += Duration::from_millis(10);
+    }
+    world.run(100);
+    while world.cores[1].take(reader).is_some() {}
+    assert!(world.cores[1].waiting(reader) == 0);
+}
