@@ -78,6 +78,9 @@ pub enum DecodeError {
         /// What the type allows.
         bound: usize,
     },
+    /// Not plain CDR: the first two bytes say which representation it is.
+    #[error("the message is not in plain CDR but in representation {0:02x?}")]
+    Representation([u8; 2]),
     /// Text that is not encoded as it should be.
     #[error("invalid text")]
     Text,

@@ -7,6 +7,7 @@
 //! Texts and bytes may come from anyone: sizes, nesting and lengths are limited ([`limits`]) and checked before memory is allocated.
 
 mod catalogue;
+pub mod cdr;
 mod error;
 pub mod limits;
 mod name;
