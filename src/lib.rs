@@ -25,8 +25,8 @@ pub use mlua;
 pub use perception::vision::{Channels, Picture};
 pub use permissions::{Denied, HostRule, Permissions};
 pub use script::{
-    Console, EmbeddedScript, Limits, LogLine, Options, PythonHost, ScriptCalls, Silent, SimulationState, VideoFailure,
-    VideoOptions, VideoView,
+    Console, EmbeddedScript, Limits, LogLine, Options, PythonHost, RosOptions, ScriptCalls, Silent, SimulationState,
+    VideoFailure, VideoOptions, VideoView,
 };
 pub use simulator::{
     ApiFunction, Builder, Caller, Error, ModuleMember, NativeScript, NativeScriptFactory, Progress, RunLimits,

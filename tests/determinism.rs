@@ -16,7 +16,7 @@ use swanilda::{Channels, Console, LogLine, Options, Picture, ScriptKind, Simulat
 const LONGEST: u64 = 400;
 
 /// Scenes that speak with the world outside; how they go is a matter of who is there.
-const OUTSIDE: [&str; 4] = ["ws_", "zmq_", "serial_", "fetch_"];
+const OUTSIDE: [&str; 5] = ["ros", "ws_", "zmq_", "serial_", "fetch_"];
 
 fn scenes() -> Vec<PathBuf> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");

@@ -7931,6 +7931,282 @@ class _simQML:
         functionName: a global function of the script
         """
 
+class _simROS2:
+    clock_type: Any
+    action_result_code: Any
+    goal_response: Any
+    cancel_response: Any
+    qos_history_policy: Any
+    qos_reliability_policy: Any
+    qos_durability_policy: Any
+    qos_liveliness_policy: Any
+    def actionClientTreatUInt8ArrayAsString(self, actionClientHandle: str, /) -> None:
+        """From now on fields of type `uint8[]` are strings.
+        actionClientHandle: the client
+        """
+    def actionServerActionAbort(self, actionServerHandle: str, goalUuid: str, result: Sequence[Any] | Mapping[Any, Any], /) -> None:
+        """Ends a goal that failed.
+        actionServerHandle: the server
+        result: a table with the fields of the result
+        """
+    def actionServerActionCanceled(self, actionServerHandle: str, goalUuid: str, result: Sequence[Any] | Mapping[Any, Any], /) -> None:
+        """Ends a goal that is being cancelled.
+        actionServerHandle: the server
+        result: a table with the fields of the result
+        """
+    def actionServerActionExecute(self, actionServerHandle: str, goalUuid: str, /) -> None:
+        """Begins a goal that was accepted with accept_and_defer.
+        actionServerHandle: the server
+        """
+    def actionServerActionIsActive(self, actionServerHandle: str, goalUuid: str, /) -> bool:
+        """Whether a goal is not finished.
+        actionServerHandle: the server
+        """
+    def actionServerActionIsCanceling(self, actionServerHandle: str, goalUuid: str, /) -> bool:
+        """Whether a goal is being cancelled.
+        actionServerHandle: the server
+        """
+    def actionServerActionIsExecuting(self, actionServerHandle: str, goalUuid: str, /) -> bool:
+        """Whether a goal has begun and is not being cancelled.
+        actionServerHandle: the server
+        """
+    def actionServerActionSucceed(self, actionServerHandle: str, goalUuid: str, result: Sequence[Any] | Mapping[Any, Any], /) -> None:
+        """Ends a goal with success.
+        actionServerHandle: the server
+        result: a table with the fields of the result
+        """
+    def actionServerPublishFeedback(self, actionServerHandle: str, goalUuid: str, feedback: Sequence[Any] | Mapping[Any, Any], /) -> None:
+        """Publishes feedback about a goal.
+        actionServerHandle: the server
+        feedback: a table with the fields of the feedback
+        """
+    def actionServerTreatUInt8ArrayAsString(self, actionServerHandle: str, /) -> None:
+        """From now on fields of type `uint8[]` are strings.
+        actionServerHandle: the server
+        """
+    def call(self, clientHandle: str, request: Sequence[Any] | Mapping[Any, Any], /) -> Any:
+        """Calls a service and waits for its answer. Callbacks run in the meantime.
+        clientHandle: the client
+        request: a table with the fields of the request
+        """
+    def cancelLastGoal(self, actionClientHandle: str, /) -> bool:
+        """Asks the server to cancel the goal that was sent last, and waits for its answer.
+        actionClientHandle: the client
+        """
+    def clientTreatUInt8ArrayAsString(self, clientHandle: str, /) -> None:
+        """From now on fields of type `uint8[]` are strings.
+        clientHandle: the client
+        """
+    def createActionClient(self, actionName: str, actionType: str, goalResponseCallback: Callable[..., Any] | str, feedbackCallback: Callable[..., Any] | str, resultCallback: Callable[..., Any] | str, /) -> str:
+        """Creates a client of an action.
+        actionName: `/x`, `x` in the node's namespace, or `~/x` below the node
+        actionType: `pkg/action/Name`
+        goalResponseCallback: gets the goal's identity and whether it was accepted
+        feedbackCallback: gets the goal's identity and the feedback as a table
+        resultCallback: gets the goal's identity, simROS2.action_result_code.*, and the result as a table
+        """
+    def createActionServer(self, actionName: str, actionType: str, handleGoalCallback: Callable[..., Any] | str, handleCancelCallback: Callable[..., Any] | str, handleAcceptedCallback: Callable[..., Any] | str, /) -> str:
+        """Creates a server of an action.
+        actionName: `/x`, `x` in the node's namespace, or `~/x` below the node
+        actionType: `pkg/action/Name`
+        handleGoalCallback: gets the goal's identity and the goal as a table, returns simROS2.goal_response.*
+        handleCancelCallback: gets the same, returns simROS2.cancel_response.*
+        handleAcceptedCallback: gets the same for a goal that was accepted
+        """
+    def createClient(self, serviceName: str, serviceType: str, /) -> str:
+        """Creates a client of a service.
+        serviceName: `/x`, `x` in the node's namespace, or `~/x` below the node
+        serviceType: `pkg/srv/Name`
+        """
+    def createInterface(self, type: str, /) -> Any:
+        """A table of a type with all fields at their default values.
+        type: `pkg/msg/Name`, `pkg/srv/NameRequest`, `pkg/srv/NameResponse`, `pkg/action/NameGoal`, `NameResult`, `NameFeedback`
+        """
+    def createPublisher(self, topicName: str, topicType: str, Unused: int | None = ..., Unused2: bool | None = ..., qos: Any | None = ..., /) -> str:
+        """Creates a publisher.
+        topicName: `/x`, `x` in the node's namespace, or `~/x` below the node
+        topicType: `pkg/msg/Name`
+        qos: nil, or a table: history, depth, reliability, durability, deadline, lifespan, liveliness, liveliness_lease_duration, avoid_ros_namespace_conventions
+        """
+    def createService(self, serviceName: str, serviceType: str, serviceCallback: Callable[..., Any] | str, /) -> str:
+        """Creates a server of a service. The callback gets the request as a table and returns the response.
+        serviceName: `/x`, `x` in the node's namespace, or `~/x` below the node
+        serviceType: `pkg/srv/Name`
+        serviceCallback: a function, or the name of a global one
+        """
+    def createSubscription(self, topicName: str, topicType: str, topicCallback: Callable[..., Any] | str, Unused: int | None = ..., qos: Any | None = ..., /) -> str:
+        """Creates a subscription. The callback gets the message as a table, at the start of an iteration of the loop.
+        topicName: `/x`, `x` in the node's namespace, or `~/x` below the node
+        topicType: `pkg/msg/Name`
+        topicCallback: a function, or the name of a global one
+        qos: as in simROS2.createPublisher; the newest `depth` messages wait
+        """
+    def deleteParam(self, name: str, /) -> None:
+        """Removes a parameter.
+        name: its name
+        """
+    def getInterfaceConstants(self, type: str, /) -> Any:
+        """The constants of a type.
+        type: as in simROS2.createInterface
+        """
+    def getParamBool(self, name: str, DefaultValue: bool | None = ..., /) -> tuple[bool, bool]:
+        """A parameter that is a truth value.
+        name: its name
+        """
+    def getParamDouble(self, name: str, DefaultValue: float | None = ..., /) -> tuple[bool, float]:
+        """A parameter that is a number.
+        name: its name
+        """
+    def getParamInt(self, name: str, DefaultValue: int | None = ..., /) -> tuple[bool, int]:
+        """A parameter that is an integer.
+        name: its name
+        """
+    def getParamString(self, name: str, DefaultValue: str | None = ..., /) -> tuple[bool, str]:
+        """A parameter that is a string.
+        name: its name
+        """
+    def getSimulationTime(self, /) -> Any:
+        """The time of the simulation.
+        """
+    def getSystemTime(self, /) -> Any:
+        """The time of the system.
+        """
+    def getTime(self, clockType: int | None = ..., /) -> Any:
+        """The time of a clock. The clock of ROS is the system's, as that of any node without simulated time.
+        """
+    def hasParam(self, name: str, /) -> bool:
+        """Whether there is a parameter.
+        name: its name
+        """
+    def imageTransportCreatePublisher(self, topicName: str, queueSize: int | None = ..., /) -> str:
+        """Creates a publisher of images.
+        topicName: as in simROS2.createPublisher
+        queueSize: how many images are kept
+        """
+    def imageTransportCreateSubscription(self, topicName: str, topicCallback: Callable[..., Any] | str, queueSize: int | None = ..., /) -> str:
+        """Creates a subscription of images. The callback gets data, width and height: three bytes per pixel, RGB, the lowest row first.
+        topicName: as in simROS2.createPublisher
+        topicCallback: a function, or the name of a global one
+        queueSize: how many images wait
+        """
+    def imageTransportPublish(self, publisherHandle: str, data: bytes | str, width: int, height: int, frameId: str, /) -> None:
+        """Publishes an image with three bytes per pixel, the lowest row first, as vision sensors have it.
+        publisherHandle: the publisher
+        data: width * height * 3 bytes, RGB
+        width: pixels
+        height: pixels
+        """
+    def imageTransportShutdownPublisher(self, publisherHandle: str, /) -> None:
+        """Ends a publisher of images.
+        publisherHandle: the publisher
+        """
+    def imageTransportShutdownSubscription(self, subscriptionHandle: str, /) -> None:
+        """Ends a subscription of images.
+        subscriptionHandle: the subscription
+        """
+    def importInterface(self, name: str, /) -> None:
+        """Makes a type a global: `geometry_msgs.msg.Point` has the constants of the type, `__name`, and `__new()`, which creates a table of it.
+        name: `pkg/msg/Name`
+        """
+    def log(self, verbosity: int, msg: str, /) -> None:
+        """Adds a line to the log.
+        verbosity: sim.verbosity_*
+        msg: the line
+        """
+    def publish(self, publisherHandle: str, message: Sequence[Any] | Mapping[Any, Any], /) -> None:
+        """Publishes a message. Fields that are not there have their default.
+        publisherHandle: the publisher
+        message: a table with the fields of the type
+        """
+    def publisherTreatUInt8ArrayAsString(self, publisherHandle: str, /) -> None:
+        """From now on fields of type `uint8[]` are strings.
+        publisherHandle: the publisher
+        """
+    def sendGoal(self, actionClientHandle: str, goal: Sequence[Any] | Mapping[Any, Any], /) -> bool:
+        """Sends a goal and waits until the server accepts or rejects it. Callbacks run in the meantime.
+        actionClientHandle: the client
+        goal: a table with the fields of the goal
+        """
+    def sendTransform(self, transform: Sequence[Any] | Mapping[Any, Any], /) -> None:
+        """Publishes a transform at `/tf`.
+        transform: a `geometry_msgs/msg/TransformStamped`
+        """
+    def sendTransforms(self, transforms: Sequence[Any] | Mapping[Any, Any], /) -> None:
+        """Publishes transforms at `/tf`, in one message.
+        transforms: a list of `geometry_msgs/msg/TransformStamped`
+        """
+    def serviceTreatUInt8ArrayAsString(self, serviceHandle: str, /) -> None:
+        """From now on fields of type `uint8[]` are strings.
+        serviceHandle: the server
+        """
+    def setParamBool(self, name: str, value: bool, /) -> None:
+        """Sets a parameter.
+        name: its name
+        value: its value
+        """
+    def setParamDouble(self, name: str, value: float, /) -> None:
+        """Sets a parameter.
+        name: its name
+        value: its value
+        """
+    def setParamInt(self, name: str, value: int, /) -> None:
+        """Sets a parameter.
+        name: its name
+        value: its value
+        """
+    def setParamString(self, name: str, value: str, /) -> None:
+        """Sets a parameter.
+        name: its name
+        value: its value
+        """
+    def shutdownActionClient(self, actionClientHandle: str, /) -> None:
+        """Ends a client of an action.
+        actionClientHandle: the client
+        """
+    def shutdownActionServer(self, actionServerHandle: str, /) -> None:
+        """Ends a server of an action.
+        actionServerHandle: the server
+        """
+    def shutdownClient(self, clientHandle: str, /) -> None:
+        """Ends a client.
+        clientHandle: the client
+        """
+    def shutdownPublisher(self, publisherHandle: str, /) -> None:
+        """Ends a publisher.
+        publisherHandle: the publisher
+        """
+    def shutdownService(self, serviceHandle: str, /) -> None:
+        """Ends a server of a service.
+        serviceHandle: the server
+        """
+    def shutdownSubscription(self, subscriptionHandle: str, /) -> None:
+        """Ends a subscription.
+        subscriptionHandle: the subscription
+        """
+    def spinSome(self, /) -> Any:
+        """Calls the callbacks for what has arrived, without waiting.
+        """
+    def subscriptionTreatUInt8ArrayAsString(self, subscriptionHandle: str, /) -> None:
+        """From now on fields of type `uint8[]` are strings.
+        subscriptionHandle: the subscription
+        """
+    def supportedInterfaces(self, /) -> list[str]:
+        """The types that are known: those that are built in, and those of the folders with interfaces.
+        """
+    def timeFromFloat(self, t: float, /) -> Any:
+        """A time in seconds as a table.
+        t: seconds
+        """
+    def timeToFloat(self, t: Sequence[Any] | Mapping[Any, Any], /) -> float:
+        """A time as a table in seconds.
+        t: {sec, nanosec}
+        """
+    def waitForService(self, clientHandle: str, timeout: float, /) -> bool:
+        """Waits until a service has a server.
+        clientHandle: the client
+        timeout: seconds; negative without limit
+        """
+
 class _simRemoteApi:
     def reset(self, port: int, /) -> int:
         """Starts a server anew: its client is gone then.
@@ -9824,6 +10100,14 @@ class _swanilda_plugins:
         """Ends the use of a plugin, which loadPlugin has returned; with options.force, that of all scripts.
         """
 
+class _swanilda_ros2_bridge:
+    def publish(self, /) -> Any:
+        """Publishes what a step has led to.
+        """
+    def start(self, /) -> Any:
+        """Creates the publishers; without a node of ROS 2 that is an error of the add-on.
+        """
+
 class _swanilda_test:
     def allow_script_errors(self, allowed: bool | None = ..., /) -> None: ...
     def answer(self, dialog: Any | None = ..., value: Any | None = ..., /) -> Any: ...
@@ -10138,6 +10422,8 @@ class Requires:
     @overload
     def require(self, name: Literal["simQML"], script: int | None = None) -> _simQML: ...
     @overload
+    def require(self, name: Literal["simROS2"], script: int | None = None) -> _simROS2: ...
+    @overload
     def require(self, name: Literal["simRemoteApi"], script: int | None = None) -> _simRemoteApi: ...
     @overload
     def require(self, name: Literal["simSubprocess"], script: int | None = None) -> _simSubprocess: ...
@@ -10187,6 +10473,8 @@ class Requires:
     def require(self, name: Literal["swanilda.oldmotion"], script: int | None = None) -> _swanilda_oldmotion: ...
     @overload
     def require(self, name: Literal["swanilda.plugins"], script: int | None = None) -> _swanilda_plugins: ...
+    @overload
+    def require(self, name: Literal["swanilda.ros2_bridge"], script: int | None = None) -> _swanilda_ros2_bridge: ...
     @overload
     def require(self, name: Literal["swanilda.test"], script: int | None = None) -> _swanilda_test: ...
     @overload

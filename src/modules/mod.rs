@@ -6,6 +6,8 @@ mod cbor;
 mod lfs;
 mod mime;
 pub(crate) mod remote;
+#[cfg(feature = "ros2")]
+mod ros_values;
 mod sim_assimp;
 mod sim_convex;
 mod sim_eigen;
@@ -17,6 +19,8 @@ mod sim_im;
 mod sim_ompl;
 mod sim_open_mesh;
 pub(crate) mod sim_remote_api;
+#[cfg(feature = "ros2")]
+mod sim_ros2;
 mod sim_subprocess;
 mod sim_surf_rec;
 mod sim_ui;
@@ -58,6 +62,8 @@ pub(crate) static ALL: &[&Module] = &[
     &sim_ompl::MODULE,
     &sim_open_mesh::MODULE,
     &sim_remote_api::MODULE,
+    #[cfg(feature = "ros2")]
+    &sim_ros2::MODULE,
     &sim_subprocess::MODULE,
     &sim_surf_rec::MODULE,
     &sim_ui::MODULE,

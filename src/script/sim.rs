@@ -22,6 +22,7 @@ use super::log::console::{Console, LogLine};
 use super::log::suggestion::nearest;
 use super::log::verbosity;
 use super::property::{AppData, SignalOwners};
+use super::ros_options::RosOptions;
 use super::runtime::Languages;
 use super::step::clock::Clock;
 use super::test_bench::TestBench;
@@ -67,6 +68,8 @@ pub struct Options {
     pub listen_address: IpAddr,
     /// Origins of web pages that may use the remote API, besides those of this machine; `*` for all.
     pub web_origins: Vec<String>,
+    /// How scripts take part in networks of ROS.
+    pub ros: RosOptions,
 }
 
 impl Default for Options {
@@ -89,6 +92,7 @@ impl Default for Options {
             render_threads: None,
             listen_address: Ipv4Addr::LOCALHOST.into(),
             web_origins: Vec::new(),
+            ros: RosOptions::default(),
         }
     }
 }

@@ -104,12 +104,12 @@ fn a_missing_plugin_is_named_in_one_line() {
 #[test]
 fn original_errors_list_the_places_where_a_plugin_was_searched() {
     let scene =
-        Scene::new("local _, text = pcall(require, 'simROS2') print((text:gsub('\\n.*', '')))\nrequire 'simROS2'");
+        Scene::new("local _, text = pcall(require, 'simCHAI3D') print((text:gsub('\\n.*', '')))\nrequire 'simCHAI3D'");
     let output = scene.run(&["--steps", "1", "--empty", "--quiet", "--original-errors"]);
-    assert_eq!(stdout(&output), "module 'simROS2' not found:\n");
+    assert_eq!(stdout(&output), "module 'simCHAI3D' not found:\n");
     let log = stderr(&output);
-    assert!(log.contains("[/Script:error]   module 'simROS2' not found:\n"), "{log}");
-    assert!(log.contains("no field package.preload['simROS2']\n"), "{log}");
+    assert!(log.contains("[/Script:error]   module 'simCHAI3D' not found:\n"), "{log}");
+    assert!(log.contains("no field package.preload['simCHAI3D']\n"), "{log}");
     assert!(!log.contains("PLUGINS.md"), "{log}");
 }
 

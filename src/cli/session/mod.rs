@@ -9,6 +9,7 @@ pub(super) mod permissions;
 pub(super) mod progress;
 pub(super) mod recording;
 pub(super) mod resources;
+pub(super) mod ros;
 pub(super) mod setup;
 pub(super) mod video;
 

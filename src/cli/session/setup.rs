@@ -6,6 +6,7 @@ use super::interrupt::Interrupt;
 use super::output::{Format, Output};
 use super::progress::Progress;
 use super::resources::ResourceArgs;
+use super::ros::RosArgs;
 use crate::cli::complain;
 use crate::format::scene_file::{self, SceneFile};
 use crate::format::scene_input::SceneInput;
@@ -44,6 +45,8 @@ pub(in crate::cli) struct Setup {
     plugin_path: Vec<PathBuf>,
     #[command(flatten)]
     resources: ResourceArgs,
+    #[command(flatten)]
+    ros: RosArgs,
     /// Lua file to load as an add-on; may be repeated
     #[arg(long, value_name = "FILE")]
     addon: Vec<PathBuf>,
@@ -133,6 +136,7 @@ impl Setup {
             plugin_dirs: self.plugin_path.clone(),
             stop: interrupt.flag(),
             original_errors: self.original_errors,
+            ros: self.ros.options(scene.map(Simulator::folder_of_scene).as_deref()),
             ..Options::default()
         };
         options.seed = self.seed.unwrap_or(options.seed);
@@ -146,6 +150,9 @@ impl Setup {
         for source in &sources.add_ons {
             // A script that fails has said so in the log, and is counted.
             let _ = source.add(sim, ScriptKind::AddOn);
+        }
+        for (name, code) in self.ros.add_ons() {
+            let _ = sim.add_script(ScriptKind::AddOn, name, code);
         }
         match sources.scene {
             Some(Scene::File(file)) => self.open(sim, *file),

@@ -85,6 +85,19 @@ impl ScriptCallback {
         let (sim, script) = alive.ok_or(ApiError::ScriptNotInitialized)?;
         sim.try_handler(&script, &self.handler, args)
     }
+
+    /// As [`ScriptCallback::call`], but a failure is logged and counted. None then, and when the script has ended.
+    pub(crate) fn call_logged(&self, args: &[Data]) -> Option<Vec<Data>> {
+        let (sim, script) = self.sim.upgrade().zip(self.script.upgrade())?;
+        sim.call_handler(&script, &self.handler, args)
+    }
+
+    /// Logs a warning, if the script still runs.
+    pub(crate) fn warn(&self, text: &str) {
+        if let Some(sim) = self.sim.upgrade() {
+            sim.log(verbosity::SCRIPT_WARNINGS, text);
+        }
+    }
 }
 
 impl Sim {

@@ -1,0 +1,54 @@
+//! `--ros-...`: how scripts take part in networks of ROS.
+
+use std::net::Ipv4Addr;
+use std::path::{Path, PathBuf};
+
+use crate::RosOptions;
+
+/// Options of ROS
+#[derive(Debug, Clone, Default, clap::Args)]
+pub(in crate::cli) struct RosArgs {
+    /// Let ROS use the network, optionally the one of this machine's ADDRESS; otherwise nothing leaves this machine
+    #[arg(long, value_name = "ADDRESS", num_args = 0..=1, require_equals = true, default_missing_value = "0.0.0.0")]
+    ros_network: Option<Ipv4Addr>,
+    /// Folder with interfaces of ROS (.msg, .srv, .action), a package or a prefix of packages; may be repeated
+    #[arg(long, value_name = "DIR")]
+    ros_interfaces: Vec<PathBuf>,
+    /// Publish the time of the simulation, the poses of all objects and the joints by ROS 2 (/clock, /tf, /joint_states)
+    #[arg(long)]
+    ros2_bridge: bool,
+    /// Prefixes of installed packages with interfaces of ROS 2
+    #[arg(long, hide = true, env = "AMENT_PREFIX_PATH", value_delimiter = ':')]
+    ament_prefix_path: Vec<PathBuf>,
+    /// Domain of ROS 2
+    #[arg(long, hide = true, env = "ROS_DOMAIN_ID", default_value = "")]
+    ros_domain_id: String,
+    /// Namespace of the node of ROS 2
+    #[arg(long, hide = true, env = "ROS_NAMESPACE", default_value = "")]
+    ros_namespace: String,
+}
+
+/// The add-on of `--ros2-bridge`.
+const BRIDGE: &[u8] = b"bridge = require 'swanilda.ros2_bridge'
+function sysCall_init() bridge.start() end
+function sysCall_sensing() bridge.publish() end
+";
+
+impl RosArgs {
+    /// The add-ons that the options ask for: names and texts.
+    pub(in crate::cli) fn add_ons(&self) -> impl Iterator<Item = (&'static str, &'static [u8])> {
+        self.ros2_bridge.then_some(("ros2Bridge", BRIDGE)).into_iter()
+    }
+
+    /// For a scene in this folder, beside which interfaces are searched too.
+    pub(in crate::cli) fn options(&self, folder: Option<&Path>) -> RosOptions {
+        let beside = folder.map(Path::to_path_buf);
+        let folders = self.ros_interfaces.iter().cloned().chain(beside).chain(self.ament_prefix_path.iter().cloned());
+        RosOptions {
+            network: self.ros_network,
+            interfaces: folders.filter(|folder| !folder.as_os_str().is_empty()).collect(),
+            domain: self.ros_domain_id.clone(),
+            namespace: self.ros_namespace.clone(),
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! The node: how it comes to be, what belongs to it, and the calls of its callbacks.
+
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
+use std::rc::{Rc, Weak};
+
+use ros_interfaces::{Catalogue, Generation, Layout};
+use rtps::{Network, Participant, Qos};
+
+use super::actions::{ActionClient, ActionServer};
+use super::endpoint::Endpoint;
+use super::names::{self, Place};
+use super::parameters::Parameters;
+use super::services::{Client, Service};
+use super::topics::{Publisher, Subscription};
+use super::{ApiError, Cx, Result, invalid_handle};
+use crate::script::{Host, RosOptions};
+
+/// The state of the module.
+#[derive(Default)]
+pub(super) struct Node {
+    running: RefCell<Option<Rc<Running>>>,
+    catalogue: RefCell<Option<Catalogue>>,
+    entities: RefCell<BTreeMap<u64, Entity>>,
+    count: Cell<u64>,
+    pub(super) parameters: RefCell<Parameters>,
+    /// For transforms.
+    pub(super) broadcaster: RefCell<Option<Rc<Publisher>>>,
+}
+
+/// The node in its domain.
+pub(super) struct Running {
+    pub(super) participant: Participant,
+    pub(super) place: Place,
+}
+
+/// What scripts have a handle of.
+#[derive(Clone)]
+pub(super) enum Entity {
+    Publisher(Rc<Publisher>),
+    Subscription(Rc<Subscription>),
+    Client(Rc<Client>),
+    Service(Rc<Service>),
+    ActionClient(Rc<ActionClient>),
+    ActionServer(Rc<ActionServer>),
+}
+
+impl Node {
+    /// The types that are known.
+    pub(super) fn with_catalogue<T>(&self, options: &RosOptions, action: impl FnOnce(&mut Catalogue) -> T) -> T {
+        let mut catalogue = self.catalogue.borrow_mut();
+        action(catalogue.get_or_insert_with(|| {
+            let mut catalogue = Catalogue::new(Generation::Ros2);
+            options.interface_folders().for_each(|folder| catalogue.add_folder(folder));
+            catalogue
+        }))
+    }
+
+    fn entity(&self, handle: &str) -> Option<(u64, Entity)> {
+        let number = number_of(handle)?;
+        Some((number, self.entities.borrow().get(&number)?.clone()))
+    }
+
+    fn remove(&self, number: u64) {
+        // Nothing is borrowed while it ends and its callback is released.
+        let removed = self.entities.borrow_mut().remove(&number);
+        drop(removed);
+    }
+
+    /// Calls the callbacks for what has arrived: one after the other in the order of creation. What arrives in the meantime waits.
+    pub(super) fn spin(&self) {
+        let numbers: Vec<u64> = self.entities.borrow().keys().copied().collect();
+        for number in numbers {
+            // An earlier callback may have ended it.
+            let entity = self.entities.borrow().get(&number).cloned();
+            match entity {
+                Some(Entity::Subscription(subscription)) => subscription.spin(),
+                Some(Entity::Service(service)) => service.spin(),
+                Some(Entity::ActionClient(client)) => client.spin(),
+                Some(Entity::ActionServer(server)) => server.spin(),
+                Some(Entity::Publisher(_) | Entity::Client(_)) | None => {}
+            }
+        }
+    }
+}
+
+impl Running {
+    /// The writer of a topic of ROS.
+    pub(super) fn publisher(self: &Rc<Self>, name: &str, layout: &Layout, qos: Qos) -> Result<Endpoint> {
+        Ok(Endpoint::writer(self, &names::topic(&self.resolve(name)?), layout, qos))
+    }
+
+    /// The reader of a topic of ROS.
+    pub(super) fn subscription(self: &Rc<Self>, name: &str, layout: &Layout, qos: Qos) -> Result<Endpoint> {
+        Ok(Endpoint::reader(self, &names::topic(&self.resolve(name)?), layout, qos))
+    }
+
+    pub(super) fn resolve(&self, name: &str) -> Result<String> {
+        self.place.resolve(name).map_err(ApiError::Other)
+    }
+}
+
+/// The hook of the module.
+pub(super) fn start_of_iteration(host: &Host) {
+    if let Some(node) = host.module_state::<Node>() {
+        node.spin();
+    }
+}
+
+pub(super) fn node(cx: &Cx) -> Rc<Node> {
+    cx.module_state()
+}
+
+/// The node in its domain, which the first call makes.
+///
+/// # Errors
+/// When that is not allowed, or there is no such domain or no socket.
+pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
+    let node = node(cx);
+    if let Some(running) = node.running.borrow().as_ref() {
+        return Ok(running.clone());
+    }
+    let options = &cx.options().ros;
+    let param = |name: &str| cx.app().named_params.get(name).map(|value| String::from_utf8_lossy(value).into_owned());
+    let domain = param("ROS2Interface.domainId").unwrap_or_else(|| options.domain.clone());
+    let domain = if domain.is_empty() { Ok(0) } else { domain.trim().parse() };
+    let domain = domain.map_err(|_| ApiError::Other("ROS 2: the domain (ROS_DOMAIN_ID) is no number".into()))?;
+    let name = param("ROS2Interface.nodeName").unwrap_or_else(|| "sim_ros2_interface".into());
+    let network = match options.network {
+        None => {
+            cx.permissions().check_net("127.0.0.1", Some(7400))?;
+            Network::Loopback
+        }
+        Some(address) => {
+            cx.permissions().check_net_everywhere("ROS 2")?;
+            Network::Address(address)
+        }
+    };
+    let participant = Participant::new(domain, network, &name, b"enclave=/;")
+        .map_err(|error| ApiError::Other(format!("ROS 2: {error}")))?;
+    let running = Rc::new(Running { participant, place: Place::new(&options.namespace, &name) });
+    *node.running.borrow_mut() = Some(running.clone());
+    Ok(running)
+}
+
+/// What a script has made: it ends with the script.
+#[derive(Default)]
+struct Owned(RefCell<Vec<Ownership>>);
+
+struct Ownership {
+    node: Weak<Node>,
+    number: u64,
+}
+
+impl Drop for Ownership {
+    fn drop(&mut self) {
+        if let Some(node) = self.node.upgrade() {
+            node.remove(self.number);
+        }
+    }
+}
+
+/// Adds something of the calling script. Returns its handle.
+pub(super) fn add(cx: &Cx, entity: Entity) -> String {
+    let node = node(cx);
+    let number = node.count.get() + 1;
+    node.count.set(number);
+    node.entities.borrow_mut().insert(number, entity);
+    let owned = cx.script_state::<Owned>();
+    let mut owned = owned.0.borrow_mut();
+    owned.retain(|other| node.entities.borrow().contains_key(&other.number));
+    owned.push(Ownership { node: Rc::downgrade(&node), number });
+    format!("{number:x}:ptr")
+}
+
+fn number_of(handle: &str) -> Option<u64> {
+    let digits = handle.strip_suffix(":ptr")?;
+    u64::from_str_radix(digits, 16).ok().filter(|number| format!("{number:x}") == digits)
+}
+
+/// What a handle stands for, if it is of the kind that `choose` accepts.
+///
+/// # Errors
+/// When it is not.
+pub(super) fn get<T>(cx: &Cx, handle: &str, choose: impl Fn(Entity) -> Option<T>) -> Result<T> {
+    node(cx).entity(handle).and_then(|(_, entity)| choose(entity)).ok_or_else(invalid_handle)
+}
+
+/// Ends what a handle stands for, if it is of the kind that `choose` accepts.
+///
+/// # Errors
+/// When it is not.
+pub(super) fn shut_down<T>(cx: &Cx, handle: &str, choose: impl Fn(Entity) -> Option<T>) -> Result<()> {
+    let node = node(cx);
+    let (number, entity) = node.entity(handle).ok_or_else(invalid_handle)?;
+    choose(entity).ok_or_else(invalid_handle)?;
+    node.remove(number);
+    Ok(())
+}

@@ -1,0 +1,47 @@
+//! Clocks, and the node itself.
+
+use api_macro::api;
+
+use super::node::{node, running};
+use super::{ApiError, ApiFn, Cx, Result, functions};
+use crate::scene::Data;
+use crate::script::step::wall_clock;
+
+pub(super) const FUNCTIONS: &[ApiFn] = functions![get_time, spin_some];
+
+const ROS: i64 = 4872;
+const SYSTEM: i64 = 4873;
+const STEADY: i64 = 4874;
+
+/// The time of a clock. The clock of ROS is the system's, as that of any node without simulated time.
+///
+/// @param clock_type simROS2.clock_type.ros, system or steady
+/// @return time {sec, nanosec}
+#[api("simROS2.getTime")]
+fn get_time(cx: &Cx, #[default(4872)] clock_type: i64) -> Result<Data> {
+    match clock_type {
+        ROS | SYSTEM => Ok(to_data(ros_time())),
+        STEADY => Ok(to_data(cx.clock().wall_seconds())),
+        _ => Err(ApiError::Other(format!("unknown clock_type: {clock_type}"))),
+    }
+}
+
+/// Calls the callbacks for what has arrived, without waiting.
+#[api("simROS2.spinSome")]
+fn spin_some(cx: &mut Cx) -> Result<()> {
+    running(cx)?;
+    node(cx).spin();
+    Ok(())
+}
+
+/// Seconds since 1970.
+pub(super) fn ros_time() -> f64 {
+    wall_clock::unix_seconds()
+}
+
+/// As messages have times.
+pub(super) fn to_data(seconds: f64) -> Data {
+    let whole = seconds.floor();
+    let nanoseconds = ((seconds - whole) * 1e9).floor().min(999_999_999.0);
+    Data::map([("sec", Data::Int(whole as i64)), ("nanosec", Data::Int(nanoseconds as i64))])
+}

@@ -1,0 +1,24 @@
+//! How scripts take part in networks of ROS.
+
+use std::net::Ipv4Addr;
+use std::path::PathBuf;
+
+/// Options of ROS, both generations.
+#[derive(Debug, Clone, Default)]
+pub struct RosOptions {
+    /// The address of this machine in the network to be used, unspecified for the one the system prefers; None: this machine only.
+    pub network: Option<Ipv4Addr>,
+    /// Folders with further interfaces (`.msg`, `.srv`, `.action`), searched in this order.
+    pub interfaces: Vec<PathBuf>,
+    /// The domain of ROS 2, as ROS_DOMAIN_ID states it: a number from 0 to 232; empty for 0.
+    pub domain: String,
+    /// Where the names of the node of ROS 2 belong; empty for none.
+    pub namespace: String,
+}
+
+impl RosOptions {
+    /// Where interfaces are searched.
+    pub fn interface_folders(&self) -> impl Iterator<Item = &PathBuf> {
+        self.interfaces.iter()
+    }
+}

@@ -1,0 +1,9 @@
+//! simROS2 with CycloneDDS under the names of ROS 2.
+
+use crate::web::check;
+
+#[test]
+#[cfg(target_os = "linux")]
+fn topics_and_services_with_cyclone_dds() {
+    check("ros2_peers.py");
+}
