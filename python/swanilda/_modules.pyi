@@ -7931,6 +7931,165 @@ class _simQML:
         functionName: a global function of the script
         """
 
+class _simROS:
+    def advertise(self, topicName: str, topicType: str, queueSize: int | None = ..., latch: bool | None = ..., /) -> str:
+        """Publishes a topic.
+        topicName: `/x`, `x` in the node's namespace, or `~x` below the node
+        topicType: `pkg/Name`
+        queueSize: messages that wait for a slow subscriber; then the newest stay. 0: up to 10000
+        latch: whether new subscribers receive the last message
+        """
+    def advertiseService(self, serviceName: str, serviceType: str, serviceCallback: Callable[..., Any] | str, /) -> str:
+        """Offers a service. The callback gets the request as a table and returns the response.
+        serviceName: `/x`, `x` in the node's namespace, or `~x` below the node
+        serviceType: `pkg/Name`
+        serviceCallback: a function, or the name of a global one
+        """
+    def call(self, serviceClientHandle: str, request: Sequence[Any] | Mapping[Any, Any], /) -> Any:
+        """Calls a service and waits for its answer. Callbacks run in the meantime.
+        serviceClientHandle: the client
+        request: a table with the fields of the request
+        """
+    def deleteParam(self, name: str, /) -> None:
+        """Removes a parameter, if there is one.
+        name: as in simROS.getParamString
+        """
+    def getParamBool(self, name: str, defaultValue: bool | None = ..., /) -> tuple[bool, bool]:
+        """A parameter that is a truth value.
+        name: as in simROS.getParamString
+        defaultValue: what is returned if there is none, or one of another type
+        """
+    def getParamDouble(self, name: str, defaultValue: float | None = ..., /) -> tuple[bool, float]:
+        """A parameter that is a number.
+        name: as in simROS.getParamString
+        defaultValue: what is returned if there is none, or one of another type
+        """
+    def getParamInt(self, name: str, defaultValue: int | None = ..., /) -> tuple[bool, int]:
+        """A parameter that is an integer; other numbers are rounded.
+        name: as in simROS.getParamString
+        defaultValue: what is returned if there is none, or one of another type
+        """
+    def getParamString(self, name: str, defaultValue: str | None = ..., /) -> tuple[bool, str]:
+        """A parameter that is a string.
+        name: `/x`, `x` in the node's namespace, or `~x` below the node
+        defaultValue: what is returned if there is none, or one of another type
+        """
+    def getTime(self, Flag: int | None = ..., /) -> float:
+        """The time of ROS: that of the topic `/clock` if the parameter `/use_sim_time` is true, else the system's.
+        """
+    def hasParam(self, name: str, /) -> bool:
+        """Whether there is a parameter.
+        name: as in simROS.getParamString
+        """
+    def imageTransportAdvertise(self, topicName: str, queueSize: int | None = ..., /) -> str:
+        """Publishes a topic of images.
+        topicName: as in simROS.advertise
+        queueSize: images that wait for a slow subscriber; then the newest stay
+        """
+    def imageTransportPublish(self, publisherHandle: str, data: bytes | str, width: int, height: int, frameId: str, /) -> None:
+        """Publishes an image with three bytes per pixel, the lowest row first, as vision sensors have it.
+        publisherHandle: the publisher
+        data: width * height * 3 bytes, RGB
+        width: pixels
+        height: pixels
+        """
+    def imageTransportShutdownPublisher(self, publisherHandle: str, /) -> None:
+        """Ends a publisher of images.
+        publisherHandle: the publisher
+        """
+    def imageTransportShutdownSubscriber(self, subscriberHandle: str, /) -> None:
+        """Ends a subscriber of images.
+        subscriberHandle: the subscriber
+        """
+    def imageTransportSubscribe(self, topicName: str, topicCallback: Callable[..., Any] | str, queueSize: int | None = ..., /) -> str:
+        """Subscribes to a topic of images. The callback gets data, width and height: three bytes per pixel, RGB, the lowest row first.
+        topicName: as in simROS.subscribe
+        topicCallback: a function, or the name of a global one
+        queueSize: images that wait; the newest stay
+        """
+    def publish(self, publisherHandle: str, message: Sequence[Any] | Mapping[Any, Any], /) -> None:
+        """Publishes a message. Fields that are not there have their default.
+        publisherHandle: the publisher
+        message: a table with the fields of the type; times are seconds
+        """
+    def publisherTreatUInt8ArrayAsString(self, publisherHandle: str, /) -> None:
+        """From now on fields of type `uint8[]` are strings.
+        publisherHandle: the publisher
+        """
+    def searchParam(self, name: str, /) -> tuple[bool, str]:
+        """Searches a parameter in the namespace of the node and in those that contain it.
+        name: a name without a slash at the beginning
+        """
+    def sendTransform(self, transform: Sequence[Any] | Mapping[Any, Any], /) -> None:
+        """Publishes a transform at `/tf`.
+        transform: a `geometry_msgs/TransformStamped`
+        """
+    def sendTransforms(self, transforms: Sequence[Any] | Mapping[Any, Any], /) -> None:
+        """Publishes transforms at `/tf`, in one message.
+        transforms: a list of `geometry_msgs/TransformStamped`
+        """
+    def serviceClient(self, serviceName: str, serviceType: str, /) -> str:
+        """Creates a client of a service. The service is looked up at each call.
+        serviceName: `/x`, `x` in the node's namespace, or `~x` below the node
+        serviceType: `pkg/Name`
+        """
+    def serviceClientTreatUInt8ArrayAsString(self, serviceClientHandle: str, /) -> None:
+        """From now on fields of type `uint8[]` are strings.
+        serviceClientHandle: the client
+        """
+    def serviceServerTreatUInt8ArrayAsString(self, serviceServerHandle: str, /) -> None:
+        """From now on fields of type `uint8[]` are strings.
+        serviceServerHandle: the service
+        """
+    def setParamBool(self, name: str, value: bool, /) -> None:
+        """Sets a parameter.
+        name: as in simROS.getParamString
+        value: its value
+        """
+    def setParamDouble(self, name: str, value: float, /) -> None:
+        """Sets a parameter.
+        name: as in simROS.getParamString
+        value: its value
+        """
+    def setParamInt(self, name: str, value: int, /) -> None:
+        """Sets a parameter. Those of ROS 1 have 32 bits.
+        name: as in simROS.getParamString
+        value: its value; upper bits are cut off
+        """
+    def setParamString(self, name: str, value: str, /) -> None:
+        """Sets a parameter.
+        name: as in simROS.getParamString
+        value: its value
+        """
+    def shutdownPublisher(self, publisherHandle: str, /) -> None:
+        """Ends a publisher.
+        publisherHandle: the publisher
+        """
+    def shutdownServiceClient(self, serviceClientHandle: str, /) -> None:
+        """Ends a client.
+        serviceClientHandle: the client
+        """
+    def shutdownServiceServer(self, serviceServerHandle: str, /) -> None:
+        """Ends a service.
+        serviceServerHandle: the service
+        """
+    def shutdownSubscriber(self, subscriberHandle: str, /) -> None:
+        """Ends a subscriber.
+        subscriberHandle: the subscriber
+        """
+    def subscribe(self, topicName: str, topicType: str, topicCallback: Callable[..., Any] | str, queueSize: int | None = ..., transportHints: Any | None = ..., /) -> str:
+        """Subscribes to a topic. The callback gets the message as a table, at the start of an iteration of the loop.
+        topicName: `/x`, `x` in the node's namespace, or `~x` below the node
+        topicType: `pkg/Name`
+        topicCallback: a function, or the name of a global one
+        queueSize: messages that wait; the newest stay. 0: up to 10000
+        transportHints: a table; `transports` has to contain `tcp` if it is there
+        """
+    def subscriberTreatUInt8ArrayAsString(self, subscriberHandle: str, /) -> None:
+        """From now on fields of type `uint8[]` are strings.
+        subscriberHandle: the subscriber
+        """
+
 class _simROS2:
     clock_type: Any
     action_result_code: Any
@@ -10421,6 +10580,8 @@ class Requires:
     def require(self, name: Literal["simQHull"], script: int | None = None) -> _simQHull: ...
     @overload
     def require(self, name: Literal["simQML"], script: int | None = None) -> _simQML: ...
+    @overload
+    def require(self, name: Literal["simROS"], script: int | None = None) -> _simROS: ...
     @overload
     def require(self, name: Literal["simROS2"], script: int | None = None) -> _simROS2: ...
     @overload

@@ -6,7 +6,9 @@ mod cbor;
 mod lfs;
 mod mime;
 pub(crate) mod remote;
-#[cfg(feature = "ros2")]
+#[cfg(any(feature = "ros1", feature = "ros2"))]
+mod ros_images;
+#[cfg(any(feature = "ros1", feature = "ros2"))]
 mod ros_values;
 mod sim_assimp;
 mod sim_convex;
@@ -19,6 +21,8 @@ mod sim_im;
 mod sim_ompl;
 mod sim_open_mesh;
 pub(crate) mod sim_remote_api;
+#[cfg(feature = "ros1")]
+mod sim_ros;
 #[cfg(feature = "ros2")]
 mod sim_ros2;
 mod sim_subprocess;
@@ -62,6 +66,8 @@ pub(crate) static ALL: &[&Module] = &[
     &sim_ompl::MODULE,
     &sim_open_mesh::MODULE,
     &sim_remote_api::MODULE,
+    #[cfg(feature = "ros1")]
+    &sim_ros::MODULE,
     #[cfg(feature = "ros2")]
     &sim_ros2::MODULE,
     &sim_subprocess::MODULE,

@@ -269,6 +269,7 @@ fn numbers_from_data(number: NumberType, items: &[Data]) -> Result<Array, Proble
 }
 
 /// The constants of a type, as a table of names and values.
+#[cfg(feature = "ros2")]
 pub(super) fn constants(layout: &Layout) -> Data {
     let entry = |constant: &ros_interfaces::Constant| {
         (Key::Text(constant.name.as_bytes().to_vec()), value_to_data(&constant.value, Style::default()))

@@ -10,6 +10,10 @@ pub struct RosOptions {
     pub network: Option<Ipv4Addr>,
     /// Folders with further interfaces (`.msg`, `.srv`, `.action`), searched in this order.
     pub interfaces: Vec<PathBuf>,
+    /// Folders with packages of ROS 1, searched after the others.
+    pub packages: Vec<PathBuf>,
+    /// The address of ROS 1's master; empty for that of this machine, `http://localhost:11311`.
+    pub master: String,
     /// The domain of ROS 2, as ROS_DOMAIN_ID states it: a number from 0 to 232; empty for 0.
     pub domain: String,
     /// Where the names of the node of ROS 2 belong; empty for none.
@@ -17,6 +21,17 @@ pub struct RosOptions {
 }
 
 impl RosOptions {
+    /// Where interfaces of ROS 1 are searched.
+    pub fn package_folders(&self) -> impl Iterator<Item = &PathBuf> {
+        self.interfaces.iter().chain(&self.packages)
+    }
+
+    /// The address of ROS 1's master.
+    #[must_use]
+    pub fn master_uri(&self) -> &str {
+        if self.master.is_empty() { "http://localhost:11311" } else { &self.master }
+    }
+
     /// Where interfaces are searched.
     pub fn interface_folders(&self) -> impl Iterator<Item = &PathBuf> {
         self.interfaces.iter()

@@ -10,6 +10,7 @@ mod motion;
 mod package;
 mod recordings;
 mod reports;
+mod ros1;
 mod ros2;
 mod rust_client;
 mod server;

@@ -20,10 +20,16 @@ pub(in crate::cli) struct RosArgs {
     /// Prefixes of installed packages with interfaces of ROS 2
     #[arg(long, hide = true, env = "AMENT_PREFIX_PATH", value_delimiter = ':')]
     ament_prefix_path: Vec<PathBuf>,
+    /// Folders with packages of ROS 1
+    #[arg(long, hide = true, env = "ROS_PACKAGE_PATH", value_delimiter = ':')]
+    ros_package_path: Vec<PathBuf>,
+    /// Address of ROS 1's master
+    #[arg(long, hide = true, env = "ROS_MASTER_URI", default_value = "")]
+    ros_master_uri: String,
     /// Domain of ROS 2
     #[arg(long, hide = true, env = "ROS_DOMAIN_ID", default_value = "")]
     ros_domain_id: String,
-    /// Namespace of the node of ROS 2
+    /// Namespace of the nodes
     #[arg(long, hide = true, env = "ROS_NAMESPACE", default_value = "")]
     ros_namespace: String,
 }
@@ -47,6 +53,8 @@ impl RosArgs {
         RosOptions {
             network: self.ros_network,
             interfaces: folders.filter(|folder| !folder.as_os_str().is_empty()).collect(),
+            packages: self.ros_package_path.iter().filter(|folder| !folder.as_os_str().is_empty()).cloned().collect(),
+            master: self.ros_master_uri.clone(),
             domain: self.ros_domain_id.clone(),
             namespace: self.ros_namespace.clone(),
         }
