@@ -72,6 +72,28 @@ fn picture((name, threads): (&'static str, usize)) -> Picture {
     sim.picture(None, Some([211, 157]), Channels::ALL).expect("there is a view")
 }
 
+/// Bodies and readings do not depend on how many threads solve mechanisms.
+#[test]
+fn mechanisms_with_any_number_of_threads() {
+    let runs = [1, 2, 4].map(|threads| on_a_large_stack(swarm, threads));
+    assert!(runs[0].lines().count() > 10, "{}", runs[0]);
+    assert!(runs.iter().all(|run| *run == runs[0]), "{runs:?}");
+}
+
+/// What `swarm.lua` prints.
+fn swarm(threads: usize) -> String {
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/determinism/swarm.lua");
+    let transcript = Transcript::default();
+    let options = Options { threads: NonZero::new(threads).expect("from one"), ..Options::default() };
+    let mut sim = Simulator::with_console(options, Box::new(transcript.clone()));
+    sim.scene_mut().add_default_objects().expect("an empty scene has room");
+    sim.add_script(ScriptKind::Customization, "scene", &fs::read(&scene).expect("a scene is readable"))
+        .expect("a scene loads");
+    sim.step(40);
+    assert_eq!(sim.errors(), 0, "{}", transcript.text.borrow());
+    transcript.text.take()
+}
+
 /// The hashes of `long_run.lua`: of two processes at once, and of two shorter runs of one simulator.
 #[test]
 fn ten_thousand_steps() {

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::IsTerminal;
+use std::num::NonZero;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -42,6 +43,9 @@ pub(super) struct Args {
     /// Number of runs in parallel [default: number of processors]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), conflicts_with = "ray")]
     jobs: Option<u16>,
+    /// Threads of each run that compute mechanisms; results do not depend on it
+    #[arg(long, value_name = "N", default_value = "1", conflicts_with = "ray")]
+    threads: NonZero<usize>,
     /// Folder for the results
     #[arg(long, value_name = "FOLDER", default_value = "results")]
     out: PathBuf,
@@ -151,6 +155,7 @@ impl Args {
             memory: (self.memory as usize) << 20,
         };
         Config {
+            threads: self.threads,
             permissions: self.permissions.permissions(),
             resources: self.resources.folder(),
             ..Config::new(jobs, allowance, interrupt.flag())

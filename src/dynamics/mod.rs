@@ -8,6 +8,7 @@
 //!
 //! - `plan`: the bodies and constraints that the scene needs; compared with those that exist, so that only changes reach the engine.
 //! - `bodies`, `colliders`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`.
+//! - `linked`: a mechanism with its bodies; `workers`: threads that solve mechanisms.
 //! - `contacts`: collision filters; `exact_contacts`: what mechanisms touch; `flat_faces`: contacts without friction; `motors`: the control law.
 //! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
 //!
@@ -21,6 +22,7 @@ mod convert;
 mod exact_contacts;
 mod flat_faces;
 mod frozen;
+mod linked;
 mod links;
 mod load;
 mod mechanisms;
@@ -29,9 +31,11 @@ mod plan;
 mod report;
 #[cfg(test)]
 mod tests;
+mod workers;
 mod world;
 
 use std::collections::BTreeSet;
+use std::num::NonZero;
 
 use rapier3d_f64::math::Vector;
 
@@ -46,6 +50,7 @@ use mechanisms::Mechanisms;
 use motors::Motion;
 use plan::Plan;
 pub(crate) use report::Trigger;
+use workers::Workers;
 use world::World;
 
 use crate::scene::joint::{Joint, JointMode};
@@ -79,6 +84,7 @@ pub(crate) struct Dynamics {
     /// State of the scene for which the plan was made.
     known: Option<Mark>,
     call: Option<Call>,
+    workers: Workers,
 }
 
 /// A dynamics call in progress.
@@ -135,9 +141,14 @@ impl SubStep {
 }
 
 impl Dynamics {
+    /// An empty world that is computed on up to `threads` threads, which does not show in the results.
+    pub(crate) fn new(threads: NonZero<usize>) -> Self {
+        Self { workers: Workers::new(threads), ..Self::default() }
+    }
+
     /// Drops the world; it is rebuilt at the next step.
     pub(crate) fn reset(&mut self) {
-        *self = Self::default();
+        *self = Self { workers: std::mem::take(&mut self.workers), ..Self::default() };
     }
 
     /// Begins a call that advances `time_step` seconds; None when there is nothing to simulate.
@@ -256,8 +267,8 @@ impl Dynamics {
         let gravity = scene.settings().dynamics.gravity.map(f64::from);
         let gravity = if gravity.iter().all(|x| x.is_finite()) { gravity } else { [0.0; 3] };
         if !self.mechanisms.is_empty() {
-            let (links, bodies) = (&mut self.links, &self.bodies);
-            self.mechanisms.apply_forces(links, bodies, &mut world, gravity, call.step, &verdicts);
+            let (links, bodies, workers) = (&mut self.links, &self.bodies, &mut self.workers);
+            self.mechanisms.apply_forces(links, bodies, &mut world, gravity, call.step, &verdicts, workers);
         }
         let apart = self.mechanisms.contacts().pairs();
         contacts::set_hooks(&mut world, &verdicts, &apart);

@@ -36,7 +36,7 @@ impl Dynamics {
             return;
         }
         self.links.values_mut().for_each(|link| link.note_turn(&world, step));
-        self.mechanisms.correct_positions(&self.links, &mut world);
+        self.mechanisms.correct_positions(&self.links, &mut world, &mut self.workers);
         for (&handle, link) in &mut self.links {
             if let Some(moving_side) = link.after_step(&world, step) {
                 report_link(scene, handle, link, moving_side);

@@ -64,6 +64,8 @@ pub struct Options {
     pub original_errors: bool,
     /// Threads that draw pictures; None for as many as there are processor cores. Pictures do not depend on it.
     pub render_threads: Option<NonZero<usize>>,
+    /// Threads that compute mechanisms that are apart, such as robots. Results do not depend on it.
+    pub threads: NonZero<usize>,
     /// The address on which servers of scripts listen.
     pub listen_address: IpAddr,
     /// Origins of web pages that may use the remote API, besides those of this machine; `*` for all.
@@ -90,6 +92,7 @@ impl Default for Options {
             count_lines: false,
             original_errors: false,
             render_threads: None,
+            threads: NonZero::<usize>::MIN,
             listen_address: Ipv4Addr::LOCALHOST.into(),
             web_origins: Vec::new(),
             ros: RosOptions::default(),
@@ -136,6 +139,7 @@ impl Sim {
         languages: Languages,
     ) -> Rc<Self> {
         let perception = RefCell::new(Perception::new(options.seed, options.render_threads));
+        let dynamics = RefCell::new(Some(Dynamics::new(options.threads)));
         Rc::new(Self {
             perception,
             log: Log::new(console, options.verbosity),
@@ -145,7 +149,7 @@ impl Sim {
             modules: Modules { registry, states: States::default() },
             scene: RefCell::new(Scene::new()),
             clock: Clock::new(),
-            dynamics: RefCell::new(Some(Dynamics::default())),
+            dynamics,
             removals: Removals::default(),
             signal_owners: RefCell::default(),
             event_loop: SharedEventLoop::default(),

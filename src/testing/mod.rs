@@ -18,6 +18,7 @@ mod results;
 mod session;
 mod workers;
 
+use std::num::NonZero;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -42,6 +43,8 @@ pub struct Config {
     pub paths: Vec<PathBuf>,
     /// How many tests run at a time.
     pub jobs: usize,
+    /// Threads of each of them that compute mechanisms.
+    pub threads: NonZero<usize>,
     /// Only tests whose identifier contains one of these; all when there are none.
     pub filters: Vec<String>,
     /// Part and number of parts, from 1: only this share of the tests.
@@ -85,6 +88,7 @@ impl Config {
         Self {
             paths: Vec::new(),
             jobs,
+            threads: NonZero::<usize>::MIN,
             filters: Vec::new(),
             shard: None,
             repeat: 1,

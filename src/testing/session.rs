@@ -38,6 +38,7 @@ impl Session {
         let options = Options {
             seed,
             stop,
+            threads: config.threads,
             limits: Some(Limits { memory: config.allowance.memory }),
             count_lines: config.coverage.is_some(),
             package_dirs: vec![folder.to_owned()],

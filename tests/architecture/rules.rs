@@ -206,6 +206,7 @@ const DYNAMICS: Rooms = &[
     ("convert", &[]),
     ("frozen", &[]),
     ("motors", &[]),
+    ("workers", &[]),
     ("world", &[]),
     ("plan", &["frozen"]),
     ("colliders", &["convert", "plan"]),
@@ -216,7 +217,8 @@ const DYNAMICS: Rooms = &[
     ("contact_log", &["bodies", "convert", "exact_contacts", "world"]),
     ("load", &["convert", "plan", "world"]),
     ("links", &["bodies", "convert", "load", "motors", "plan", "world"]),
-    ("mechanisms", &["bodies", "contacts", "convert", "exact_contacts", "links", "plan", "world"]),
+    ("linked", &["bodies", "convert", "exact_contacts", "links", "world"]),
+    ("mechanisms", &["bodies", "contacts", "exact_contacts", "linked", "links", "plan", "workers", "world"]),
     ("report", &["bodies", "convert", "links", "load", "plan", "world"]),
 ];
 

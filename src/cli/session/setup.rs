@@ -1,5 +1,6 @@
 //! Common set-up of `run` and `serve`: the simulator and its scene.
 
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
 use super::interrupt::Interrupt;
@@ -34,6 +35,9 @@ pub(in crate::cli) struct Setup {
     /// Lua instructions per millisecond of a thread's time slice
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     instructions_per_ms: Option<u64>,
+    /// Threads that compute mechanisms and draw pictures; results do not depend on it [default: 1; all processors for pictures]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
     /// Named parameter for scripts (sim.getNamedStringParam); may be repeated
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = named_param)]
     define: Vec<(String, String)>,
@@ -141,6 +145,8 @@ impl Setup {
         };
         options.seed = self.seed.unwrap_or(options.seed);
         options.instructions_per_ms = self.instructions_per_ms.unwrap_or(options.instructions_per_ms);
+        options.render_threads = self.threads.and_then(|threads| NonZero::new(usize::from(threads)));
+        options.threads = options.render_threads.unwrap_or(options.threads);
         options.verbosity = self.verbosity.unwrap_or(options.verbosity);
         options
     }

@@ -1,5 +1,6 @@
 //! `swanilda test`: runs the tests in Lua files.
 
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
@@ -42,6 +43,9 @@ pub(super) struct Args {
     /// Number of tests to run in parallel [default: number of processors]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
+    /// Threads of each test that compute mechanisms; results do not depend on it
+    #[arg(long, value_name = "N", default_value = "1")]
+    threads: NonZero<usize>,
     /// Run only tests whose `file::name` contains TEXT; may be repeated
     #[arg(long, value_name = "TEXT")]
     filter: Vec<String>,
@@ -161,6 +165,7 @@ impl Args {
         Config {
             paths: self.paths.clone(),
             jobs: self.jobs.map_or_else(processors, usize::from),
+            threads: self.threads,
             filters: self.filter.clone(),
             shard: self.shard,
             repeat: self.repeat,

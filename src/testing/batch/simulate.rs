@@ -52,6 +52,7 @@ pub(in super::super) fn simulate(config: &Config, job: &Job, stop: &Arc<AtomicBo
     let options = Options {
         seed: job.case.seed,
         stop: Arc::clone(stop),
+        threads: config.threads,
         limits: Some(Limits { memory: config.allowance.memory }),
         named_params: job.params.clone(),
         package_dirs: folder.map(Path::to_owned).into_iter().collect(),

@@ -1,0 +1,299 @@
+//! A mechanism with what it stands for in the scene and in rapier: reads the state of the bodies, solves, applies what was found. Only what
+//! reads and applies needs the world, so that mechanisms can be solved at the same time.
+
+use articulation::{BodyMotion, BodyProperties, BodyState, Contact, JointState, Mechanism, spatial};
+use geometry::Finite;
+use nalgebra::Vector6;
+use rapier3d_f64::prelude::{RigidBody, RigidBodyHandle};
+
+use super::bodies::{Bodies, Body};
+use super::convert::{from_pose, from_vector, to_pose, to_vector};
+use super::exact_contacts::Touching;
+use super::links::{Link, Links};
+use super::world::World;
+use crate::scene::Handle;
+
+/// Iterations of rapier's solver over linked bodies in each part of a sub-step, beside the usual ones: what a contact changes has to find
+/// its way along the chain.
+const SHARED_ITERATIONS: usize = 10;
+/// The same where bodies touch nothing, and the sub-step is not divided.
+const UNDIVIDED_ITERATIONS: usize = 50;
+
+/// A mechanism.
+pub(super) struct Linked {
+    mechanism: Mechanism,
+    bodies: Vec<LinkedShape>,
+    /// Free bodies that touch the mechanism.
+    guests: Vec<LinkedShape>,
+    /// In the order of the mechanism's joints.
+    links: Vec<Handle>,
+    /// Whether rapier solves the links as well.
+    pub shared: bool,
+    input: Input,
+    /// Whether the forces of this sub-step were found.
+    pub is_solved: bool,
+    corrected: Vec<Option<BodyMotion>>,
+}
+
+/// What the solution of a sub-step starts from.
+#[derive(Default)]
+struct Input {
+    bodies: Vec<BodyState>,
+    joints: Vec<JointState>,
+    contacts: Vec<Contact>,
+    /// Impulses of contacts that rapier solves: body, impulse and place.
+    pushes: Vec<(usize, [f64; 3], [f64; 3])>,
+    gravity: [f64; 3],
+    step: f64,
+    /// After the step.
+    motions: Vec<BodyMotion>,
+    turned: Vec<f64>,
+}
+
+/// A body of a mechanism.
+pub(super) struct LinkedShape {
+    pub shape: Handle,
+    rigid: RigidBodyHandle,
+    pub is_dynamic: bool,
+    /// Forces and torques of scripts: they outlast a sub-step, those of links do not.
+    external: Vector6<f64>,
+}
+
+/// Lets rapier hold the links as well, or not: where the mechanism solves its contacts there is nothing to add.
+pub(super) fn share(handles: &[Handle], with_engine: bool, links: &mut Links, world: &mut World) {
+    for handle in handles {
+        if let Some(link) = links.get_mut(handle) {
+            link.share(with_engine, world);
+        }
+    }
+}
+
+/// Notes in how many parts rapier makes the next sub-step for linked bodies, and lets it iterate accordingly if it holds the links.
+pub(super) fn divide(
+    bodies: &[LinkedShape],
+    handles: &[Handle],
+    with_engine: bool,
+    links: &mut Links,
+    world: &mut World,
+) {
+    let moving = || bodies.iter().filter(|body| body.is_dynamic);
+    let parts = moving().map(|body| world.parts_of(body.rigid)).max().unwrap_or(1);
+    for handle in handles {
+        if let Some(link) = links.get_mut(handle) {
+            link.parts = parts;
+        }
+    }
+    let iterations = match (with_engine, parts) {
+        (false, _) => 0,
+        (true, 1) => UNDIVIDED_ITERATIONS,
+        (true, _) => SHARED_ITERATIONS,
+    };
+    for body in moving() {
+        let differs = |rigid: &RigidBody| rigid.additional_pgs_iterations() != iterations;
+        if world.bodies.get(body.rigid).is_some_and(differs)
+            && let Some(rigid) = world.bodies.get_mut(body.rigid)
+        {
+            rigid.set_additional_pgs_iterations(iterations);
+        }
+    }
+}
+
+impl Linked {
+    pub(super) fn new(mechanism: Mechanism, bodies: Vec<LinkedShape>, links: Vec<Handle>) -> Self {
+        Self {
+            mechanism,
+            bodies,
+            guests: Vec::new(),
+            links,
+            shared: false,
+            input: Input::default(),
+            is_solved: false,
+            corrected: Vec::new(),
+        }
+    }
+
+    pub(super) fn links(&self) -> &[Handle] {
+        &self.links
+    }
+
+    pub(super) fn bodies(&self) -> &[LinkedShape] {
+        &self.bodies
+    }
+
+    /// What the search for contacts has to know of the mechanism.
+    pub(super) fn touching(&self, mechanism: usize, bodies: &Bodies) -> Touching {
+        let moving = self.bodies.iter().filter(|body| body.is_dynamic);
+        let colliders =
+            moving.filter_map(|body| bodies.get(body.shape)).flat_map(|body| body.colliders.iter().copied());
+        let resting = self.bodies.iter().enumerate().filter(|(_, body)| !body.is_dynamic);
+        let bases = resting.map(|(index, body)| (body.shape, index)).collect();
+        Touching { mechanism, linked: self.bodies.len(), colliders: colliders.collect(), bases }
+    }
+
+    /// Takes free bodies in for a sub-step.
+    pub(super) fn receive(&mut self, guests: Vec<Handle>, bodies: &Bodies) {
+        let guests: Vec<(Handle, &Body)> =
+            guests.into_iter().filter_map(|shape| Some((shape, bodies.get(shape)?))).collect();
+        self.mechanism.set_guests(guests.iter().map(|(_, body)| properties(body)));
+        self.guests = guests.into_iter().map(|(shape, body)| LinkedShape::new(shape, body)).collect();
+    }
+
+    /// Whether rapier applies the gyroscopic torque; to linked bodies the mechanism does, since rapier would apply it to what the links
+    /// do as well.
+    pub(super) fn enable_engine_gyration(&self, on: bool, world: &mut World) {
+        for body in self.bodies.iter().filter(|body| body.is_dynamic) {
+            if let Some(rigid) = world.bodies.get_mut(body.rigid) {
+                rigid.enable_gyroscopic_forces(on);
+            }
+        }
+    }
+
+    /// Reads where bodies and links are, and what acts on them; `contacts`: those that the mechanism solves. Without a body or a link that
+    /// rapier lacks there is nothing to be solved.
+    pub(super) fn read(&mut self, links: &Links, world: &World, gravity: [f64; 3], step: f64, contacts: Vec<Contact>) {
+        let Input { bodies, joints, pushes, .. } = &mut self.input;
+        bodies.clear();
+        joints.clear();
+        pushes.clear();
+        for body in self.bodies.iter_mut().chain(&mut self.guests) {
+            let Some(rigid) = world.bodies.get(body.rigid) else { continue };
+            let state = body_state(rigid, body.is_dynamic, step);
+            body.external = state.force;
+            bodies.push(state);
+        }
+        joints.extend(self.links.iter().filter_map(|handle| links.get(handle).map(joint_state)));
+        (self.input.contacts, self.input.gravity, self.input.step) = (contacts, gravity, step);
+    }
+
+    /// Adds the impulse of a contact that rapier solves.
+    pub(super) fn add_push(&mut self, body: usize, impulse: [f64; 3], point: [f64; 3]) {
+        self.input.pushes.push((body, impulse, point));
+    }
+
+    /// Finds the forces for what was read.
+    pub(super) fn solve(&mut self) {
+        let Input { bodies, joints, contacts, pushes, gravity, step, .. } = &self.input;
+        self.is_solved = bodies.len() == self.bodies.len() + self.guests.len() && joints.len() == self.links.len();
+        if self.is_solved {
+            self.mechanism.begin(bodies, joints, *gravity, *step);
+            pushes.iter().for_each(|&(body, impulse, point)| self.mechanism.add_impulse(body, impulse, point));
+            self.mechanism.set_contacts(contacts);
+            self.is_solved = self.mechanism.solve();
+        }
+    }
+
+    /// The free bodies of which the mechanism solves the contacts.
+    pub(super) fn guests(&self) -> impl Iterator<Item = Handle> {
+        self.guests.iter().map(|guest| guest.shape)
+    }
+
+    /// The impulses of the contacts.
+    pub(super) fn contact_impulses(&self) -> impl Iterator<Item = [f64; 3]> {
+        self.mechanism.contact_impulses()
+    }
+
+    /// Applies the forces to bodies and links.
+    pub(super) fn apply_forces(&self, links: &mut Links, world: &mut World) {
+        for (handle, load) in self.links.iter().zip(self.mechanism.joint_loads()) {
+            if let Some(link) = links.get_mut(handle) {
+                link.set_solution(&load, world);
+            }
+        }
+        for (body, load) in self.bodies.iter().chain(&self.guests).zip(self.mechanism.body_loads()) {
+            if let (Some(load), Some(rigid)) = (load, world.bodies.get_mut(body.rigid)) {
+                rigid.add_force(to_vector(linear(&load)), true);
+                rigid.add_torque(to_vector(angular(&load)), true);
+            }
+        }
+    }
+
+    /// Reads how the bodies moved, and removes the forces.
+    pub(super) fn read_motions(&mut self, links: &Links, world: &mut World) {
+        self.bodies.iter().chain(&self.guests).for_each(|body| body.remove_forces_of_links(world));
+        let Input { motions, turned, .. } = &mut self.input;
+        motions.clear();
+        motions.extend(self.bodies.iter().filter_map(|body| world.bodies.get(body.rigid).map(motion)));
+        turned.clear();
+        turned.extend(self.links.iter().filter_map(|handle| links.get(handle).map(|link| link.turned)));
+    }
+
+    /// Corrects the positions so that the links hold.
+    pub(super) fn correct_positions(&mut self) {
+        let Input { motions, turned, .. } = &self.input;
+        self.corrected.clear();
+        if motions.len() == self.bodies.len() && turned.len() == self.links.len() {
+            self.corrected = self.mechanism.correct_positions(motions, turned);
+        }
+    }
+
+    /// Moves the bodies to the corrected positions.
+    pub(super) fn apply_positions(&self, world: &mut World) {
+        for (body, corrected) in self.bodies.iter().zip(&self.corrected) {
+            let Some(motion) = corrected.filter(|motion| motion.pose.is_finite()) else { continue };
+            if let Some(rigid) = world.bodies.get_mut(body.rigid) {
+                rigid.set_position(to_pose(&motion.pose), false);
+                rigid.set_linvel(to_vector(linear(&motion.velocity)), false);
+                rigid.set_angvel(to_vector(angular(&motion.velocity)), false);
+            }
+        }
+    }
+}
+
+/// The properties of a body for its mechanism.
+pub(super) fn properties(body: &Body) -> BodyProperties {
+    let mass = &body.build.mass;
+    if body.build.dynamic {
+        BodyProperties::dynamic(mass.mass, mass.inertia * mass.mass, mass.com.into())
+    } else {
+        BodyProperties::immovable(mass.com.into())
+    }
+}
+
+impl LinkedShape {
+    pub(super) fn new(shape: Handle, body: &Body) -> Self {
+        Self { shape, rigid: body.rigid, is_dynamic: body.build.dynamic, external: Vector6::zeros() }
+    }
+
+    fn remove_forces_of_links(&self, world: &mut World) {
+        if let Some(rigid) = world.bodies.get_mut(self.rigid).filter(|rigid| rigid.is_dynamic()) {
+            rigid.reset_forces(false);
+            rigid.reset_torques(false);
+            rigid.add_force(to_vector(linear(&self.external)), false);
+            rigid.add_torque(to_vector(angular(&self.external)), false);
+        }
+    }
+}
+
+fn body_state(rigid: &RigidBody, is_dynamic: bool, step: f64) -> BodyState {
+    let motion = motion(rigid);
+    if !is_dynamic {
+        let target = rigid.is_kinematic().then(|| from_pose(rigid.next_position()));
+        return BodyState {
+            motion,
+            force: Vector6::zeros(),
+            gyroscopic_velocity: angular(&motion.velocity).into(),
+            target,
+        };
+    }
+    let force = spatial(from_vector(rigid.user_force()).into(), from_vector(rigid.user_torque()).into());
+    let gyroscopic_velocity = from_vector(rigid.angvel_with_gyroscopic_forces(step)).into();
+    BodyState { motion, force, gyroscopic_velocity, target: None }
+}
+
+fn motion(rigid: &RigidBody) -> BodyMotion {
+    let velocity = spatial(from_vector(rigid.linvel()).into(), from_vector(rigid.angvel()).into());
+    BodyMotion { pose: from_pose(rigid.position()), velocity }
+}
+
+fn joint_state(link: &Link) -> JointState {
+    let motor = link.drive.map(|drive| articulation::Motor { velocity: drive.velocity, max_force: drive.force });
+    JointState { position: link.motion.position, velocity: link.motion.velocity, motor, limits: link.stops }
+}
+
+fn linear(v: &Vector6<f64>) -> [f64; 3] {
+    [v[0], v[1], v[2]]
+}
+
+fn angular(v: &Vector6<f64>) -> [f64; 3] {
+    [v[3], v[4], v[5]]
+}

@@ -1,0 +1,87 @@
+//! Threads that work on parts of a list at the same time. Who works on what does not show in the results: the items do not know each other,
+//! and come back in their order.
+
+use std::num::NonZero;
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+/// How often a thread looks for work before it sleeps: waking up takes as long as the work of some mechanisms.
+const LOOKS: usize = 200;
+
+type Job = Box<dyn FnOnce() + Send>;
+
+/// Threads, which are started when they are needed first.
+pub(super) struct Workers {
+    /// With the one that calls.
+    count: usize,
+    others: Vec<Sender<Job>>,
+}
+
+impl Default for Workers {
+    fn default() -> Self {
+        Self::new(NonZero::<usize>::MIN)
+    }
+}
+
+impl Workers {
+    pub(super) fn new(count: NonZero<usize>) -> Self {
+        Self { count: count.get(), others: Vec::new() }
+    }
+
+    /// Calls `work` for each item.
+    pub(super) fn for_each<T: Send + 'static>(&mut self, mut items: Vec<T>, work: fn(&mut T)) -> Vec<T> {
+        let share = items.len().div_ceil(self.count).max(1);
+        let mut rest = items.split_off(share.min(items.len()));
+        let mut pending = Vec::new();
+        while !rest.is_empty() {
+            let next = rest.split_off(share.min(rest.len()));
+            pending.push(self.start(pending.len(), std::mem::replace(&mut rest, next), work));
+        }
+        items.iter_mut().for_each(work);
+        for results in pending {
+            items.extend(results.recv().expect("a thread ends after its work"));
+        }
+        items
+    }
+
+    /// Lets another thread work.
+    fn start<T: Send + 'static>(&mut self, thread: usize, mut items: Vec<T>, work: fn(&mut T)) -> Receiver<Vec<T>> {
+        if thread == self.others.len() {
+            let (jobs, received) = channel();
+            std::thread::spawn(move || run(&received));
+            self.others.push(jobs);
+        }
+        let (results, receiver) = channel();
+        let job = move || {
+            items.iter_mut().for_each(work);
+            // Nobody waits for it after a panic of the calling thread.
+            let _ = results.send(items);
+        };
+        self.others[thread].send(Box::new(job)).expect("a thread ends with its workers");
+        receiver
+    }
+}
+
+/// Does what comes until nobody can send more.
+fn run(jobs: &Receiver<Job>) {
+    loop {
+        let ready = (0..LOOKS).find_map(|_| jobs.try_recv().inspect_err(|_| std::thread::yield_now()).ok());
+        let Some(job) = ready.or_else(|| jobs.recv().ok()) else { return };
+        job();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn items_come_back_in_their_order() {
+        for count in 1..6 {
+            let mut workers = Workers::new(NonZero::new(count).expect("from one"));
+            for length in 0..20 {
+                let doubled = workers.for_each((0..length).collect(), |item: &mut usize| *item *= 2);
+                assert_eq!(doubled, (0..length).map(|item| item * 2).collect::<Vec<_>>());
+            }
+        }
+    }
+}
