@@ -5,7 +5,7 @@ mod collapse;
 mod quadric;
 
 use std::cmp::Ordering;
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::BinaryHeap;
 
 use nalgebra::Vector3;
 
@@ -78,7 +78,7 @@ pub fn decimate(vertices: &[[f64; 3]], triangles: &[[u32; 3]], target: Target) -
         }
         surface.collapse(next.edge, next.place);
         let [kept, _] = next.edge;
-        let around: BTreeSet<u32> = surface.neighbours(kept).collect();
+        let around = surface.distinct_neighbours(kept);
         heap.extend(
             around.into_iter().filter_map(|other| candidate(&surface, [kept.min(other), kept.max(other)], target)),
         );
@@ -94,6 +94,8 @@ fn candidate(surface: &Surface, edge: [u32; 2], target: Target) -> Option<Candid
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
 
     /// A plane of `n` by `n` squares, waved by `height`.

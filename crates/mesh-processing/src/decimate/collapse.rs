@@ -1,7 +1,5 @@
 //! The surface that is decimated: which triangles are around a vertex, and whether an edge may become one.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use nalgebra::Vector3;
 
 use super::Triangles;
@@ -61,18 +59,21 @@ impl Surface {
 
     /// All edges, each with the smaller number first.
     pub(super) fn edges(&self) -> Vec<[u32; 2]> {
-        self.edge_users().into_keys().collect()
+        let mut edges: Vec<[u32; 2]> = self.edge_users().into_iter().map(|(edge, _)| edge).collect();
+        edges.dedup();
+        edges
     }
 
-    /// The triangles of each edge.
-    fn edge_users(&self) -> BTreeMap<[u32; 2], Vec<u32>> {
-        let mut users: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
+    /// The edges of all triangles, in order, with the triangle.
+    fn edge_users(&self) -> Vec<([u32; 2], u32)> {
+        let mut users = Vec::with_capacity(3 * self.alive_triangles);
         for (number, triangle) in self.triangles.iter().enumerate().filter(|(number, _)| self.is_alive[*number]) {
             for k in 0..3 {
                 let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
-                users.entry([a.min(b), a.max(b)]).or_default().push(number as u32);
+                users.push(([a.min(b), a.max(b)], number as u32));
             }
         }
+        users.sort_unstable();
         users
     }
 
@@ -85,8 +86,8 @@ impl Surface {
             let plane = Quadric::plane(&normal, &self.points[triangle[0] as usize], area.norm());
             triangle.iter().for_each(|vertex| self.quadrics[*vertex as usize].add(&plane));
         }
-        for (edge, users) in self.edge_users() {
-            let &[triangle] = users.as_slice() else { continue };
+        for same in self.edge_users().chunk_by(|a, b| a.0 == b.0) {
+            let &[(edge, triangle)] = same else { continue };
             let [a, b] = edge.map(|vertex| self.points[vertex as usize]);
             let area = self.area_vector(&self.triangles[triangle as usize]);
             let Some(normal) = (b - a).cross(&area).try_normalize(0.0) else { continue };
@@ -106,8 +107,16 @@ impl Surface {
     }
 
     /// The vertices that share an edge with a vertex, some of them twice.
-    pub(super) fn neighbours(&self, vertex: u32) -> impl Iterator<Item = u32> {
+    fn neighbours(&self, vertex: u32) -> impl Iterator<Item = u32> {
         self.triangles_of(vertex).flat_map(|triangle| *triangle).filter(move |other| *other != vertex)
+    }
+
+    /// The same, in order.
+    pub(super) fn distinct_neighbours(&self, vertex: u32) -> Vec<u32> {
+        let mut neighbours: Vec<u32> = self.neighbours(vertex).collect();
+        neighbours.sort_unstable();
+        neighbours.dedup();
+        neighbours
     }
 
     /// Where the vertex of a collapsed edge belongs, and what that costs.
@@ -128,11 +137,11 @@ impl Surface {
     /// Whether the collapse leaves the topology as it is (T. K. Dey and others: Topology preserving edge contraction, 1999), and turns no triangle over.
     pub(super) fn allows(&self, [a, b]: [u32; 2], place: &Vector3<f64>) -> bool {
         let shared = self.triangles_of(a).filter(|triangle| triangle.contains(&b)).count();
-        let (of_a, of_b): (BTreeSet<u32>, BTreeSet<u32>) = (self.neighbours(a).collect(), self.neighbours(b).collect());
-        let common = of_a.intersection(&of_b).count();
+        let (of_a, of_b) = (self.distinct_neighbours(a), self.distinct_neighbours(b));
+        let common = of_a.iter().filter(|vertex| of_b.binary_search(vertex).is_ok()).count();
         let is_bridge = shared == 2 && self.is_border(a) && self.is_border(b);
         // The last triangles of a part stay: a tetrahedron, or one triangle.
-        let is_least = of_a.union(&of_b).count() <= 4 && shared == 2 && !self.is_border(a) && !self.is_border(b);
+        let is_least = of_a.len() + of_b.len() - common <= 4 && shared == 2 && !self.is_border(a) && !self.is_border(b);
         let is_last = shared == 1 && of_a.len() == 2 && of_b.len() == 2;
         (shared == 1 || shared == 2)
             && common == shared
@@ -143,8 +152,9 @@ impl Surface {
 
     /// Whether one of its edges has one triangle only.
     fn is_border(&self, vertex: u32) -> bool {
-        let neighbours: Vec<u32> = self.neighbours(vertex).collect();
-        neighbours.iter().any(|other| neighbours.iter().filter(|same| *same == other).count() == 1)
+        let mut neighbours: Vec<u32> = self.neighbours(vertex).collect();
+        neighbours.sort_unstable();
+        neighbours.chunk_by(|a, b| a == b).any(|same| same.len() == 1)
     }
 
     /// Whether the triangles of `vertex` without `other` look to nearly the same side with the vertex at `place`.
