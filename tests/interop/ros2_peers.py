@@ -4,6 +4,7 @@ Topics in both directions, of all sizes and qualities of service; a service and 
 floods and damaged packets. Nothing leaves the loopback: a participant of another interface hears nothing.
 """
 
+import math
 import os
 import random
 import socket
@@ -92,6 +93,46 @@ class LaserScan(IdlStruct, typename=named("sensor_msgs/msg/LaserScan")):
     range_max: float32
     ranges: sequence[float32]
     intensities: sequence[float32]
+
+
+@dataclass
+class Clock(IdlStruct, typename=named("rosgraph_msgs/msg/Clock")):
+    clock: Time
+
+
+@dataclass
+class Quaternion(IdlStruct, typename=named("geometry_msgs/msg/Quaternion")):
+    x: float64
+    y: float64
+    z: float64
+    w: float64
+
+
+@dataclass
+class Transform(IdlStruct, typename=named("geometry_msgs/msg/Transform")):
+    translation: Vector3
+    rotation: Quaternion
+
+
+@dataclass
+class TransformStamped(IdlStruct, typename=named("geometry_msgs/msg/TransformStamped")):
+    header: Header
+    child_frame_id: str
+    transform: Transform
+
+
+@dataclass
+class TFMessage(IdlStruct, typename=named("tf2_msgs/msg/TFMessage")):
+    transforms: sequence[TransformStamped]
+
+
+@dataclass
+class JointState(IdlStruct, typename=named("sensor_msgs/msg/JointState")):
+    header: Header
+    name: sequence[str]
+    position: sequence[float64]
+    velocity: sequence[float64]
+    effort: sequence[float64]
 
 
 @dataclass
@@ -213,6 +254,19 @@ def floods(simulator):
     assert int(count) < 500, f"{count} messages waited"
 
 
+def bridge():
+    """What --ros2-bridge publishes of a tip that a joint has turned by half a radian."""
+    clock, poses, joints = BRIDGE
+    assert until("the clock", lambda: samples(clock))[-1].clock.nanosec % 50_000_000 == 0
+    joint = until("joints", lambda: samples(joints))[-1]
+    assert (joint.name, joint.position) == (["Hinge"], [0.5]), joint
+    by_name = {pose.child_frame_id: pose for pose in until("poses", lambda: samples(poses))[-1].transforms}
+    tip = by_name["Hinge/Tip"]
+    place = tip.transform.translation
+    assert tip.header.frame_id == "Hinge" and by_name["Hinge"].header.frame_id == "world", by_name
+    assert abs(place.x - math.cos(0.5)) < 1e-9 and abs(place.y - math.sin(0.5)) < 1e-9, place
+
+
 def own_ports(simulator):
     """The addresses and ports of UDP at which the simulator listens."""
     process = simulator.process.pid
@@ -295,11 +349,14 @@ def robot():
 
 
 reader_of_scans = reader("rt/scan", LaserScan, SENSOR)
-with Simulator("tests/interop/ros2_scene.lua", "--empty", "--realtime", command="run") as simulator:
+BRIDGE = reader("rt/clock", Clock), reader("rt/tf", TFMessage), reader("rt/joint_states", JointState)
+OPTIONS = "--empty", "--realtime", "--ros2-bridge"
+with Simulator("tests/interop/ros2_scene.lua", *OPTIONS, command="run") as simulator:
     simulator.printed("ready")
     heard = robot()
     topics()
     qualities(simulator)
+    bridge()
     services(simulator)
     floods(simulator)
     packets(simulator)

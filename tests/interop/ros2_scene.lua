@@ -4,6 +4,13 @@ simROS2 = require 'simROS2'
 r = simROS2
 
 function sysCall_init()
+    local hinge = sim.createJoint(sim.joint_revolute, sim.jointmode_kinematic, 0)
+    local tip = sim.createDummy(0.1)
+    sim.setObjectAlias(hinge, 'Hinge')
+    sim.setObjectAlias(tip, 'Tip')
+    sim.setObjectParent(tip, hinge, true)
+    sim.setObjectPosition(tip, {1, 0, 0})
+    sim.setJointPosition(hinge, 0.5)
     echo = r.createPublisher('/back', 'std_msgs/msg/String', 0, false, {history = r.qos_history_policy.keep_all})
     r.createSubscription('/there', 'std_msgs/msg/String', function(m) r.publish(echo, {data = m.data}) end, 0, {depth = 500})
     latched = r.createPublisher('/latched', 'std_msgs/msg/String', 0, false,

@@ -6,7 +6,6 @@ local init, actuation = sysCall_init, sysCall_actuation
 
 function sysCall_init()
     init()
-    sim.createDummy(0.1)
     action = r.createActionServer('/fibonacci', 'example_interfaces/action/Fibonacci',
         function() return r.goal_response.accept_and_execute end,
         function() return r.cancel_response.accept end,

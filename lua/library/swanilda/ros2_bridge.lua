@@ -12,19 +12,30 @@ local function nameOf(object) return (sim.getObjectAlias(object, 2):gsub('^/', '
 
 local function frameOf(object) return object == -1 and 'world' or nameOf(object) end
 
+-- In the frame of the parent as it is in the scene: that of a joint does not turn with it, so the joint's motion is in the poses of its children.
+local function poseOf(object, parent)
+    local pose = sim.getObjectPose(object)
+    if parent == -1 then return pose end
+    local frame = sim.getObjectPose(parent)
+    sim.invertPose(frame)
+    return sim.multiplyPoses(frame, pose)
+end
+
 local function poses(stamp)
     local transforms = {}
     for _, object in ipairs(sim.getObjectsInTree(sim.handle_scene)) do
-        local parent = sim.getObjectParent(object)
-        local pose = sim.getObjectPose(object, parent == -1 and sim.handle_world or parent)
-        transforms[#transforms + 1] = {
-            header = {stamp = stamp, frame_id = frameOf(parent)},
-            child_frame_id = nameOf(object),
-            transform = {
-                translation = {x = pose[1], y = pose[2], z = pose[3]},
-                rotation = {x = pose[4], y = pose[5], z = pose[6], w = pose[7]},
-            },
-        }
+        if sim.getObjectType(object) ~= sim.sceneobject_script then
+            local parent = sim.getObjectParent(object)
+            local pose = poseOf(object, parent)
+            transforms[#transforms + 1] = {
+                header = {stamp = stamp, frame_id = frameOf(parent)},
+                child_frame_id = nameOf(object),
+                transform = {
+                    translation = {x = pose[1], y = pose[2], z = pose[3]},
+                    rotation = {x = pose[4], y = pose[5], z = pose[6], w = pose[7]},
+                },
+            }
+        end
     end
     return transforms
 end
