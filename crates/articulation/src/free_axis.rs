@@ -70,9 +70,16 @@ impl FreeAxis {
     }
 
     /// Changes the active set where `velocity` and `impulse` violate it; true when they do.
-    pub(crate) fn update_active_set(&mut self, joint: &JointState, velocity: f64, impulse: f64, step: f64) -> bool {
+    pub(crate) fn update_active_set(
+        &mut self,
+        joint: &JointState,
+        velocity: f64,
+        impulse: f64,
+        step: f64,
+        is_cautious: bool,
+    ) -> bool {
         if let Some(limit) = self.limit {
-            let pulls = impulse * limit.sign < 0.0;
+            let pulls = impulse * limit.sign < 0.0 && !is_cautious;
             if pulls {
                 self.limit = None;
             }
@@ -87,7 +94,7 @@ impl FreeAxis {
         }
         let motor = match self.motor {
             MotorState::Tracking if impulse.abs() > self.max_impulse => self.saturated(impulse),
-            MotorState::Saturated(all) if (velocity - self.target) * all.signum() > SAME_VELOCITY => {
+            MotorState::Saturated(all) if !is_cautious && (velocity - self.target) * all.signum() > SAME_VELOCITY => {
                 MotorState::Tracking
             }
             same => same,

@@ -241,11 +241,12 @@ impl Joint {
         }
     }
 
-    /// Lets motor and limit change sides where the solution violates their bounds; true when the system must be solved again.
-    pub(crate) fn update_active_set(&mut self, bodies: &[LinkedBody], step: f64) -> bool {
+    /// Lets motor and limit change sides where the solution violates their bounds; true when the system must be solved again. With caution
+    /// nothing leaves its bound again.
+    pub(crate) fn update_active_set(&mut self, bodies: &[LinkedBody], step: f64, is_cautious: bool) -> bool {
         let Some(mut axis) = self.axis else { return false };
         let velocity = self.row_velocity(axis.row, bodies);
-        let changed = axis.update_active_set(&self.state, velocity, self.impulse[axis.row], step);
+        let changed = axis.update_active_set(&self.state, velocity, self.impulse[axis.row], step, is_cautious);
         self.axis = Some(axis);
         changed
     }
