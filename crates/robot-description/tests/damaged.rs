@@ -1,0 +1,110 @@
+//! Files that were damaged at random places: an error, or a robot whose links have frames. The fuzz targets do the same for longer.
+
+use robot_description::mjcf::{self, Files, Triangles};
+use robot_description::sdf::{self, Included};
+use robot_description::{Robot, urdf};
+
+const ROUNDS: usize = 4000;
+
+const URDF: &str = r#"<?xml version="1.0"?><robot name="r"><material name="m"><color rgba="1 0 0 1"/></material>
+<link name="a"><inertial><origin xyz="0 0 1" rpy="1 2 3"/><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+<visual><geometry><mesh filename="package://p/m.dae" scale="1 1 1"/></geometry><material name="m"/></visual><collision><geometry><box size="1 2 3"/></geometry></collision></link>
+<link name="b"/><link name="c"><collision><geometry><sphere radius="1"/></geometry></collision></link>
+<joint name="j" type="revolute"><parent link="a"/><child link="b"/><origin xyz="1 0 0"/><axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="2" velocity="3"/></joint>
+<joint name="k" type="prismatic"><parent link="b"/><child link="c"/><mimic joint="j" multiplier="2" offset="1"/><dynamics damping="1"/></joint></robot>"#;
+
+const SDF: &str = r#"<sdf version="1.9"><world name="w"><gravity>0 0 -1</gravity><frame name="f"><pose>1 0 0 0 0 0</pose></frame><include><uri>x</uri></include>
+<model name="m"><pose relative_to="f">0 1 0 0 0 1</pose><link name="a"><pose relative_to="j">0 0 1 0 0 0</pose><inertial><mass>1</mass></inertial></link><link name="b"/>
+<model name="n"><link name="c"/></model><joint name="j" type="universal"><parent>b</parent><child>n::c</child><axis><xyz expressed_in="__model__">0 1 0</xyz></axis><axis2/></joint>
+<joint name="k" type="revolute"><parent>world</parent><child>b</child><axis><xyz>1 0 0</xyz><limit><lower>-1</lower></limit></axis></joint></model></world></sdf>"#;
+
+const MJCF: &str = r#"<mujoco model="m"><compiler angle="radian" eulerseq="XYZ" settotalmass="3" boundinertia="1"/><include file="x"/><default><default class="c"><geom size=".1 .2"/></default></default>
+<asset><mesh name="h" file="h.stl"/></asset><worldbody><geom type="plane"/><body name="a" euler="1 2 3" childclass="c"><freejoint/><geom type="capsule"/>
+<frame pos="1 0 0"><body name="b" xyaxes="1 0 0 0 1 0"><joint name="j" ref="1" range="0 1"/><joint name="k" type="slide"/><joint type="ball"/><geom type="mesh" mesh="h"/><site name="s"/></body></frame>
+<inertial mass="1" pos="0 0 0" fullinertia="1 2 3 0 0 0"/></body></worldbody><actuator><position joint="j"/><general joint="k" biastype="affine" biasprm="0 -1 -2"/></actuator>
+<equality><joint joint1="j" joint2="k"/><connect body1="a" anchor="1 2 3"/><weld site1="s" site2="s"/></equality></mujoco>"#;
+
+/// Numbers that are the same in every run.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, limit: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) as usize) % limit.max(1)
+    }
+
+    /// The text with pieces of it missing, twice, elsewhere, or replaced by what is odd.
+    fn damaged(&mut self, text: &str) -> Vec<u8> {
+        const ODD: [&str; 12] =
+            ["", "\"", "<", ">", "nan", "1e999", "-1e99", "0", "\u{0}", "/>", " 1 1 1 1 1 1 1", "world"];
+        let mut bytes = text.as_bytes().to_vec();
+        for _ in 0..=self.below(4) {
+            let from = self.below(bytes.len());
+            let to = (from + self.below(40)).min(bytes.len());
+            let piece: Vec<u8> = bytes[from..to].to_vec();
+            let at = self.below(bytes.len());
+            match self.below(4) {
+                0 => drop(bytes.drain(from..to)),
+                1 => drop(bytes.splice(at..at, piece)),
+                2 => drop(bytes.splice(from..to, ODD[at % ODD.len()].bytes())),
+                _ => bytes.truncate(from.max(10)),
+            }
+            bytes.push(b' ');
+        }
+        bytes
+    }
+}
+
+fn check(robot: &Robot) {
+    let poses = robot.link_poses(&robot.zero_positions()).expect("as many positions as the joints have");
+    assert_eq!(poses.len(), robot.links.len());
+}
+
+#[test]
+fn urdf() {
+    let mut random = Random(1);
+    for _ in 0..ROUNDS {
+        if let Ok(parsed) = urdf::read(&random.damaged(URDF)) {
+            check(&parsed.value);
+            let again = urdf::read(urdf::write(&parsed.value).as_bytes()).expect("what is written is read");
+            assert_eq!(again.value.links.len(), parsed.value.links.len());
+        }
+    }
+}
+
+#[test]
+fn sdf() {
+    let mut random = Random(2);
+    for _ in 0..ROUNDS {
+        let included = random.damaged(SDF);
+        let mut include = |_: &str| Ok(Included { bytes: included.clone(), folder: String::new() });
+        if let Ok(parsed) = sdf::read(&random.damaged(SDF), &mut include) {
+            parsed.value.models.iter().for_each(|model| check(&model.robot));
+        }
+    }
+}
+
+struct Damaged(Vec<u8>, bool);
+
+impl Files for Damaged {
+    fn include(&mut self, _: &str) -> Result<Vec<u8>, String> {
+        Ok(self.0.clone())
+    }
+
+    fn triangles(&mut self, _: &str) -> Result<Triangles, String> {
+        let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let corners = if self.1 { vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]] } else { vec![[0, 0, 9]] };
+        Ok(Triangles { vertices, corners })
+    }
+}
+
+#[test]
+fn mjcf() {
+    let mut random = Random(3);
+    for round in 0..ROUNDS {
+        let mut files = Damaged(random.damaged(MJCF), round % 2 == 0);
+        if let Ok(parsed) = mjcf::read(&random.damaged(MJCF), &mut files) {
+            check(&parsed.value.robot);
+        }
+    }
+}
