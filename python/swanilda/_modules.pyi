@@ -8390,6 +8390,12 @@ class _simRemoteApi:
         port: of the server
         """
 
+class _simSDF:
+    def dump(self, fileName: str, /) -> None:
+        """Logs what an SDF file contains: its models with their links and joints, and what is wrong in it.
+        fileName: name of the file
+        """
+
 class _simSubprocess:
     def exec(self, programPath: str, arguments: Sequence[Any] | Mapping[Any, Any], input: bytes | str | None = ..., opts: Sequence[Any] | Mapping[Any, Any] | None = ..., /) -> tuple[int, bytes, bytes]:
         """Runs a program and waits until it exits. Ctrl-c ends it with an error.
@@ -10586,6 +10592,8 @@ class Requires:
     def require(self, name: Literal["simROS2"], script: int | None = None) -> _simROS2: ...
     @overload
     def require(self, name: Literal["simRemoteApi"], script: int | None = None) -> _simRemoteApi: ...
+    @overload
+    def require(self, name: Literal["simSDF"], script: int | None = None) -> _simSDF: ...
     @overload
     def require(self, name: Literal["simSubprocess"], script: int | None = None) -> _simSubprocess: ...
     @overload

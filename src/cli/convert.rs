@@ -14,7 +14,7 @@ use crate::scene::{Handle, Scene};
 /// Convert a scene, a model or a robot to another format
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// A .ttt, .ttm, .urdf, .glb or .gltf file, XML, or a folder made by unpack
+    /// A .ttt, .ttm, .urdf, .sdf, .glb or .gltf file, MJCF, XML, or a folder made by unpack
     from: PathBuf,
     /// Output: .ttt, .ttm, .urdf, .glb, .gltf, .simscene.xml or .simmodel.xml (append @simpleXml for the simple XML variant); a name without ending becomes a folder
     to: PathBuf,
@@ -23,7 +23,7 @@ pub(super) struct Args {
 pub(super) fn convert(args: &Args) -> Outcome {
     let file = files::file(&args.from)?;
     match args.to.extension() {
-        Some(_) if RobotFile::has_name_of(&args.to) => write_robot(file, &args.to)?,
+        Some(_) if RobotFile::has_name_of_urdf(&args.to) => write_robot(file, &args.to)?,
         Some(_) if GltfFile::has_name_of(&args.to) => write_gltf(file, &args.to)?,
         Some(_) => unpack::write(file, &args.to)?,
         None => scene_folder::unpack(&file, &args.to)?,

@@ -93,7 +93,7 @@ impl Report {
         let unreadable = |reason: String| format!("cannot read {}: {reason}", path.display());
         let bytes = read_bounded(path).map_err(|error| unreadable(error.to_string()))?;
         let name = path.display().to_string();
-        if scene_file::is_scene(&bytes) && script_file::check_no_robot(path).is_ok() {
+        if scene_file::is_scene(&bytes) && script_file::check_no_xacro(path).is_ok() {
             let file = super::files::scene(path)?;
             for script in file.scripts() {
                 self.add(format!("{name}: {}", script.name), path, &script.language, &script.code);

@@ -18,8 +18,8 @@ pub(super) fn file(path: &Path) -> Result<File, String> {
     if scene_folder::is_scene(path) {
         return scene_folder::pack(path, &Permissions::all()).map_err(unreadable);
     }
-    let model = if RobotFile::has_name_of(path) {
-        Some(RobotFile::read(path, None, &Permissions::all()).and_then(RobotFile::model))
+    let model = if RobotFile::is_one(path, &Permissions::all()) {
+        Some(RobotFile::read(path, &Permissions::all()).and_then(RobotFile::model))
     } else {
         let is_gltf = GltfFile::has_name_of(path);
         is_gltf.then(|| GltfFile::open(path, &Permissions::all()).and_then(|file| file.model(path)))
@@ -29,7 +29,7 @@ pub(super) fn file(path: &Path) -> Result<File, String> {
         messages.iter().for_each(|message| complain(&format!("{}: {message}", path.display())));
         return Ok(file);
     }
-    script_file::check_no_robot(path).map_err(|reason| unreadable(reason.to_string()))?;
+    script_file::check_no_xacro(path).map_err(|reason| unreadable(reason.to_string()))?;
     scene_file::read_path(path).map_err(unreadable)
 }
 

@@ -1,4 +1,4 @@
-//! A scene as users name it: a Lua file, a file of CoppeliaSim, a robot in URDF, a glTF file, or a folder made by `unpack`.
+//! A scene as users name it: a Lua file, a file of CoppeliaSim, a robot in URDF, SDF or MJCF, a glTF file, or a folder made by `unpack`.
 
 use std::path::Path;
 
@@ -68,7 +68,7 @@ fn read_folder(path: &Path, permissions: &Permissions) -> Result<SceneInput, Str
 
 /// A robot becomes a model, with the usual options.
 fn read_robot(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
-    let (file, messages) = RobotFile::read(path, None, permissions)?.model()?;
+    let (file, messages) = RobotFile::read(path, permissions)?.model()?;
     Ok(model_input(file, messages))
 }
 
@@ -77,7 +77,7 @@ fn model_input(file: File, messages: Vec<String>) -> SceneInput {
 }
 
 fn read_file(path: &Path, permissions: &Permissions) -> Result<SceneInput, String> {
-    if RobotFile::has_name_of(path) {
+    if RobotFile::is_one(path, permissions) {
         return read_robot(path, permissions);
     }
     if GltfFile::has_name_of(path) {
@@ -85,7 +85,7 @@ fn read_file(path: &Path, permissions: &Permissions) -> Result<SceneInput, Strin
         return Ok(model_input(file, messages));
     }
     let bytes = read_bounded(path).map_err(|error| error.to_string())?;
-    if !scene_file::is_scene(&bytes) || script_file::check_no_robot(path).is_err() {
+    if !scene_file::is_scene(&bytes) || script_file::check_no_xacro(path).is_err() {
         script_file::check(path, &bytes).map_err(|reason| reason.to_string())?;
         return Ok(SceneInput::Script(bytes));
     }

@@ -11,8 +11,6 @@ pub enum NotAScript {
     Empty,
     #[error("it is not a scene or model of CoppeliaSim, whatever its name says")]
     NotAScene,
-    #[error("robots described in {0} cannot be imported yet (docs/PLUGINS.md)")]
-    Robot(&'static str),
     #[error("it is a xacro file. Expand it first: xacro FILE > robot.urdf (pip install xacro, or a ROS installation)")]
     Xacro,
     #[error("it holds a mesh, and no scene")]
@@ -23,17 +21,13 @@ pub enum NotAScript {
     Binary,
 }
 
-/// Checks that the name is not that of a robot's description: some are XML, as scenes may be.
+/// Checks that the name is not that of a robot's description that has to be expanded first: it is XML, as scenes may be.
 ///
 /// # Errors
-/// [`NotAScript::Robot`], [`NotAScript::Xacro`].
-pub fn check_no_robot(path: &Path) -> Result<(), NotAScript> {
-    let name = path.to_string_lossy().to_lowercase();
-    if name.ends_with(".xacro") {
-        return Err(NotAScript::Xacro);
-    }
-    let found = ROBOTS.iter().find(|(ending, _)| name.ends_with(ending));
-    found.map_or(Ok(()), |(_, format)| Err(NotAScript::Robot(format)))
+/// [`NotAScript::Xacro`].
+pub fn check_no_xacro(path: &Path) -> Result<(), NotAScript> {
+    let is_xacro = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xacro"));
+    if is_xacro { Err(NotAScript::Xacro) } else { Ok(()) }
 }
 
 /// Checks a file that is not a scene or model.
@@ -52,7 +46,7 @@ pub fn check(path: &Path, content: &[u8]) -> Result<(), NotAScript> {
     if ends_with(&[".ttt", ".ttm", ".xml"]) {
         return Err(NotAScript::NotAScene);
     }
-    check_no_robot(path)?;
+    check_no_xacro(path)?;
     if ends_with(&[".obj", ".stl", ".dae", ".ply", ".gltf", ".glb"]) {
         return Err(NotAScript::Mesh);
     }
@@ -77,9 +71,6 @@ pub(crate) fn language(path: Option<&Path>, text: &[u8]) -> &'static str {
     }
 }
 
-/// Descriptions of robots, by the endings of their files.
-const ROBOTS: [(&str, &str); 2] = [(".sdf", "SDF"), (".mjcf", "MJCF")];
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -92,11 +83,10 @@ mod tests {
     fn names_of_other_kinds_are_no_scripts() {
         assert_eq!(refusal("r.ttt", b"print(1)"), Some(NotAScript::NotAScene));
         assert_eq!(refusal("a/R.TTM", b"\x8f\x00"), Some(NotAScript::NotAScene));
-        assert_eq!(refusal("x.sdf", b"<sdf/>"), Some(NotAScript::Robot("SDF")));
         assert_eq!(refusal("x.urdf.xacro", b"<robot/>"), Some(NotAScript::Xacro));
         assert_eq!(refusal("x.stl", b"solid x"), Some(NotAScript::Mesh));
         assert_eq!(refusal("x/scene.json", b"{}"), Some(NotAScript::PartOfFolder));
-        for name in ["x.ttt", "x.sdf", "x"] {
+        for name in ["x.ttt", "x.xacro", "x"] {
             assert_eq!(refusal(name, b""), Some(NotAScript::Empty), "{name}");
         }
     }

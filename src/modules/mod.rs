@@ -25,6 +25,7 @@ pub(crate) mod sim_remote_api;
 mod sim_ros;
 #[cfg(feature = "ros2")]
 mod sim_ros2;
+mod sim_sdf;
 mod sim_subprocess;
 mod sim_surf_rec;
 mod sim_ui;
@@ -70,6 +71,7 @@ pub(crate) static ALL: &[&Module] = &[
     &sim_ros::MODULE,
     #[cfg(feature = "ros2")]
     &sim_ros2::MODULE,
+    &sim_sdf::MODULE,
     &sim_subprocess::MODULE,
     &sim_surf_rec::MODULE,
     &sim_ui::MODULE,

@@ -5,7 +5,7 @@ use std::path::Path;
 use api_macro::api;
 
 use super::{ApiError, ApiFn, Cx, Module, Result, functions};
-use crate::format::robot_file::{ExportOptions, ImportOptions, RobotFile, export};
+use crate::format::robot_file::{ExportOptions, Format, ImportOptions, RobotFile, export};
 use crate::scene::Handle;
 use crate::script::Number;
 use crate::script::log::verbosity;
@@ -41,9 +41,9 @@ fn import(
 ) -> Result<(String, Vec<Handle>)> {
     let file = if urdf.trim_start().starts_with("<?xml") {
         let beside = std::path::absolute("robot.urdf").unwrap_or_default();
-        RobotFile::parse(urdf.as_bytes(), &beside, package_str_replace, cx.permissions())
+        RobotFile::parse(urdf.as_bytes(), Format::Urdf, &beside, package_str_replace, cx.permissions())
     } else {
-        RobotFile::read(Path::new(&urdf), package_str_replace, cx.permissions())
+        RobotFile::read_as(Some(Format::Urdf), Path::new(&urdf), package_str_replace, cx.permissions())
             .map_err(|reason| format!("{urdf}: {reason}"))
     };
     let file = file.map_err(ApiError::Other)?;

@@ -241,7 +241,7 @@ const FORMAT: Rooms = &[
     ("ttt", &[]),
     ("xml", &["picture", "ttt"]),
     ("scene_file", &["ttt", "xml"]),
-    ("robot_file", &["scene_file", "ttt"]),
+    ("robot_file", &["mesh_file", "scene_file", "ttt"]),
     ("plot", &[]),
     ("graph_file", &["plot"]),
     ("video", &["picture", "scene_file"]),

@@ -9,6 +9,7 @@ mod messages;
 mod recording;
 mod render;
 mod resources;
+mod robots;
 mod video;
 
 use std::fs;

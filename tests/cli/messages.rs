@@ -25,7 +25,10 @@ fn files_of_other_kinds_are_not_run_as_lua() {
         ("empty.urdf", b"", "no valid XML"),
         ("robot.urdf", b"<?xml version='1.0'?><robot name='a'/>", "the robot has no links"),
         ("robot.urdf.xacro", b"<?xml version='1.0'?><robot name='a'/>", "xacro FILE > robot.urdf"),
-        ("robot.sdf", b"<?xml version='1.0'?><sdf/>", "SDF cannot be imported yet"),
+        ("robot.sdf", b"<?xml version='1.0'?><sdf/>", "the robot has no links"),
+        ("other.world", b"<robot/>", "line 1: the file begins with <robot> instead of <sdf>"),
+        ("robot.xml", b"<mujoco><worldbody></mujoco>", "no valid XML: line 1"),
+        ("robot.mjcf", b"<mujoco/>", "the robot has no links"),
     ] {
         let said = said_about("run", name, content);
         assert!(said.contains(reason) && said.contains(name), "{name}: {said}");

@@ -74,6 +74,8 @@ pub const READS: &[Route] = &[
     route("sim.loadScene, Lua", "return require('sim').loadScene(FOLDER .. '/secret.lua') == 1"),
     route("sim.loadScene, XML", "return require('sim').loadScene(FOLDER .. '/scene.xml') == 1"),
     half("simURDF.import", "return require('simURDF').import(FOLDER .. '/secret.lua') ~= nil"),
+    half("simSDF.import", "require('simSDF').import(FOLDER .. '/secret.lua') return true"),
+    half("simSDF.dump", "require('simSDF').dump(FOLDER .. '/secret.lua') return true"),
     half("sim.loadScene, a folder", "return require('sim').loadScene(FOLDER) == 1"),
     route("sim.loadModel", "return require('sim').loadModel(FOLDER .. '/model.ttm') >= 0"),
     route("sim.loadImage", "return #require('sim').loadImage(0, FOLDER .. '/picture.png') == 12"),

@@ -1,7 +1,8 @@
 //! Joints become joints, force sensors and dummies.
 
 use nalgebra::{UnitQuaternion, Vector3};
-use robot_description::{Joint as Description, JointKind, Limits, Robot};
+use robot_description::mjcf::{Actuator, Drive};
+use robot_description::{Dynamics, Joint as Description, JointKind, Limits, Robot};
 
 use super::{Import, ImportOptions};
 use crate::scene::joint::{Control, Joint, JointMode, JointType};
@@ -13,6 +14,10 @@ use crate::scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
 const TORQUE: f64 = 2.0;
 const FORCE: f64 = 200.0;
 const VELOCITY: f64 = 20.0;
+/// The largest force or torque of a motor whose file says none, N or N m.
+const ANY_EFFORT: f64 = 1e6;
+/// The speed up to which a spring pushes, rad/s or m/s.
+const SPRING_SPEED: f64 = 1000.0;
 /// Diameter of a dummy, metres.
 pub(super) const DUMMY: f64 = 0.01;
 
@@ -25,29 +30,33 @@ impl Import<'_> {
             JointKind::Fixed => Kind::ForceSensor(Box::new(rigid_link())),
             JointKind::Floating | JointKind::Planar => Kind::Dummy(Dummy::new(DUMMY)),
             JointKind::Revolute | JointKind::Continuous => {
-                return self.add_motor(joint, JointType::Revolute, origin, parent);
+                return self.add_motor(index, JointType::Revolute, origin, parent);
             }
-            JointKind::Prismatic => return self.add_motor(joint, JointType::Prismatic, origin, parent),
-            JointKind::Spherical => return self.add_motor(joint, JointType::Spherical, origin, parent),
+            JointKind::Prismatic => return self.add_motor(index, JointType::Prismatic, origin, parent),
+            JointKind::Spherical => return self.add_motor(index, JointType::Spherical, origin, parent),
         };
         self.add(&joint.name, kind, origin, parent)
     }
 
     fn add_motor(
         &mut self,
-        description: &Description,
+        index: usize,
         joint_type: JointType,
         origin: Pose,
         parent: Option<Handle>,
     ) -> SceneResult<Handle> {
+        let description = &self.robot.joints[index];
         let mut joint = Joint::new(joint_type, JointMode::Dynamic);
         if joint_type != JointType::Spherical {
             set_limits(&mut joint, description);
-            joint.set_control(if self.options.contains(ImportOptions::FREE_JOINTS) {
-                Control::Free
-            } else {
-                Control::Position
-            });
+            match &self.model.actuators {
+                _ if self.options.contains(ImportOptions::FREE_JOINTS) => joint.set_control(Control::Free),
+                None => joint.set_control(Control::Position),
+                Some(actuators) => {
+                    let actuator = actuators.iter().find(|actuator| actuator.joint == index);
+                    set_actuator(&mut joint, description, actuator);
+                }
+            }
         }
         let pose = origin * along_axis(description);
         let handle = self.add(&description.name, Kind::Joint(Box::new(joint)), pose, parent)?;
@@ -97,6 +106,29 @@ fn set_limits(joint: &mut Joint, description: &Description) {
     let usual = if description.kind == JointKind::Revolute { TORQUE } else { FORCE };
     joint.set_target_force(effort.unwrap_or(usual), false);
     joint.max_vel = velocity.unwrap_or(VELOCITY);
+}
+
+/// A joint whose motor a file describes; one without a motor is a spring and damper, or free.
+fn set_actuator(joint: &mut Joint, description: &Description, actuator: Option<&Actuator>) {
+    if let Some(actuator) = actuator {
+        joint.set_target_force(actuator.effort.unwrap_or(ANY_EFFORT), false);
+    }
+    let Dynamics { damping, stiffness, rest, .. } = description.dynamics;
+    match actuator.map(|actuator| actuator.drive) {
+        Some(Drive::Position { .. }) => joint.set_control(Control::Position),
+        Some(Drive::Velocity { .. }) => joint.set_control(Control::Velocity),
+        Some(Drive::Force) => {
+            joint.set_target_force(0.0, true);
+            joint.set_control(Control::Force);
+        }
+        None if damping > 0.0 || stiffness > 0.0 => {
+            joint.spring = [stiffness, damping];
+            joint.target_position = if stiffness > 0.0 { rest } else { joint.position };
+            joint.target_velocity = SPRING_SPEED;
+            joint.set_control(Control::Spring);
+        }
+        None => joint.set_control(Control::Free),
+    }
 }
 
 fn rigid_link() -> ForceSensor {

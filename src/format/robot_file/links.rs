@@ -3,7 +3,7 @@
 use geometry::MassProperties;
 use robot_description::{Geometry, Inertial, Link};
 
-use super::{Import, ImportOptions, Node};
+use super::{Format, Import, ImportOptions, Node};
 use crate::scene::shape::{RespondableMask, Shape};
 use crate::scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
 
@@ -24,7 +24,13 @@ impl Import<'_> {
         for link in self.robot.links_from_the_roots() {
             let parent = parents[link].map(|joint| (joint, self.nodes[self.robot.joints[joint].parent]));
             let (joint, depth) = match parent {
-                Some((joint, node)) => (Some(self.add_joint(joint, node.carrier)?), node.depth + 1),
+                // What is fixed to something that never moves needs no force sensor.
+                Some((_, node)) if self.is_fixed(link) => (node.carrier, node.depth + 1),
+                Some((joint, node)) => {
+                    let handle = self.add_joint(joint, node.carrier)?;
+                    self.joints[joint] = Some(handle);
+                    (Some(handle), node.depth + 1)
+                }
                 None => (None, 0),
             };
             let shape = self.add_link(link, joint, depth)?;
@@ -37,21 +43,32 @@ impl Import<'_> {
     fn add_link(&mut self, index: usize, joint: Option<Handle>, depth: usize) -> SceneResult<Option<Handle>> {
         let link = &self.robot.links[index];
         let (frame, hull) = (self.placed[index], self.collision_form());
-        let collisions =
-            self.shapes_of(link, link.collisions.iter().map(|part| (part.pose, &part.geometry, None, part.line)), hull);
+        let collisions = self.shapes_of(
+            link,
+            link.collisions.iter().map(|part| (part.pose, &part.geometry, None, part.line)),
+            hull,
+            false,
+        );
         let mut touched = self.joined(collisions.clone());
-        if touched.is_none() && link.inertial.is_some() {
-            touched = Some((self.carrier_pose(link), Shape::ball(CARRIER)?));
+        let inertial = link.inertial.clone().or_else(|| self.usual_inertial(index));
+        if touched.is_none()
+            && let Some(inertial) = &inertial
+        {
+            touched = Some((self.carrier_pose(inertial), Shape::ball(CARRIER)?));
         }
+        let between = if touched.is_none() { self.body_between(index)? } else { None };
         let mut seen = self.visual(link, touched.as_ref().filter(|_| !collisions.is_empty()))?;
         let body = match touched {
             Some((pose, mut shape)) => {
                 shape.dynamics.respondable = !collisions.is_empty();
                 shape.dynamics.respondable_mask = RespondableMask(MASK | self.local_mask(depth));
-                self.set_inertia(link, pose, &mut shape);
+                self.set_inertia(index, inertial.as_ref(), pose, &mut shape);
                 Some(self.add_body(&link.name, frame * pose, shape, joint)?)
             }
-            None => None,
+            None => match between {
+                Some((pose, shape)) => Some(self.add_body(&link.name, frame * pose, shape, joint)?),
+                None => None,
+            },
         };
         if seen.is_none() && body.is_none() && self.options.contains(ImportOptions::CREATE_VISUALS) {
             let mut speck = Shape::cube(SPECK.0)?;
@@ -68,16 +85,17 @@ impl Import<'_> {
     fn visual(&mut self, link: &Link, touched: Option<&(Pose, Shape)>) -> SceneResult<Option<(Pose, Shape)>> {
         let robot = self.robot;
         let looks = link.visuals.iter().map(|part| (part.pose, &part.geometry, robot.look(part), part.line));
-        let shapes = self.shapes_of(link, looks, super::shapes::Form::AsItIs);
+        let shapes = self.shapes_of(link, looks, super::shapes::Form::AsItIs, true);
         let own = self.joined(shapes);
         let copies = self.options.contains(ImportOptions::CREATE_VISUALS);
         Ok(own.or_else(|| touched.filter(|_| copies).cloned()))
     }
 
-    fn carrier_pose(&self, link: &Link) -> Pose {
-        let at_joint = self.options.contains(ImportOptions::FRAMES_AT_JOINTS);
-        let centre = link.inertial.as_ref().filter(|_| !at_joint).map(|inertial| inertial.pose.translation);
-        centre.map_or_else(Pose::identity, Into::into)
+    fn carrier_pose(&self, inertial: &Inertial) -> Pose {
+        if self.options.contains(ImportOptions::FRAMES_AT_JOINTS) {
+            return Pose::identity();
+        }
+        inertial.pose.translation.into()
     }
 
     /// Adds the shape that has the mass of a link.
@@ -97,12 +115,18 @@ impl Import<'_> {
         }
     }
 
-    /// A link without inertia is static. `pose` is that of the shape in the link's frame.
-    fn set_inertia(&mut self, link: &Link, pose: Pose, shape: &mut Shape) {
-        shape.dynamics.is_static = link.inertial.is_none();
-        match &link.inertial {
+    /// A link without inertia is static, unless its format says otherwise. `pose` is that of the shape in the link's frame.
+    fn set_inertia(&mut self, index: usize, inertial: Option<&Inertial>, pose: Pose, shape: &mut Shape) {
+        let link = &self.robot.links[index];
+        let is_fixed = self.is_fixed(index);
+        shape.dynamics.is_static = is_fixed || inertial.is_none() && self.format != Format::Mjcf;
+        match inertial {
             Some(inertial) => self.set_mass(link, inertial, pose.inverse() * inertial.pose, &mut shape.mass),
-            None => self.message(format!("link '{}' has no inertia: it is static", link.name)),
+            None if is_fixed => {}
+            None if shape.dynamics.is_static => {
+                self.message(format!("link '{}' has no inertia: it is static", link.name));
+            }
+            None => self.message(format!("link '{}' has no mass: that of its shape is taken", link.name)),
         }
     }
 
@@ -124,7 +148,8 @@ impl Import<'_> {
 
     fn collision_form(&self) -> super::shapes::Form {
         use super::shapes::Form;
-        if self.options.contains(ImportOptions::HULLS_OF_COLLISIONS) {
+        // MuJoCo lets the hulls of meshes touch.
+        if self.format == Format::Mjcf || self.options.contains(ImportOptions::HULLS_OF_COLLISIONS) {
             Form::Hull
         } else if self.options.contains(ImportOptions::DECOMPOSE_COLLISIONS) {
             Form::Pieces

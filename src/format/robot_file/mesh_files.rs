@@ -3,13 +3,16 @@
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use geometry::Mesh;
-use mesh_files::{Format, Limits, Material, MeshFile, Part};
+use mesh_files::{Format, Limits, MeshFile};
 use robot_description::Search;
 
+use crate::format::mesh_file::{Looks, to_shapes};
 use crate::permissions::Permissions;
-use crate::scene::Pose;
-use crate::scene::shape::{Appearance, Shape};
+use crate::scene::shape::Shape;
+use crate::scene::{Pose, Scene};
+
+/// The longest side of a texture, pixels: larger ones are made smaller, as sim.importShape does.
+const LONGEST_TEXTURE: u32 = 512;
 
 /// Finds and reads mesh files.
 #[derive(Debug)]
@@ -35,15 +38,35 @@ impl MeshFiles {
     }
 
     /// The shape of a mesh file, stretched by a factor for each axis. Its frame is that of the file; where the file says what points up does not matter.
+    /// Textures become ones of the scene, if it is to have them.
     ///
     /// # Errors
     /// When there is no such file, it may not or cannot be read, or has no triangles; in words.
-    pub(super) fn shape(&mut self, name: &str, scale: [f64; 3]) -> Result<Shape, String> {
+    pub(super) fn shape(
+        &mut self,
+        name: &str,
+        scale: [f64; 3],
+        scene: &mut Scene,
+        with_textures: bool,
+    ) -> Result<Shape, String> {
         let path = self.find(name)?;
-        let file = self.read(&path).map_err(|reason| format!("mesh '{}': {reason}", path.display()))?;
+        let failed = |reason: String| format!("mesh '{}': {reason}", path.display());
+        let file = self.read(&path).map_err(failed)?;
         let unit = file.unit.unwrap_or(1.0);
-        shape_of(&file, scale.map(|factor| factor * unit))
-            .map_err(|reason| format!("mesh '{}': {reason}", path.display()))
+        let mut stretched = stretched(&file, scale.map(|factor| factor * unit));
+        let looks = Looks { colours: true, transparency: false, textures: with_textures.then_some(LONGEST_TEXTURE) };
+        let shapes = to_shapes(&mut stretched, looks, scene).map_err(|error| failed(error.to_string()))?;
+        self.warnings.extend(stretched.warnings.iter().map(|warning| failed(warning.to_string())));
+        joined(shapes).map_err(failed)
+    }
+
+    /// A file, in its own unit of length: as MJCF takes it.
+    ///
+    /// # Errors
+    /// As [`shape`](Self::shape).
+    pub(super) fn named(&mut self, name: &str) -> Result<Rc<MeshFile>, String> {
+        let path = self.find(name)?;
+        self.read(&path).map_err(|reason| format!("mesh '{}': {reason}", path.display()))
     }
 
     fn find(&self, name: &str) -> Result<PathBuf, String> {
@@ -77,16 +100,31 @@ impl MeshFiles {
 
 /// What says where the packages of ROS are. It only decides where files are found.
 #[allow(clippy::disallowed_methods, reason = "ROS says by its environment where packages are")]
-fn variable(name: &str, permissions: &Permissions) -> Option<String> {
+pub(super) fn variable(name: &str, permissions: &Permissions) -> Option<String> {
     permissions.check_environment().ok()?;
     std::env::var(name).ok()
 }
 
-fn shape_of(file: &MeshFile, scale: [f64; 3]) -> Result<Shape, String> {
-    let mut shapes = Vec::new();
-    for part in &file.parts {
-        shapes.push(part_shape(part, scale)?);
+/// A file with its coordinates multiplied by a factor for each axis. Triangles that are mirrored by that keep their outer sides.
+fn stretched(file: &MeshFile, scale: [f64; 3]) -> MeshFile {
+    let mut file = MeshFile { warnings: Vec::new(), ..file.clone() };
+    let [x, y, z] = scale;
+    for part in &mut file.parts {
+        part.merge_identical();
+        part.vertices.iter_mut().for_each(|vertex| *vertex = [vertex[0] * x, vertex[1] * y, vertex[2] * z]);
+        if !(x == y && y == z && x > 0.0) {
+            part.normals.clear();
+        }
+        if x * y * z < 0.0 {
+            part.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+            part.uv.iter_mut().for_each(|corners| corners.swap(1, 2));
+        }
     }
+    file
+}
+
+/// One shape of the parts of a file.
+fn joined(mut shapes: Vec<Shape>) -> Result<Shape, String> {
     match shapes.as_slice() {
         [] => Err("it has no triangles".into()),
         [_] => Ok(shapes.remove(0)),
@@ -95,24 +133,4 @@ fn shape_of(file: &MeshFile, scale: [f64; 3]) -> Result<Shape, String> {
             Shape::from_placed(&placed, first).map_err(|error| error.to_string())
         }
     }
-}
-
-fn part_shape(part: &Part, scale: [f64; 3]) -> Result<Shape, String> {
-    let mut part = part.clone();
-    part.merge_identical();
-    let mut mesh = Mesh::new(part.vertices, part.triangles).map_err(|error| error.to_string())?;
-    mesh.scale(scale);
-    Shape::from_mesh(mesh, appearance(&part.material)).map_err(|error| error.to_string())
-}
-
-fn appearance(material: &Material) -> Appearance {
-    let mut appearance = Shape::mesh_appearance();
-    let single = |colour: [f64; 3]| colour.map(|component| component.clamp(0.0, 1.0) as f32);
-    if let Some(diffuse) = material.diffuse {
-        appearance.colour.ambient_diffuse = single(diffuse);
-    }
-    if let Some(specular) = material.specular {
-        appearance.colour.specular = single(specular);
-    }
-    appearance
 }

@@ -1,24 +1,25 @@
 //! Descriptions of robots become objects of a scene, by the rules of simURDF (spec: import 1).
 //!
-//! `robot_description` reads the file. `shapes` makes shapes of geometries, `links` and `joints` put them into the scene, `mesh_files` reads what the
+//! `read` reads the file: URDF, SDF or MJCF. `shapes` makes shapes of geometries, `links` and `joints` put them into the scene, `mesh_files` reads what the
 //! description names. Whatever cannot be done is a message; the rest of the robot is there.
 
+mod between;
+mod constraints;
 mod export;
 mod joints;
 mod links;
 mod mesh_files;
 mod place;
+mod read;
 mod sensors;
 mod shapes;
 
-use std::path::Path;
-
 use bitflags::bitflags;
-use robot_description::{Parsed, Robot, urdf};
+use robot_description::Robot;
+use robot_description::mjcf::{Actuator, Equality, Site};
 
 use super::scene_file::save;
 use super::ttt::File;
-use crate::permissions::Permissions;
 use crate::scene::object::dummy::Dummy;
 use crate::scene::{Field, Handle, Kind, ModelFlags, ObjectFlags, Pose, Scene, SceneResult, clean_alias};
 pub use export::{ExportOptions, export};
@@ -43,13 +44,40 @@ bitflags! {
     }
 }
 
-/// A description that has been read, with what its meshes are looked for by.
+/// A file that has been read, with what its meshes are looked for by.
 #[derive(Debug)]
 pub struct RobotFile {
-    robot: Robot,
+    format: Format,
+    /// Of the robot, or of the world.
+    name: String,
+    models: Vec<Description>,
+    /// m/s², if the file says it.
+    gravity: Option<[f64; 3]>,
     meshes: MeshFiles,
     /// What was wrong in the file, a line each.
     warnings: Vec<String>,
+}
+
+/// A format of descriptions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    Urdf,
+    Sdf,
+    Mjcf,
+}
+
+/// A robot, and what URDF does not have.
+#[derive(Debug, Default)]
+struct Description {
+    robot: Robot,
+    /// In the world.
+    pose: Pose,
+    /// Links that never move.
+    fixed: Vec<usize>,
+    /// None: joints have the motors that simURDF makes.
+    actuators: Option<Vec<Actuator>>,
+    sites: Vec<Site>,
+    equalities: Vec<Equality>,
 }
 
 /// What an import added.
@@ -65,47 +93,22 @@ pub struct Imported {
 }
 
 impl RobotFile {
-    /// Whether a file's name is that of a robot that can be imported.
-    pub fn has_name_of(path: &Path) -> bool {
-        path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("urdf"))
-    }
-
-    /// Reads a file. `replacement` stands for `package://` in it.
-    ///
-    /// # Errors
-    /// When it may not or cannot be read, or is no robot; in words.
-    pub fn read(path: &Path, replacement: Option<String>, permissions: &Permissions) -> Result<Self, String> {
-        let bytes = permissions.read_file(path).map_err(|error| error.to_string())?;
-        let path = std::path::absolute(path).map_err(|error| error.to_string())?;
-        Self::parse(&bytes, &path, replacement, permissions)
-    }
-
-    /// Reads the text of a file. Relative names in it mean files beside `path`.
-    ///
-    /// # Errors
-    /// When it is no robot; in words.
-    pub fn parse(
-        text: &[u8],
-        path: &Path,
-        replacement: Option<String>,
-        permissions: &Permissions,
-    ) -> Result<Self, String> {
-        let Parsed { value: robot, warnings, further_warnings } =
-            urdf::read(text).map_err(|error| error.to_string())?;
-        let mut warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
-        if further_warnings > 0 {
-            warnings.push(format!("and {further_warnings} other warnings"));
-        }
-        Ok(Self { robot, meshes: MeshFiles::new(path, replacement, permissions), warnings })
-    }
-
     /// The robot as a model, and what was guessed or could not be done.
     ///
     /// # Errors
     /// When it has no objects; in words.
     pub fn model(self) -> Result<(File, Vec<String>), String> {
         let mut scene = Scene::new();
-        let imported = self.add_to(&mut scene, ImportOptions::default()).map_err(|error| error.to_string())?;
+        let options = match self.format {
+            Format::Urdf => ImportOptions::default(),
+            Format::Sdf | Format::Mjcf => ImportOptions::KEEP_POSITION,
+        };
+        let gravity =
+            self.gravity.filter(|gravity| gravity.map(|part| part as f32) != scene.settings().dynamics.gravity);
+        let mut imported = self.add_to(&mut scene, options).map_err(|error| error.to_string())?;
+        if let Some(gravity) = gravity {
+            imported.messages.push(format!("its gravity, {gravity:?}, is not a part of a model"));
+        }
         let base = match imported.roots.as_slice() {
             [base] => *base,
             [] => return Err("the robot has no links".into()),
@@ -115,25 +118,23 @@ impl RobotFile {
         Ok((file, imported.messages))
     }
 
-    /// Adds the robot to a scene.
+    /// Adds the robots to a scene.
     ///
     /// # Errors
     /// When all handles are in use.
-    pub fn add_to(self, scene: &mut Scene, options: ImportOptions) -> SceneResult<Imported> {
-        let placed = self.robot.link_poses(&joints::first_positions(&self.robot)).unwrap_or_default();
-        let mut import = Import {
-            scene,
-            robot: &self.robot,
-            meshes: self.meshes,
-            options,
-            placed,
-            nodes: vec![Node::default(); self.robot.links.len()],
-            objects: Vec::new(),
-            messages: self.warnings,
-        };
-        import.add_links()?;
-        import.add_sensors()?;
-        import.finish()
+    pub fn add_to(mut self, scene: &mut Scene, options: ImportOptions) -> SceneResult<Imported> {
+        let mut all = Imported { name: self.name, roots: Vec::new(), objects: Vec::new(), messages: self.warnings };
+        for model in &self.models {
+            let mut import = Import::new(scene, self.format, model, &mut self.meshes, options, &mut all.messages);
+            import.add_links()?;
+            import.add_sensors()?;
+            import.add_sites()?;
+            import.add_constraints()?;
+            let (roots, objects) = import.finish()?;
+            all.roots.extend(roots);
+            all.objects.extend(objects);
+        }
+        Ok(all)
     }
 }
 
@@ -150,14 +151,18 @@ fn gathered(scene: &mut Scene, roots: &[Handle], name: &str) -> SceneResult<Hand
 /// An import in progress.
 struct Import<'a> {
     scene: &'a mut Scene,
+    format: Format,
+    model: &'a Description,
     robot: &'a Robot,
-    meshes: MeshFiles,
+    meshes: &'a mut MeshFiles,
     options: ImportOptions,
-    /// The frames of the links, with all joints at 0, or as near to it as their limits allow.
+    /// The frames of the links, with all joints where they are at first, or as near to it as their limits allow.
     placed: Vec<Pose>,
     nodes: Vec<Node>,
+    /// What the joints became.
+    joints: Vec<Option<Handle>>,
     objects: Vec<Handle>,
-    messages: Vec<String>,
+    messages: &'a mut Vec<String>,
 }
 
 /// What a link became.
@@ -169,7 +174,32 @@ struct Node {
     depth: usize,
 }
 
-impl Import<'_> {
+impl<'a> Import<'a> {
+    fn new(
+        scene: &'a mut Scene,
+        format: Format,
+        model: &'a Description,
+        meshes: &'a mut MeshFiles,
+        options: ImportOptions,
+        messages: &'a mut Vec<String>,
+    ) -> Self {
+        let robot = &model.robot;
+        let placed = robot.link_poses(&joints::first_positions(robot)).unwrap_or_default();
+        Self {
+            scene,
+            format,
+            model,
+            robot,
+            meshes,
+            options,
+            placed: placed.into_iter().map(|pose| model.pose * pose).collect(),
+            nodes: vec![Node::default(); robot.links.len()],
+            joints: vec![None; robot.joints.len()],
+            objects: Vec::new(),
+            messages,
+        }
+    }
+
     fn message(&mut self, text: String) {
         self.messages.push(text);
     }
@@ -183,7 +213,7 @@ impl Import<'_> {
         Ok(handle)
     }
 
-    fn finish(mut self) -> SceneResult<Imported> {
+    fn finish(mut self) -> SceneResult<(Vec<Handle>, Vec<Handle>)> {
         let is_root = |handle: &Handle| self.scene.object(*handle).is_ok_and(|object| object.parent().is_none());
         let roots: Vec<Handle> = self.objects.iter().copied().filter(is_root).collect();
         if !self.options.contains(ImportOptions::KEEP_POSITION) {
@@ -192,7 +222,7 @@ impl Import<'_> {
         if let ([base], false) = (roots.as_slice(), self.options.contains(ImportOptions::NO_MODEL)) {
             self.make_model(*base)?;
         }
-        Ok(Imported { name: self.robot.name.clone(), roots, objects: self.objects, messages: self.messages })
+        Ok((roots, self.objects))
     }
 
     /// The robot is selected as a whole, and folded in the tree.

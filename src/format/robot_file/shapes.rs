@@ -5,7 +5,7 @@ use geometry::{DecompositionParameters, Mesh};
 use robot_description::{Geometry, Link, Material};
 
 use super::links::Part;
-use super::{Import, ImportOptions};
+use super::{Format, Import, ImportOptions};
 use crate::scene::shape::Shape;
 use crate::scene::{Pose, SceneError, SceneResult};
 
@@ -41,10 +41,11 @@ impl Import<'_> {
         link: &Link,
         parts: impl Iterator<Item = Part<'a>>,
         form: Form,
+        with_textures: bool,
     ) -> Vec<(Pose, Shape)> {
         let mut shapes = Vec::new();
         for (pose, geometry, material, line) in parts {
-            match self.shape(geometry, form) {
+            match self.shape(geometry, form, with_textures) {
                 Ok((offset, mut shape)) => {
                     if let Some(material) = material {
                         paint(&mut shape, material);
@@ -58,7 +59,7 @@ impl Import<'_> {
     }
 
     /// The shape of a geometry, and where it lies in the geometry's frame.
-    fn shape(&mut self, geometry: &Geometry, form: Form) -> Result<(Pose, Shape), String> {
+    fn shape(&mut self, geometry: &Geometry, form: Form, with_textures: bool) -> Result<(Pose, Shape), String> {
         let (kind, size) = match geometry {
             Geometry::Box { size } => (PrimitiveKind::Cuboid, *size),
             Geometry::Sphere { radius } => (PrimitiveKind::Spheroid, [2.0 * radius; 3]),
@@ -69,7 +70,8 @@ impl Import<'_> {
             Geometry::Ellipsoid { radii } => (PrimitiveKind::Spheroid, radii.map(|radius| 2.0 * radius)),
             Geometry::Plane { normal } => return plane(*normal).map_err(|error| error.to_string()),
             Geometry::Mesh { file, scale } => {
-                let shape = self.meshes.shape(file, usual_scale(*scale))?;
+                let scale = if self.format == Format::Urdf { usual_scale(*scale) } else { *scale };
+                let shape = self.meshes.shape(file, scale, self.scene, with_textures)?;
                 self.messages.append(&mut self.meshes.take_warnings());
                 return formed(shape, form)
                     .map(|shape| (Pose::identity(), shape))

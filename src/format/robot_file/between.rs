@@ -1,0 +1,78 @@
+//! Bodies that files do not have and physics needs: between two joints, and below a joint that hangs on nothing.
+
+use geometry::MassProperties;
+use robot_description::{Inertial, JointKind};
+
+use super::{Format, Import};
+use crate::scene::shape::Shape;
+use crate::scene::{Pose, SceneResult};
+
+/// Diameter of what carries a joint and has no geometry, metres.
+const CARRIER: f64 = 0.05;
+/// The part of the mass and the inertia of the next body that a body between two joints has; its least mass and inertia.
+const SHARE: f64 = 0.01;
+const LEAST: (f64, f64) = (1e-4, 1e-7);
+/// What a link of SDF has that says nothing of mass: kg, kg m².
+const UNIT: (f64, f64) = (1.0, 1.0);
+
+impl Import<'_> {
+    pub(super) fn is_fixed(&self, link: usize) -> bool {
+        self.model.fixed.contains(&link)
+    }
+
+    /// Whether a link carries joints that move.
+    fn carries_motion(&self, link: usize) -> bool {
+        let moves = |kind: JointKind| !matches!(kind, JointKind::Fixed | JointKind::Floating | JointKind::Planar);
+        self.robot.joints.iter().any(|joint| joint.parent == link && moves(joint.kind))
+    }
+
+    /// A body for a link that has nothing to touch and no mass, where joints need one. URDF's links stay as they are: scripts know them so.
+    pub(super) fn body_between(&mut self, index: usize) -> SceneResult<Option<(Pose, Shape)>> {
+        if self.format == Format::Urdf || !self.carries_motion(index) {
+            return Ok(None);
+        }
+        let mut shape = Shape::ball(CARRIER)?;
+        shape.dynamics.is_static = self.is_fixed(index);
+        if !shape.dynamics.is_static {
+            shape.mass = light(self.next_inertial(index));
+            let name = &self.robot.links[index].name;
+            self.message(format!("link '{name}' is between two joints: it gets a mass of {:.3e} kg", shape.mass.mass));
+        }
+        Ok(Some((Pose::identity(), shape)))
+    }
+
+    /// The mass and inertia of the next link below that has some.
+    fn next_inertial(&self, index: usize) -> Option<Inertial> {
+        let mut link = index;
+        // A chain is no longer than there are joints.
+        for _ in 0..=self.robot.joints.len() {
+            let joint = self.robot.joints.iter().find(|joint| joint.parent == link && joint.child != link)?;
+            link = joint.child;
+            let inertial = self.robot.links[link].inertial.clone().or_else(|| self.usual_inertial(link));
+            if inertial.is_some() {
+                return inertial;
+            }
+        }
+        None
+    }
+
+    /// The mass of a link that says none, and moves.
+    pub(super) fn usual_inertial(&self, index: usize) -> Option<Inertial> {
+        let is_written = self.robot.links[index].line > 0;
+        let (mass, moment) = UNIT;
+        (self.format == Format::Sdf && is_written && !self.is_fixed(index)).then(|| Inertial {
+            pose: Pose::identity(),
+            mass,
+            inertia: [moment, 0.0, 0.0, moment, 0.0, moment],
+        })
+    }
+}
+
+fn light(next: Option<Inertial>) -> MassProperties {
+    let (mass, moment) = next.map_or((0.0, 0.0), |next| {
+        let [xx, _, _, yy, _, zz] = next.inertia;
+        (next.mass * SHARE, (xx + yy + zz) / 3.0 * SHARE)
+    });
+    let (mass, moment) = (mass.max(LEAST.0), moment.max(LEAST.1));
+    MassProperties::diagonal(mass, [moment / mass; 3])
+}

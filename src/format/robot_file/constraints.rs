@@ -1,0 +1,115 @@
+//! Sites, and what holds joints or links together beside the joints of the tree.
+
+use robot_description::mjcf::Equality;
+use robot_description::{Joint as JointDescription, Mimic};
+
+use super::{Format, Import, joints};
+use crate::scene::joint::{Joint, JointMode, JointType};
+use crate::scene::object::dummy::{Dummy, LinkType};
+use crate::scene::{Field, Handle, Kind, Layers, Pose, SceneResult};
+
+impl Import<'_> {
+    /// Adds the sites as dummies below the links that they are on.
+    pub(super) fn add_sites(&mut self) -> SceneResult<()> {
+        for site in &self.model.sites {
+            let parent = self.nodes[site.link].carrier;
+            self.add_dummy(&site.name, self.placed[site.link] * site.pose, parent)?;
+        }
+        Ok(())
+    }
+
+    fn add_dummy(&mut self, name: &str, pose: Pose, parent: Option<Handle>) -> SceneResult<Handle> {
+        self.add(name, Kind::Dummy(Dummy::new(joints::DUMMY)), pose, parent)
+    }
+
+    /// Joints that others lead, and loops. URDF's `mimic` is not looked at, as simURDF does not.
+    pub(super) fn add_constraints(&mut self) -> SceneResult<()> {
+        if self.format != Format::Urdf {
+            for (index, joint) in self.robot.joints.iter().enumerate() {
+                if let Some(Mimic { joint: master, multiplier, offset }) = joint.mimic {
+                    self.lead(index, master, offset, multiplier)?;
+                }
+            }
+            self.close_loops()?;
+        }
+        for equality in &self.model.equalities {
+            match equality {
+                Equality::Joint { joint, master, polynomial, line } => {
+                    self.add_equal_joint(*joint, *master, *polynomial, *line)?;
+                }
+                Equality::Connect { links, points, line } => {
+                    let frames = points.map(|[x, y, z]| Pose::translation(x, y, z));
+                    self.connect(&format!("connect_{line}"), *links, frames, Some(JointType::Spherical))?;
+                }
+                Equality::Weld { links, frames, line } => {
+                    self.connect(&format!("weld_{line}"), *links, *frames, None)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Joints whose links are connected by others already.
+    fn close_loops(&mut self) -> SceneResult<()> {
+        for index in self.robot.loop_joints() {
+            let JointDescription { name, parent, child, line, .. } = &self.robot.joints[index];
+            let (parent, child) = (&self.robot.links[*parent].name, &self.robot.links[*child].name);
+            self.message(format!(
+                "line {line}: joint '{name}' closes a loop from '{parent}' to '{child}', and is not imported"
+            ));
+        }
+        Ok(())
+    }
+
+    fn add_equal_joint(
+        &mut self,
+        joint: usize,
+        master: Option<usize>,
+        polynomial: [f64; 5],
+        line: u32,
+    ) -> SceneResult<()> {
+        let [constant, factor, rest @ ..] = polynomial;
+        let (Some(master), true) = (master, rest == [0.0; 3]) else {
+            let what = if master.is_none() { "to a constant" } else { "by a curve" };
+            self.message(format!("line {line}: a joint that is bound {what} is not imported"));
+            return Ok(());
+        };
+        let [own, other] = [joint, master].map(|joint| self.robot.joints[joint].reference);
+        self.lead(joint, master, own + constant - factor * other, factor)
+    }
+
+    fn lead(&mut self, joint: usize, master: usize, offset: f64, factor: f64) -> SceneResult<()> {
+        let (Some(joint), Some(master)) = (self.joints[joint], self.joints[master]) else { return Ok(()) };
+        if [joint, master].iter().any(|handle| self.scene.object(*handle).and_then(|o| o.joint().map(|_| ())).is_err())
+        {
+            return Ok(());
+        }
+        self.scene.modify_joint(joint, |joint| joint.set_mode(JointMode::Dependent))?;
+        self.scene.set_joint_dependency(joint, Some(master), offset, factor)
+    }
+
+    /// Holds a frame of a link at one of another link, or lets a joint be between them.
+    fn connect(
+        &mut self,
+        name: &str,
+        links: [usize; 2],
+        frames: [Pose; 2],
+        joint: Option<JointType>,
+    ) -> SceneResult<()> {
+        let [first, second] = [0, 1].map(|side| self.placed[links[side]] * frames[side]);
+        let [Some(one), Some(other)] = links.map(|link| self.nodes[link].carrier) else {
+            self.message(format!("'{name}': there is nothing that it can hold"));
+            return Ok(());
+        };
+        let mut parent = one;
+        if let Some(joint_type) = joint {
+            let joint = Kind::Joint(Box::new(Joint::new(joint_type, JointMode::Dynamic)));
+            parent = self.add(name, joint, first, Some(one))?;
+            self.scene.modify(parent, Field::Layer, |object| object.layer = Layers::JOINTS.hidden())?;
+        }
+        let tip = self.add_dummy(&format!("{name}_tip"), first, Some(parent))?;
+        let target = self.add_dummy(&format!("{name}_target"), second, Some(other))?;
+        self.scene.set_link_type(tip, LinkType::LoopClosure)?;
+        self.scene.link_dummies(tip, Some(target))
+    }
+}
