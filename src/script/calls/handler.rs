@@ -87,12 +87,14 @@ impl ScriptCallback {
     }
 
     /// As [`ScriptCallback::call`], but a failure is logged and counted. None then, and when the script has ended.
+    #[cfg(any(feature = "ros1", feature = "ros2"))]
     pub(crate) fn call_logged(&self, args: &[Data]) -> Option<Vec<Data>> {
         let (sim, script) = self.sim.upgrade().zip(self.script.upgrade())?;
         sim.call_handler(&script, &self.handler, args)
     }
 
     /// Logs a warning, if the script still runs.
+    #[cfg(any(feature = "ros1", feature = "ros2"))]
     pub(crate) fn warn(&self, text: &str) {
         if let Some(sim) = self.sim.upgrade() {
             sim.log(verbosity::SCRIPT_WARNINGS, text);
