@@ -7,6 +7,8 @@ mod lfs;
 mod mime;
 pub(crate) mod remote;
 #[cfg(any(feature = "ros1", feature = "ros2"))]
+mod ros_entities;
+#[cfg(any(feature = "ros1", feature = "ros2"))]
 mod ros_images;
 #[cfg(any(feature = "ros1", feature = "ros2"))]
 mod ros_values;

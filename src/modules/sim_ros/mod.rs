@@ -26,10 +26,6 @@ pub(super) static MODULE: Module = Module {
     ..Module::new("simROS")
 };
 
-fn invalid_handle() -> ApiError {
-    ApiError::Other("invalid object handle".into())
-}
-
 fn failed(error: &ros1::Error) -> ApiError {
     ApiError::Other(format!("ROS: {error}"))
 }

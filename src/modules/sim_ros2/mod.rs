@@ -36,7 +36,3 @@ pub(super) static MODULE: Module = Module {
     plugin_errors: true,
     ..Module::new("simROS2")
 };
-
-fn invalid_handle() -> ApiError {
-    ApiError::Other("invalid object handle".into())
-}

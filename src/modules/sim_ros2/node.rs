@@ -1,8 +1,7 @@
 //! The node: how it comes to be, what belongs to it, and the calls of its callbacks.
 
-use std::cell::{Cell, RefCell};
-use std::collections::BTreeMap;
-use std::rc::{Rc, Weak};
+use std::cell::RefCell;
+use std::rc::Rc;
 
 use ros_interfaces::{Catalogue, Generation, Layout};
 use rtps::{Network, Participant, Qos};
@@ -13,7 +12,8 @@ use super::names::{self, Place};
 use super::parameters::Parameters;
 use super::services::{Client, Service};
 use super::topics::{Publisher, Subscription};
-use super::{ApiError, Cx, Result, invalid_handle};
+use super::{ApiError, Cx, Result};
+use crate::modules::ros_entities::Entities;
 use crate::script::{Host, RosOptions};
 
 /// The state of the module.
@@ -21,8 +21,7 @@ use crate::script::{Host, RosOptions};
 pub(super) struct Node {
     running: RefCell<Option<Rc<Running>>>,
     catalogue: RefCell<Option<Catalogue>>,
-    entities: RefCell<BTreeMap<u64, Entity>>,
-    count: Cell<u64>,
+    entities: Rc<Entities<Entity>>,
     pub(super) parameters: RefCell<Parameters>,
     /// For transforms.
     pub(super) broadcaster: RefCell<Option<Rc<Publisher>>>,
@@ -56,31 +55,15 @@ impl Node {
         }))
     }
 
-    fn entity(&self, handle: &str) -> Option<(u64, Entity)> {
-        let number = number_of(handle)?;
-        Some((number, self.entities.borrow().get(&number)?.clone()))
-    }
-
-    fn remove(&self, number: u64) {
-        // Nothing is borrowed while it ends and its callback is released.
-        let removed = self.entities.borrow_mut().remove(&number);
-        drop(removed);
-    }
-
     /// Calls the callbacks for what has arrived: one after the other in the order of creation. What arrives in the meantime waits.
     pub(super) fn spin(&self) {
-        let numbers: Vec<u64> = self.entities.borrow().keys().copied().collect();
-        for number in numbers {
-            // An earlier callback may have ended it.
-            let entity = self.entities.borrow().get(&number).cloned();
-            match entity {
-                Some(Entity::Subscription(subscription)) => subscription.spin(),
-                Some(Entity::Service(service)) => service.spin(),
-                Some(Entity::ActionClient(client)) => client.spin(),
-                Some(Entity::ActionServer(server)) => server.spin(),
-                Some(Entity::Publisher(_) | Entity::Client(_)) | None => {}
-            }
-        }
+        self.entities.for_each(|entity| match entity {
+            Entity::Subscription(subscription) => subscription.spin(),
+            Entity::Service(service) => service.spin(),
+            Entity::ActionClient(client) => client.spin(),
+            Entity::ActionServer(server) => server.spin(),
+            Entity::Publisher(_) | Entity::Client(_) => {}
+        });
     }
 }
 
@@ -143,39 +126,9 @@ pub(super) fn running(cx: &Cx) -> Result<Rc<Running>> {
     Ok(running)
 }
 
-/// What a script has made: it ends with the script.
-#[derive(Default)]
-struct Owned(RefCell<Vec<Ownership>>);
-
-struct Ownership {
-    node: Weak<Node>,
-    number: u64,
-}
-
-impl Drop for Ownership {
-    fn drop(&mut self) {
-        if let Some(node) = self.node.upgrade() {
-            node.remove(self.number);
-        }
-    }
-}
-
 /// Adds something of the calling script. Returns its handle.
 pub(super) fn add(cx: &Cx, entity: Entity) -> String {
-    let node = node(cx);
-    let number = node.count.get() + 1;
-    node.count.set(number);
-    node.entities.borrow_mut().insert(number, entity);
-    let owned = cx.script_state::<Owned>();
-    let mut owned = owned.0.borrow_mut();
-    owned.retain(|other| node.entities.borrow().contains_key(&other.number));
-    owned.push(Ownership { node: Rc::downgrade(&node), number });
-    format!("{number:x}:ptr")
-}
-
-fn number_of(handle: &str) -> Option<u64> {
-    let digits = handle.strip_suffix(":ptr")?;
-    u64::from_str_radix(digits, 16).ok().filter(|number| format!("{number:x}") == digits)
+    node(cx).entities.add(cx, entity)
 }
 
 /// What a handle stands for, if it is of the kind that `choose` accepts.
@@ -183,7 +136,7 @@ fn number_of(handle: &str) -> Option<u64> {
 /// # Errors
 /// When it is not.
 pub(super) fn get<T>(cx: &Cx, handle: &str, choose: impl Fn(Entity) -> Option<T>) -> Result<T> {
-    node(cx).entity(handle).and_then(|(_, entity)| choose(entity)).ok_or_else(invalid_handle)
+    node(cx).entities.get(handle, choose)
 }
 
 /// Ends what a handle stands for, if it is of the kind that `choose` accepts.
@@ -191,9 +144,5 @@ pub(super) fn get<T>(cx: &Cx, handle: &str, choose: impl Fn(Entity) -> Option<T>
 /// # Errors
 /// When it is not.
 pub(super) fn shut_down<T>(cx: &Cx, handle: &str, choose: impl Fn(Entity) -> Option<T>) -> Result<()> {
-    let node = node(cx);
-    let (number, entity) = node.entity(handle).ok_or_else(invalid_handle)?;
-    choose(entity).ok_or_else(invalid_handle)?;
-    node.remove(number);
-    Ok(())
+    node(cx).entities.shut_down(handle, choose)
 }
