@@ -7,7 +7,7 @@ use crate::Pose;
 
 /// Most face normals that the search for the tightest box tries, and the points it may look at in all.
 const BOX_DIRECTIONS: usize = 200;
-const BOX_POINTS: usize = 400_000;
+const BOX_POINTS: usize = 60_000;
 
 /// A box around a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
