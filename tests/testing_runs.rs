@@ -122,7 +122,7 @@ fn isolated_tests_crash_alone() {
     local sim = require 'sim'
     local t = require 'swanilda.test'
     it('goes on', function() print('first') t.step(2) end)
-    it('is killed', function() os.execute('kill -ABRT $PPID') end)
+    it('is killed', function() os.execute('kill -ABRT $PPID; exec sleep 1 >/dev/null 2>&1') end)
     it('fails', function() print('last words') assert.equal(1, 2) end)
     it('loops', function() while true do end end)
     pending('is to be written')";
@@ -140,7 +140,7 @@ fn after_a_crash_all_tests_run_again_in_children() {
     for signal in ["ABRT", "ILL"] {
         let suite = "
     it('goes on', function() end)
-    it('crashes', function() os.execute('kill -SIGNAL $PPID') end)
+    it('crashes', function() os.execute('kill -SIGNAL $PPID; exec sleep 1 >/dev/null 2>&1') end)
     it('fails', function() assert.equal(1, 2) end)";
         let suite = suite.replace("SIGNAL", signal);
         let (code, output) = run(&[("crash_test.lua", &suite)], &["-v", "-j", "1"]);
@@ -154,7 +154,7 @@ fn after_a_crash_all_tests_run_again_in_children() {
 #[test]
 #[cfg(unix)]
 fn a_stream_of_results_is_not_begun_twice() {
-    let suite = "it('crashes', function() os.execute('kill -ABRT $PPID') end)";
+    let suite = "it('crashes', function() os.execute('kill -ABRT $PPID; exec sleep 1 >/dev/null 2>&1') end)";
     let output = try_run(&[("crash_test.lua", suite)], &["--json", "-j", "1"]).expect_err("a crash");
     assert!(output.starts_with("ended by a signal"), "{output}");
     assert_eq!(output.matches("\"begin\"").count(), 1, "{output}");
