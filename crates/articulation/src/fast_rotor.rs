@@ -40,8 +40,12 @@ impl Spin {
 }
 
 impl Mechanism {
-    /// The spins of the bodies on joints that turn far in a step, by body.
+    /// The spins of the bodies on joints that turn far in a step, by body; none at all where nothing turns far.
     pub(crate) fn fast_spins(&self, motions: &[BodyMotion], step: f64) -> Vec<Option<Spin>> {
+        let turns_far = |motion: &BodyMotion| motion.velocity.fixed_rows::<3>(3).norm() * step > FAR_TURN;
+        if !motions.iter().any(turns_far) {
+            return Vec::new();
+        }
         let mut spins: Vec<Option<Spin>> = vec![None; self.bodies.len()];
         for joint in self.joints.iter().filter(|joint| joint.properties.kind == JointKind::Revolute) {
             let base = &joint.properties.base;
@@ -80,6 +84,7 @@ impl LinkedBody {
 
     /// Angular impulse of the gyroscopic torque on a fast body, and of what it has to compensate; None for others.
     pub(crate) fn rotor_impulse(&mut self, spin: &Vector3<f64>, step: f64) -> Option<Vector3<f64>> {
+        self.rotor.as_ref()?;
         let inertia = self.world_inertia();
         let rotor = self.rotor.as_mut()?;
         let now = -spin.cross(&(inertia * spin)) * step - rotor.excess_momentum;

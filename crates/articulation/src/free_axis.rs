@@ -50,6 +50,11 @@ impl FreeAxis {
         self.limit.is_some() || self.motor == MotorState::Tracking
     }
 
+    /// Whether the active set can change: there is a motor or a limit.
+    pub(crate) fn can_change(&self, joint: &JointState) -> bool {
+        self.limit.is_some() || self.motor != MotorState::Off || joint.limits.is_some()
+    }
+
     pub(crate) fn target_velocity(&self) -> f64 {
         self.limit.map_or(self.target, |limit| limit.velocity)
     }

@@ -35,6 +35,16 @@ impl Jacobian {
         spatial(self.linear * linear + self.lever * angular, self.angular * angular)
     }
 
+    /// Velocity along a row.
+    pub(crate) fn row_velocity(&self, row: usize, of_body: &Vector6<f64>) -> f64 {
+        let (linear, angular) = halves(of_body);
+        if row < 3 {
+            self.linear.row(row).tr_dot(&linear) + self.lever.row(row).tr_dot(&angular)
+        } else {
+            self.angular.row(row - 3).tr_dot(&angular)
+        }
+    }
+
     /// Impulse and angular impulse on the body of impulses along the rows.
     #[inline]
     pub(crate) fn impulse(&self, of_rows: &Segment) -> Vector6<f64> {
@@ -84,7 +94,7 @@ impl Jacobian {
 
     /// As [`add_product`](Self::add_product), but for the upper right 3 x 3 block.
     #[inline]
-    pub(crate) fn add_lower_product(&self, other: &Self, block: &mut Block) {
+    fn add_lower_product(&self, other: &Self, block: &mut Block) {
         for column in 0..3 {
             for inner in 0..3 {
                 let [linear, lever, angular] =
@@ -94,6 +104,27 @@ impl Jacobian {
                         self.linear.data.0[inner][row] * linear + self.lever.data.0[inner][row] * lever;
                     block.data.0[column][row + 3] += self.angular.data.0[inner][row] * lever;
                     block.data.0[column + 3][row + 3] += self.angular.data.0[inner][row] * angular;
+                }
+            }
+        }
+    }
+
+    /// Adds the lower triangle of the product with the transpose of this Jacobian times a mass, which is `other`: `rows` are those that are not
+    /// zero. Linear rows are orthogonal, so that their product is diagonal.
+    #[inline]
+    pub(crate) fn add_own_product(&self, other: &Self, mass: &InverseMass, rows: &[bool; 6], block: &mut Block) {
+        for row in (0..3).filter(|&row| rows[row]) {
+            block.data.0[row][row] += mass.linear;
+        }
+        for column in 0..3 {
+            for inner in 0..3 {
+                let [lever, angular] = [&self.lever, &self.angular].map(|part| part.data.0[inner][column]);
+                for row in column..3 {
+                    block.data.0[column][row] += other.lever.data.0[inner][row] * lever;
+                    block.data.0[column + 3][row + 3] += other.angular.data.0[inner][row] * angular;
+                }
+                for row in 0..3 {
+                    block.data.0[column][row + 3] += other.angular.data.0[inner][row] * lever;
                 }
             }
         }
@@ -128,6 +159,13 @@ impl InverseMass {
     }
 }
 
+/// A matrix times the cross matrix of a vector: its rows are the cross products of the matrix's rows and the vector.
+#[inline]
+pub(crate) fn times_cross_matrix(matrix: &Matrix3<f64>, vector: &Vector3<f64>) -> Matrix3<f64> {
+    let [x, y, z] = [0, 1, 2].map(|column| matrix.column(column).into_owned());
+    Matrix3::from_columns(&[y * vector.z - z * vector.y, z * vector.x - x * vector.z, x * vector.y - y * vector.x])
+}
+
 /// The linear and the angular part.
 #[inline]
 pub(crate) fn halves(of: &Vector6<f64>) -> (Vector3<f64>, Vector3<f64>) {
@@ -156,10 +194,20 @@ mod tests {
         assert!((mass.times(&vector) - mass.dense() * vector).amax() < 1e-15);
         assert!((a.times(&mass).dense() - a.dense() * mass.dense()).amax() < 1e-15);
         let product = a.dense() * b.dense().transpose();
-        let (mut whole, mut lower) = (Block::zeros(), Block::zeros());
+        let mut whole = Block::zeros();
         a.add_product(&b, &mut whole);
-        a.add_lower_product(&b, &mut lower);
         assert!((whole - product).amax() < 1e-15);
+    }
+
+    #[test]
+    fn a_joint_responds_to_itself_as_the_dense_matrices_say() {
+        let turned = nalgebra::Rotation3::from_euler_angles(0.3, 0.5, 0.7).into_inner();
+        let rows = [true, true, false, true, true, false];
+        let a = Jacobian { linear: turned, lever: matrix(0.4), angular: turned }.with_rows(&rows);
+        let mass = InverseMass { linear: 2.5, angular: matrix(0.1) * matrix(0.1).transpose() };
+        let product = a.dense() * mass.dense() * a.dense().transpose();
+        let mut lower = Block::zeros();
+        a.add_own_product(&a.times(&mass), &mass, &rows, &mut lower);
         assert!((lower - product).lower_triangle().amax() < 1e-15);
     }
 

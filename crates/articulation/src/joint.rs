@@ -6,10 +6,10 @@ use geometry::Pose;
 use geometry::pose::euler::wrap_angle;
 use nalgebra::Vector3;
 
-use crate::block_cholesky::Segment;
+use crate::block_cholesky::{Block, Segment};
 use crate::contact::Contact;
 use crate::free_axis::{FreeAxis, MotorState};
-use crate::jacobian::Jacobian;
+use crate::jacobian::{Jacobian, times_cross_matrix};
 use crate::linked_body::LinkedBody;
 use crate::spatial;
 
@@ -109,6 +109,14 @@ pub(crate) struct Joint {
     pub active: [Jacobian; 2],
     /// The same times the inverse masses of the bodies: the halves of the inverse effective mass.
     pub active_inverse_mass: [Jacobian; 2],
+    active_rows: [bool; 6],
+    /// The axis of the joint in the frame of the second body.
+    tip_axis: Vector3<f64>,
+}
+
+/// The rotation vector by which the z axis would have to turn to lie along `axis`, both along the axes of the base, if it is small.
+fn misaligned(axis: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(-axis.y, axis.x, 0.0)
 }
 
 impl Joint {
@@ -124,6 +132,8 @@ impl Joint {
             impulse: Segment::zeros(),
             active: none,
             active_inverse_mass: none,
+            active_rows: [false; 6],
+            tip_axis: properties.tip.rotation * Vector3::z(),
         }
     }
 
@@ -139,9 +149,11 @@ impl Joint {
         let axes = (first.pose.rotation * base.rotation).to_rotation_matrix().into_inner().transpose();
         self.point = (second.pose * tip).translation.vector;
         for (side, (body, axes)) in [(first, -axes), (second, axes)].into_iter().enumerate() {
-            let mut lever = axes * (body.com - self.point).cross_matrix();
-            let screwed = lever.row(2) - axes.row(2) * *pitch;
-            lever.set_row(2, &screwed);
+            let mut lever = times_cross_matrix(&axes, &(body.com - self.point));
+            if *pitch != 0.0 {
+                let screwed = lever.row(2) - axes.row(2) * *pitch;
+                lever.set_row(2, &screwed);
+            }
             self.jacobians[side] = Jacobian { linear: axes, lever, angular: axes };
         }
     }
@@ -154,39 +166,58 @@ impl Joint {
 
     /// Velocity along a row.
     fn row_velocity(&self, row: usize, bodies: &[LinkedBody]) -> f64 {
-        self.velocity(bodies)[row]
+        let [first, second] = self.properties.bodies.map(|body| &bodies[body].velocity);
+        self.jacobians[0].row_velocity(row, first) + self.jacobians[1].row_velocity(row, second)
+    }
+
+    /// Velocity of the second body about the axis relative to the first.
+    pub(crate) fn turning_velocity(&self, bodies: &[LinkedBody]) -> f64 {
+        self.row_velocity(5, bodies)
     }
 
     /// By how much the locked rows are violated: metres and radians. `turned`: how far the joint turned in this step.
     pub(crate) fn position_error(&self, bodies: &[LinkedBody], turned: f64) -> Segment {
         let JointProperties { kind, base, tip, pitch, .. } = &self.properties;
-        let [base, tip] = [(0, base), (1, tip)].map(|(side, frame)| bodies[self.body(side)].pose * frame);
-        let apart = base.inverse() * tip;
+        let [first, second] = self.properties.bodies.map(|body| &bodies[body].pose);
+        let base = first * base;
+        if *kind == JointKind::Revolute && *pitch == 0.0 {
+            let linear = base.inverse_transform_point(&second.transform_point(&tip.translation.vector.into()));
+            let axis = base.inverse_transform_vector(&(second.rotation * self.tip_axis));
+            return spatial(linear.coords, misaligned(&axis));
+        }
+        let apart = base.inverse() * (second * tip);
         let angular = match kind {
-            // The direction of the axis of the tip.
-            JointKind::Revolute => {
-                let axis = apart.rotation * Vector3::z();
-                Vector3::new(-axis.y, axis.x, 0.0)
-            }
+            JointKind::Revolute => misaligned(&(apart.rotation * Vector3::z())),
             _ => apart.rotation.scaled_axis(),
         };
         let mut error = spatial(apart.translation.vector, angular);
         if *pitch != 0.0 {
             error[2] -= pitch * kind.continued_coordinate(&apart, self.state.position, turned);
         }
-        for row in (0..6).filter(|&row| !self.locked[row]) {
-            error[row] = 0.0;
-        }
+        (0..6).filter(|&row| !self.locked[row]).for_each(|row| error[row] = 0.0);
         error
     }
 
     /// Computes what the active rows add to the inverse effective mass of the system.
     pub(crate) fn update_effective_mass(&mut self, bodies: &[LinkedBody]) {
-        let active = std::array::from_fn(|row| self.is_active(row));
+        self.active_rows = std::array::from_fn(|row| self.is_active(row));
         for side in 0..2 {
-            let rows = self.jacobians[side].with_rows(&active);
+            let rows = self.jacobians[side].with_rows(&self.active_rows);
             self.active[side] = rows;
             self.active_inverse_mass[side] = rows.times(&bodies[self.body(side)].inverse_mass);
+        }
+    }
+
+    /// Adds the response of the active rows to themselves by one of the bodies: the lower triangle.
+    pub(crate) fn add_own_response(&self, side: usize, bodies: &[LinkedBody], block: &mut Block) {
+        let mass = &bodies[self.body(side)].inverse_mass;
+        self.active[side].add_own_product(&self.active_inverse_mass[side], mass, &self.active_rows, block);
+    }
+
+    /// Sets the rows that are not active to zero.
+    fn keep_active(&self, rows: &mut Segment) {
+        for row in (0..6).filter(|&row| !self.active_rows[row]) {
+            rows[row] = 0.0;
         }
     }
 
@@ -199,21 +230,20 @@ impl Joint {
 
     /// The change of velocity that the active rows require.
     pub(crate) fn right_hand_side(&self, bodies: &[LinkedBody]) -> Segment {
-        let velocity = self.velocity(bodies);
-        Segment::from_fn(|row, _| match (self.is_active(row), &self.axis) {
-            (false, _) => 0.0,
-            (true, Some(axis)) if axis.row == row => axis.target_velocity() - velocity[row],
-            (true, _) => -velocity[row],
-        })
+        let mut missing = -self.velocity(bodies);
+        if let Some(axis) = &self.axis {
+            missing[axis.row] += axis.target_velocity();
+        }
+        self.keep_active(&mut missing);
+        missing
     }
 
     /// The impulse of a saturated motor.
-    pub(crate) fn saturated_impulse(&self) -> Segment {
+    pub(crate) fn saturated_impulse(&self) -> Option<Segment> {
+        let Some(FreeAxis { row, motor: MotorState::Saturated(all), .. }) = self.axis else { return None };
         let mut impulse = Segment::zeros();
-        if let Some(FreeAxis { row, motor: MotorState::Saturated(all), .. }) = self.axis {
-            impulse[row] = all;
-        }
-        impulse
+        impulse[row] = all;
+        Some(impulse)
     }
 
     fn motor_impulse(&self) -> f64 {
@@ -226,7 +256,7 @@ impl Joint {
 
     /// All impulses of the rows.
     pub(crate) fn total_impulse(&self) -> Segment {
-        self.impulse + self.saturated_impulse()
+        self.saturated_impulse().map_or(self.impulse, |saturated| self.impulse + saturated)
     }
 
     pub(crate) fn load(&self, step: f64) -> JointLoad {
@@ -237,14 +267,16 @@ impl Joint {
     pub(crate) fn apply_impulse(&self, bodies: &mut [LinkedBody], impulse: &Segment) {
         for side in 0..2 {
             let body = &mut bodies[self.body(side)];
-            body.velocity += body.inverse_mass.times(&self.jacobians[side].impulse(impulse));
+            let impulse = self.jacobians[side].impulse(impulse);
+            body.joint_impulse += impulse;
+            body.velocity += body.inverse_mass.times(&impulse);
         }
     }
 
     /// Lets motor and limit change sides where the solution violates their bounds; true when the system must be solved again. With caution
     /// nothing leaves its bound again.
     pub(crate) fn update_active_set(&mut self, bodies: &[LinkedBody], step: f64, is_cautious: bool) -> bool {
-        let Some(mut axis) = self.axis else { return false };
+        let Some(mut axis) = self.axis.filter(|axis| axis.can_change(&self.state)) else { return false };
         let velocity = self.row_velocity(axis.row, bodies);
         let changed = axis.update_active_set(&self.state, velocity, self.impulse[axis.row], step, is_cautious);
         self.axis = Some(axis);

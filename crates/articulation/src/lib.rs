@@ -9,6 +9,7 @@
 //! |---|---|
 //! | once: mass, centre of mass, inertia of bodies ([`BodyProperties`]); kind, bodies and frames of joints ([`JointProperties`]) | a [`Mechanism`] |
 //! | before a step: poses, velocities, external forces ([`BodyState`]); motors, limits, positions ([`JointState`]); gravity; contacts ([`Contact`]), or their expected impulses | forces on bodies ([`Mechanism::body_loads`]), forces in joints ([`Mechanism::joint_loads`]) |
+//! | without an engine: the motion over the step | poses and velocities ([`Mechanism::integrate`]) |
 //! | after the step: poses and velocities ([`BodyMotion`]) | corrected poses and velocities ([`Mechanism::correct_positions`]) |
 //!
 //! # Units and frames
@@ -79,6 +80,7 @@ mod contact;
 mod fast_rotor;
 mod free_axis;
 mod geometric_stiffness;
+mod integration;
 mod jacobian;
 mod joint;
 mod linked_body;

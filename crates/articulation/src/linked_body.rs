@@ -1,12 +1,15 @@
 //! A body on joints: where it is, how it responds to impulses, what velocity it gets.
 
 use geometry::Pose;
-use nalgebra::{Matrix3, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3, Vector6};
 
 use crate::fast_rotor::FastRotor;
 use crate::geometric_stiffness::GeometricStiffness;
 use crate::jacobian::InverseMass;
 use crate::spatial;
+
+/// Up to here the series of a rotation are used: half its angle, rad.
+const SMALL_HALF_ANGLE: f64 = 0.01;
 
 /// The constant properties of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,6 +72,8 @@ pub(crate) struct LinkedBody {
     free_velocity: Vector6<f64>,
     present_velocity: Vector6<f64>,
     pub velocity: Vector6<f64>,
+    /// Impulses of the joints; during the correction of positions what moves the body, kg m and kg m2.
+    pub joint_impulse: Vector6<f64>,
     /// Impulses of external forces, contacts and the gyroscopic torque.
     pub external_impulse: Vector6<f64>,
     pub geometric_stiffness: GeometricStiffness,
@@ -99,6 +104,7 @@ impl LinkedBody {
             free_velocity: Vector6::zeros(),
             present_velocity: Vector6::zeros(),
             velocity: Vector6::zeros(),
+            joint_impulse: Vector6::zeros(),
             external_impulse: Vector6::zeros(),
             geometric_stiffness: GeometricStiffness::default(),
             is_guest: false,
@@ -164,6 +170,7 @@ impl LinkedBody {
 
     /// The velocity with all impulses but those of joints and contacts.
     pub(crate) fn reset_velocity(&mut self) {
+        self.joint_impulse = Vector6::zeros();
         self.velocity = self.free_velocity + self.inverse_mass.times(&self.external_impulse);
     }
 
@@ -186,10 +193,16 @@ impl LinkedBody {
 
     /// Moves the centre of mass and turns about it.
     pub(crate) fn displace(&mut self, by: &Vector6<f64>) {
-        let rotation = UnitQuaternion::from_scaled_axis(by.fixed_rows::<3>(3).into_owned()) * self.pose.rotation;
+        self.pose = self.displaced(by);
         self.com += by.fixed_rows::<3>(0);
-        self.turn_to(rotation);
         self.correction += by;
+    }
+
+    /// The pose after the centre of mass moved and the body turned about it.
+    pub(crate) fn displaced(&self, by: &Vector6<f64>) -> Pose {
+        let rotation = rotation_by(&by.fixed_rows::<3>(3).into_owned()) * self.pose.rotation;
+        let com = self.com + by.fixed_rows::<3>(0);
+        Pose::from_parts((com - rotation * self.properties.com).into(), rotation)
     }
 
     /// Turns about the centre of mass.
@@ -201,7 +214,7 @@ impl LinkedBody {
         Placement { pose: self.pose, com: self.com, correction: self.correction }
     }
 
-    pub(crate) fn restore(&mut self, placement: Placement) {
+    pub(crate) fn restore(&mut self, placement: &Placement) {
         (self.pose, self.com, self.correction) = (placement.pose, placement.com, placement.correction);
     }
 
@@ -222,4 +235,15 @@ impl LinkedBody {
         let external = self.external_impulse.fixed_rows::<3>(3) - self.gyroscopic_impulse;
         self.angular_momentum(&(self.inverse_mass.angular * (angular + external))) - external
     }
+}
+
+/// The rotation by a vector. Small ones by the first terms of the series of sine and cosine, which are exact to the last digits.
+fn rotation_by(vector: &Vector3<f64>) -> UnitQuaternion<f64> {
+    let square = vector.norm_squared() / 4.0;
+    if square > SMALL_HALF_ANGLE * SMALL_HALF_ANGLE {
+        return UnitQuaternion::from_scaled_axis(*vector);
+    }
+    let cosine = 1.0 - square / 2.0 * (1.0 - square / 12.0 * (1.0 - square / 30.0));
+    let sine = 0.5 - square / 12.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0));
+    UnitQuaternion::new_unchecked(Quaternion::from_parts(cosine, vector * sine))
 }

@@ -30,6 +30,10 @@ pub struct Mechanism {
     pub(crate) pattern: Pattern,
     pub(crate) matrix: Matrix,
     pub(crate) contacts: Contacts,
+    /// A segment for each joint, reused by each solution.
+    impulses: Vec<Segment>,
+    /// The same for the correction of positions.
+    pub(crate) errors: Vec<Segment>,
     /// Number of bodies that joints link; guests come after them.
     linked: usize,
     /// Length of the step, seconds.
@@ -70,6 +74,8 @@ impl Mechanism {
             pattern,
             matrix: Matrix::default(),
             contacts: Contacts::default(),
+            impulses: Vec::new(),
+            errors: Vec::new(),
             step: 0.0,
         }
     }
@@ -143,17 +149,16 @@ impl Mechanism {
     /// Force and torque about the centre of mass (N, N m, world axes) that an engine is to apply to each body during the step, beside
     /// gravity, external forces and contacts, but instead of the gyroscopic torque; None for bodies that no force moves.
     pub fn body_loads(&self) -> Vec<Option<Vector6<f64>>> {
-        let mut impulses = vec![Vector6::zeros(); self.bodies.len()];
-        for joint in &self.joints {
-            let total = joint.total_impulse();
-            for side in 0..2 {
-                impulses[joint.body(side)] += joint.jacobians[side].impulse(&total);
-            }
-        }
+        let mut impulses: Vec<Vector6<f64>> = self.bodies.iter().map(|body| body.joint_impulse).collect();
         self.add_contact_impulses(&mut impulses);
         let load =
             |(body, impulse): (&LinkedBody, _)| body.is_dynamic().then(|| body.engine_impulse(&impulse) / self.step);
         self.bodies.iter().zip(impulses).map(load).collect()
+    }
+
+    /// The velocities of the bodies at the end of the step: of the centre of mass (m/s), then angular (rad/s), along the axes of the world.
+    pub fn velocities(&self) -> impl Iterator<Item = &Vector6<f64>> {
+        self.bodies.iter().map(|body| &body.velocity)
     }
 
     /// Forces and torques of the joints and their motors.
@@ -166,11 +171,15 @@ impl Mechanism {
         self.matrix.clear(&self.pattern);
         self.joints.iter_mut().for_each(|joint| joint.update_effective_mass(&self.bodies));
         for Coupling { row, column, place } in &self.couplings {
-            let (left, right) =
-                (&self.joints[row.0].active_inverse_mass[row.1], &self.joints[column.0].active[column.1]);
+            let (joint, other) = (&self.joints[row.0], &self.joints[column.0]);
             match *place {
-                Place::Diagonal(index) => left.add_lower_product(right, &mut self.matrix.diagonal[index]),
-                Place::Below(index) => left.add_product(right, &mut self.matrix.below[index]),
+                Place::Diagonal(index) => {
+                    joint.add_own_response(row.1, &self.bodies, &mut self.matrix.diagonal[index]);
+                }
+                Place::Below(index) => {
+                    let below = &mut self.matrix.below[index];
+                    joint.active_inverse_mass[row.1].add_product(&other.active[column.1], below);
+                }
             }
         }
         for diagonal in &mut self.matrix.diagonal {
@@ -192,13 +201,17 @@ impl Mechanism {
             }
         }
         for joint in &self.joints {
-            joint.apply_impulse(&mut self.bodies, &joint.saturated_impulse());
+            if let Some(saturated) = joint.saturated_impulse() {
+                joint.apply_impulse(&mut self.bodies, &saturated);
+            }
         }
-        let mut impulses: Vec<Segment> = self.joints.iter().map(|joint| joint.right_hand_side(&self.bodies)).collect();
-        self.matrix.solve(&self.pattern, &mut impulses);
-        for (joint, impulse) in self.joints.iter_mut().zip(impulses) {
-            joint.impulse = impulse;
-            joint.apply_impulse(&mut self.bodies, &impulse);
+        let Self { joints, bodies, impulses, .. } = self;
+        impulses.clear();
+        impulses.extend(joints.iter().map(|joint| joint.right_hand_side(bodies)));
+        self.matrix.solve(&self.pattern, impulses);
+        for (joint, impulse) in joints.iter_mut().zip(impulses) {
+            joint.impulse = *impulse;
+            joint.apply_impulse(bodies, impulse);
         }
     }
 }

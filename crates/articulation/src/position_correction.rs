@@ -2,12 +2,13 @@
 
 use nalgebra::{Vector3, Vector6};
 
-use crate::block_cholesky::Segment;
 use crate::linked_body::{BodyMotion, LinkedBody, Placement};
 use crate::mechanism::Mechanism;
 
 /// Errors this small are none, metres and radians.
 const CLOSED: f64 = 1e-9;
+/// So much of the gap that a step left is none either, but for loops: where they can fold two ways, they need all digits.
+const NEGLIGIBLE: f64 = 1e-4;
 /// Errors that should have been corrected at once, metres and radians.
 const WIDE: f64 = 1e-4;
 /// Largest number of corrections in a step.
@@ -25,7 +26,7 @@ impl Mechanism {
     /// `motions`: of all bodies after the step. `turned`: how far each joint turned in it (rad), known to half a turn. Returns where bodies
     /// belong and how they move; None for those that are right.
     pub fn correct_positions(&mut self, motions: &[BodyMotion], turned: &[f64]) -> Vec<Option<BodyMotion>> {
-        let spins = self.fast_spins(motions, self.step);
+        let spins = self.fast_spins(motions, self.step).into_iter().chain(std::iter::repeat(None));
         for ((body, motion), spin) in self.bodies.iter_mut().zip(motions).zip(spins) {
             let before = body.pose.rotation;
             body.place(motion.pose);
@@ -44,25 +45,23 @@ impl Mechanism {
     /// Corrections act along the joints as they were. Where that leads nowhere, as near a position in which a loop can fold two ways, the bodies
     /// are taken back and corrected along the joints as they are. False when wide errors remain.
     fn close_gaps(&mut self, turned: &[f64]) -> bool {
-        let mut errors = self.position_errors(turned);
-        let mut largest = largest_error(&errors);
+        let mut largest = self.find_errors(turned);
+        let closed = if self.has_loops() { CLOSED } else { CLOSED.max(largest * NEGLIGIBLE) };
         let mut is_current = false;
         let begin = (largest > WIDE && self.has_loops()).then(|| (largest, self.placements()));
         for _ in 0..ITERATIONS {
-            if largest < CLOSED || !largest.is_finite() || !self.matrix.is_factor() {
+            if largest < closed || !largest.is_finite() || !self.matrix.is_factor() {
                 break;
             }
             let placements = self.placements();
-            let mut multipliers = errors.clone();
-            self.matrix.solve(&self.pattern, &mut multipliers);
-            self.displace(&multipliers);
-            let left = self.position_errors(turned);
-            let now = largest_error(&left);
+            self.displace();
+            let now = self.find_errors(turned);
             if now <= largest * (1.0 - PROGRESS) || is_current {
-                (errors, largest, is_current) = (left, now, false);
+                (largest, is_current) = (now, false);
                 continue;
             }
-            self.restore(placements);
+            self.restore(&placements);
+            largest = self.find_errors(turned);
             if !self.update_system() {
                 break;
             }
@@ -70,7 +69,7 @@ impl Mechanism {
         }
         // Errors that cannot be closed, as in a loop that is too short, remain.
         if let Some((_, placements)) = begin.filter(|(before, _)| largest > before * (1.0 - PROGRESS)) {
-            self.restore(placements);
+            self.restore(&placements);
         }
         largest <= WIDE
     }
@@ -79,12 +78,16 @@ impl Mechanism {
         self.bodies.iter().map(LinkedBody::placement).collect()
     }
 
-    fn restore(&mut self, placements: Vec<Placement>) {
+    fn restore(&mut self, placements: &[Placement]) {
         self.bodies.iter_mut().zip(placements).for_each(|(body, placement)| body.restore(placement));
     }
 
-    fn position_errors(&self, turned: &[f64]) -> Vec<Segment> {
-        self.joints.iter().zip(turned).map(|(joint, turned)| joint.position_error(&self.bodies, *turned)).collect()
+    /// Finds the errors of all joints; returns the largest one.
+    fn find_errors(&mut self, turned: &[f64]) -> f64 {
+        let Self { joints, bodies, errors, .. } = self;
+        errors.clear();
+        errors.extend(joints.iter().zip(turned).map(|(joint, turned)| joint.position_error(bodies, *turned)));
+        errors.iter().map(|error| error.amax()).fold(0.0, f64::max)
     }
 
     /// The system for where the bodies are now; false when it cannot be solved.
@@ -97,16 +100,18 @@ impl Mechanism {
         self.matrix.factorize(&self.pattern)
     }
 
-    /// Moves the bodies as impulses along the rows against the errors would.
-    fn displace(&mut self, multipliers: &[Segment]) {
-        let mut impulses = vec![Vector6::zeros(); self.bodies.len()];
-        for (joint, multiplier) in self.joints.iter().zip(multipliers) {
+    /// Moves the bodies as impulses along the rows against the errors would, which are used up.
+    fn displace(&mut self) {
+        let Self { joints, bodies, errors, matrix, pattern, .. } = self;
+        matrix.solve(pattern, errors);
+        bodies.iter_mut().for_each(|body| body.joint_impulse = Vector6::zeros());
+        for (joint, multiplier) in joints.iter().zip(errors) {
             for side in 0..2 {
-                impulses[joint.body(side)] -= joint.jacobians[side].impulse(multiplier);
+                bodies[joint.body(side)].joint_impulse -= joint.jacobians[side].impulse(multiplier);
             }
         }
-        for (body, impulse) in self.bodies.iter_mut().zip(impulses).filter(|(body, _)| body.is_dynamic()) {
-            body.displace(&body.inverse_mass.times(&impulse));
+        for body in bodies.iter_mut().filter(|body| body.is_dynamic()) {
+            body.displace(&body.inverse_mass.times(&body.joint_impulse));
         }
     }
 }
@@ -134,8 +139,4 @@ impl LinkedBody {
         velocity.fixed_rows_mut::<3>(3).copy_from(&angular);
         Some(BodyMotion { pose: self.pose, velocity })
     }
-}
-
-fn largest_error(errors: &[Segment]) -> f64 {
-    errors.iter().map(|error| error.amax()).fold(0.0, f64::max)
 }
