@@ -205,6 +205,11 @@ impl Body {
         self
     }
 
+    /// Whether the engine slows the body down.
+    pub(super) fn is_damped(&self) -> bool {
+        self.surface.linear_damping != 0.0 || self.surface.angular_damping != 0.0
+    }
+
     fn drifts(&self) -> bool {
         self.drift != Velocity::default() && self.drift.linear.iter().chain(&self.drift.angular).all(|x| x.is_finite())
     }
@@ -271,6 +276,11 @@ fn take_initial_velocity(scene: &mut Scene, shape: Handle) -> crate::scene::Scen
 }
 
 impl Bodies {
+    /// Whether a static body moves during this call.
+    pub(super) fn are_sweeping(&self) -> bool {
+        !self.sweeping.is_empty()
+    }
+
     /// Plans the way of the static bodies over the call: from where the engine has them to where the scene has them.
     pub(super) fn plan_sweeps(&mut self, world: &mut World, scene: &Scene) {
         self.sweeping.clear();

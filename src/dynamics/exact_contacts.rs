@@ -79,7 +79,7 @@ struct Search<'a> {
     mechanism: usize,
     /// Number of bodies of the mechanism, before its guests.
     linked: usize,
-    bases: BTreeMap<Handle, usize>,
+    bases: &'a BTreeMap<Handle, usize>,
     guests: Vec<Handle>,
     /// Colliders still to be looked at.
     queue: Vec<ColliderHandle>,
@@ -104,14 +104,14 @@ impl Side {
 }
 
 /// The mechanism that is to solve its contacts.
-pub(super) struct Touching {
+pub(super) struct Touching<'a> {
     pub mechanism: usize,
     /// Number of its bodies; guests come after them.
     pub linked: usize,
     /// The colliders of those that move.
-    pub colliders: Vec<ColliderHandle>,
+    pub colliders: &'a [ColliderHandle],
     /// Index of those that do not.
-    pub bases: BTreeMap<Handle, usize>,
+    pub bases: &'a BTreeMap<Handle, usize>,
 }
 
 impl ExactContacts {
@@ -130,7 +130,7 @@ impl ExactContacts {
         places: &BTreeMap<Handle, (usize, usize)>,
         verdicts: &Verdicts,
         step: f64,
-        touching: Touching,
+        touching: Touching<'_>,
     ) -> Option<Vec<Handle>> {
         let Touching { mechanism, linked, colliders, bases } = touching;
         let mut search = Search {
@@ -142,7 +142,7 @@ impl ExactContacts {
             linked,
             bases,
             guests: Vec::new(),
-            queue: colliders,
+            queue: colliders.to_vec(),
             seen: BTreeSet::new(),
             points: Vec::new(),
         };

@@ -1,15 +1,18 @@
 //! A mechanism with what it stands for in the scene and in rapier: reads the state of the bodies, solves, applies what was found. Only what
 //! reads and applies needs the world, so that mechanisms can be solved at the same time.
 
+use std::collections::BTreeMap;
+
 use articulation::{BodyMotion, BodyProperties, BodyState, Contact, JointState, Mechanism, spatial};
 use geometry::Finite;
 use nalgebra::Vector6;
-use rapier3d_f64::prelude::{RigidBody, RigidBodyHandle};
+use rapier3d_f64::prelude::{ColliderHandle, RigidBody, RigidBodyHandle};
 
 use super::bodies::{Bodies, Body};
 use super::convert::{from_pose, from_vector, to_pose, to_vector};
 use super::exact_contacts::Touching;
 use super::links::{Link, Links};
+use super::reach::Reach;
 use super::world::World;
 use crate::scene::Handle;
 
@@ -25,8 +28,11 @@ pub(super) struct Linked {
     bodies: Vec<LinkedShape>,
     /// Free bodies that touch the mechanism.
     guests: Vec<LinkedShape>,
-    /// In the order of the mechanism's joints.
-    links: Vec<Handle>,
+    /// The places of the links, in the order of the mechanism's joints.
+    links: Vec<usize>,
+    /// The colliders of the bodies that move, and the indices of the shapes that do not.
+    colliders: Vec<ColliderHandle>,
+    bases: BTreeMap<Handle, usize>,
     /// Whether rapier solves the links as well.
     pub shared: bool,
     input: Input,
@@ -57,32 +63,27 @@ pub(super) struct LinkedShape {
     pub is_dynamic: bool,
     /// Forces and torques of scripts: they outlast a sub-step, those of links do not.
     external: Vector6<f64>,
+    /// Whether the engine slows the body down.
+    is_damped: bool,
+    reach: Reach,
 }
 
 /// Lets rapier hold the links as well, or not: where the mechanism solves its contacts there is nothing to add.
-pub(super) fn share(handles: &[Handle], with_engine: bool, links: &mut Links, world: &mut World) {
-    for handle in handles {
-        if let Some(link) = links.get_mut(handle) {
-            link.share(with_engine, world);
-        }
-    }
+pub(super) fn share(places: &[usize], with_engine: bool, links: &mut Links, world: &mut World) {
+    places.iter().for_each(|&place| links.at_mut(place).share(with_engine, world));
 }
 
 /// Notes in how many parts rapier makes the next sub-step for linked bodies, and lets it iterate accordingly if it holds the links.
 pub(super) fn divide(
     bodies: &[LinkedShape],
-    handles: &[Handle],
+    places: &[usize],
     with_engine: bool,
     links: &mut Links,
     world: &mut World,
 ) {
     let moving = || bodies.iter().filter(|body| body.is_dynamic);
     let parts = moving().map(|body| world.parts_of(body.rigid)).max().unwrap_or(1);
-    for handle in handles {
-        if let Some(link) = links.get_mut(handle) {
-            link.parts = parts;
-        }
-    }
+    places.iter().for_each(|&place| links.at_mut(place).parts = parts);
     let iterations = match (with_engine, parts) {
         (false, _) => 0,
         (true, 1) => UNDIVIDED_ITERATIONS,
@@ -99,12 +100,28 @@ pub(super) fn divide(
 }
 
 impl Linked {
-    pub(super) fn new(mechanism: Mechanism, bodies: Vec<LinkedShape>, links: Vec<Handle>) -> Self {
+    pub(super) fn new(
+        mechanism: Mechanism,
+        mut shapes: Vec<LinkedShape>,
+        links: Vec<usize>,
+        bodies: &Bodies,
+        world: &World,
+    ) -> Self {
+        let mut colliders = Vec::new();
+        for shape in shapes.iter_mut().filter(|shape| shape.is_dynamic) {
+            let Some(body) = bodies.get(shape.shape) else { continue };
+            colliders.extend(&body.colliders);
+            shape.reach = Reach::of(&body.colliders, &world.colliders);
+        }
+        let resting = shapes.iter().enumerate().filter(|(_, body)| !body.is_dynamic);
+        let bases = resting.map(|(index, body)| (body.shape, index)).collect();
         Self {
             mechanism,
-            bodies,
+            bodies: shapes,
             guests: Vec::new(),
             links,
+            colliders,
+            bases,
             shared: false,
             input: Input::default(),
             is_solved: false,
@@ -112,7 +129,7 @@ impl Linked {
         }
     }
 
-    pub(super) fn links(&self) -> &[Handle] {
+    pub(super) fn links(&self) -> &[usize] {
         &self.links
     }
 
@@ -121,13 +138,8 @@ impl Linked {
     }
 
     /// What the search for contacts has to know of the mechanism.
-    pub(super) fn touching(&self, mechanism: usize, bodies: &Bodies) -> Touching {
-        let moving = self.bodies.iter().filter(|body| body.is_dynamic);
-        let colliders =
-            moving.filter_map(|body| bodies.get(body.shape)).flat_map(|body| body.colliders.iter().copied());
-        let resting = self.bodies.iter().enumerate().filter(|(_, body)| !body.is_dynamic);
-        let bases = resting.map(|(index, body)| (body.shape, index)).collect();
-        Touching { mechanism, linked: self.bodies.len(), colliders: colliders.collect(), bases }
+    pub(super) fn touching(&self, mechanism: usize) -> Touching<'_> {
+        Touching { mechanism, linked: self.bodies.len(), colliders: &self.colliders, bases: &self.bases }
     }
 
     /// Takes free bodies in for a sub-step.
@@ -148,7 +160,7 @@ impl Linked {
         }
     }
 
-    /// Reads where bodies and links are, and what acts on them; `contacts`: those that the mechanism solves. Without a body or a link that
+    /// Reads where bodies and links are, and what acts on them; `contacts`: those that the mechanism solves. Without a body that
     /// rapier lacks there is nothing to be solved.
     pub(super) fn read(&mut self, links: &Links, world: &World, gravity: [f64; 3], step: f64, contacts: Vec<Contact>) {
         let Input { bodies, joints, pushes, .. } = &mut self.input;
@@ -161,7 +173,7 @@ impl Linked {
             body.external = state.force;
             bodies.push(state);
         }
-        joints.extend(self.links.iter().filter_map(|handle| links.get(handle).map(joint_state)));
+        joints.extend(self.links.iter().map(|&place| joint_state(links.at(place))));
         (self.input.contacts, self.input.gravity, self.input.step) = (contacts, gravity, step);
     }
 
@@ -173,12 +185,51 @@ impl Linked {
     /// Finds the forces for what was read.
     pub(super) fn solve(&mut self) {
         let Input { bodies, joints, contacts, pushes, gravity, step, .. } = &self.input;
-        self.is_solved = bodies.len() == self.bodies.len() + self.guests.len() && joints.len() == self.links.len();
+        self.is_solved = bodies.len() == self.bodies.len() + self.guests.len();
         if self.is_solved {
             self.mechanism.begin(bodies, joints, *gravity, *step);
             pushes.iter().for_each(|&(body, impulse, point)| self.mechanism.add_impulse(body, impulse, point));
             self.mechanism.set_contacts(contacts);
             self.is_solved = self.mechanism.solve();
+        }
+    }
+
+    /// Whether nothing but the mechanism acts on its bodies in this sub-step, and nothing could be in the way of a fast one.
+    pub(super) fn can_integrate(&self) -> bool {
+        let is_usual = |body: &LinkedShape, velocity| {
+            !body.is_dynamic || !body.is_damped && !body.reach.is_exceeded(velocity, self.input.step)
+        };
+        let mut moving = self.bodies.iter().zip(self.mechanism.velocities());
+        self.is_solved
+            && !self.shared
+            && self.guests.is_empty()
+            && moving.all(|(body, velocity)| is_usual(body, velocity))
+    }
+
+    /// Finds where the bodies are after the sub-step, for [`apply_positions`](Self::apply_positions).
+    pub(super) fn integrate(&mut self) {
+        let Input { motions, turned, .. } = &mut self.input;
+        motions.clear();
+        motions.extend(self.mechanism.integrate());
+        turned.clear();
+        turned.extend(self.mechanism.turns());
+        self.corrected = self.mechanism.correct_positions(motions, turned);
+        for (corrected, motion) in self.corrected.iter_mut().zip(motions) {
+            corrected.get_or_insert(*motion);
+        }
+    }
+
+    /// Moves the shapes to where the bodies are before the correction, as the engine would, and tells the links how far they turned.
+    pub(super) fn apply_motions(&self, links: &mut Links, world: &mut World) {
+        for (&place, turned) in self.links.iter().zip(&self.input.turned) {
+            links.at_mut(place).turned = *turned;
+        }
+        let solid =
+            self.bodies.iter().zip(&self.input.motions).filter(|(body, _)| body.is_dynamic && body.reach.is_solid());
+        for (body, motion) in solid {
+            if let Some(rigid) = world.bodies.get_mut(body.rigid) {
+                rigid.set_position(to_pose(&motion.pose), false);
+            }
         }
     }
 
@@ -192,13 +243,15 @@ impl Linked {
         self.mechanism.contact_impulses()
     }
 
-    /// Applies the forces to bodies and links.
-    pub(super) fn apply_forces(&self, links: &mut Links, world: &mut World) {
-        for (handle, load) in self.links.iter().zip(self.mechanism.joint_loads()) {
-            if let Some(link) = links.get_mut(handle) {
-                link.set_solution(&load, world);
-            }
+    /// Tells the links what they bear.
+    pub(super) fn apply_loads(&self, links: &mut Links, world: &mut World) {
+        for (&place, load) in self.links.iter().zip(self.mechanism.joint_loads()) {
+            links.at_mut(place).set_solution(&load, world);
         }
+    }
+
+    /// Applies the forces to the bodies.
+    pub(super) fn apply_forces(&self, world: &mut World) {
         for (body, load) in self.bodies.iter().chain(&self.guests).zip(self.mechanism.body_loads()) {
             if let (Some(load), Some(rigid)) = (load, world.bodies.get_mut(body.rigid)) {
                 rigid.add_force(to_vector(linear(&load)), true);
@@ -214,21 +267,21 @@ impl Linked {
         motions.clear();
         motions.extend(self.bodies.iter().filter_map(|body| world.bodies.get(body.rigid).map(motion)));
         turned.clear();
-        turned.extend(self.links.iter().filter_map(|handle| links.get(handle).map(|link| link.turned)));
+        turned.extend(self.links.iter().map(|&place| links.at(place).turned));
     }
 
     /// Corrects the positions so that the links hold.
     pub(super) fn correct_positions(&mut self) {
         let Input { motions, turned, .. } = &self.input;
         self.corrected.clear();
-        if motions.len() == self.bodies.len() && turned.len() == self.links.len() {
+        if motions.len() == self.bodies.len() {
             self.corrected = self.mechanism.correct_positions(motions, turned);
         }
     }
 
     /// Moves the bodies to the corrected positions.
     pub(super) fn apply_positions(&self, world: &mut World) {
-        for (body, corrected) in self.bodies.iter().zip(&self.corrected) {
+        for (body, corrected) in self.bodies.iter().zip(&self.corrected).filter(|(body, _)| body.is_dynamic) {
             let Some(motion) = corrected.filter(|motion| motion.pose.is_finite()) else { continue };
             if let Some(rigid) = world.bodies.get_mut(body.rigid) {
                 rigid.set_position(to_pose(&motion.pose), false);
@@ -251,7 +304,14 @@ pub(super) fn properties(body: &Body) -> BodyProperties {
 
 impl LinkedShape {
     pub(super) fn new(shape: Handle, body: &Body) -> Self {
-        Self { shape, rigid: body.rigid, is_dynamic: body.build.dynamic, external: Vector6::zeros() }
+        Self {
+            shape,
+            rigid: body.rigid,
+            is_dynamic: body.build.dynamic,
+            external: Vector6::zeros(),
+            is_damped: body.is_damped(),
+            reach: Reach::default(),
+        }
     }
 
     fn remove_forces_of_links(&self, world: &mut World) {

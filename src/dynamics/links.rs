@@ -30,8 +30,48 @@ const SOFTNESS: SpringCoefficients<f64> = SpringCoefficients { natural_frequency
 /// A revolute joint with a wider range has no stops, radians.
 const WIDEST_STOPS: f64 = 359.0 * std::f64::consts::PI / 180.0;
 
-/// The links by their object.
-pub(super) type Links = BTreeMap<Handle, Link>;
+/// The links, in the order of the handles of their objects. Their places last until the next plan.
+#[derive(Default)]
+pub(super) struct Links(Vec<(Handle, Link)>);
+
+impl Links {
+    /// The place of the link of an object.
+    pub(super) fn place(&self, object: Handle) -> Option<usize> {
+        self.0.binary_search_by_key(&object, |(handle, _)| *handle).ok()
+    }
+
+    pub(super) fn contains(&self, object: Handle) -> bool {
+        self.place(object).is_some()
+    }
+
+    pub(super) fn get(&self, object: Handle) -> Option<&Link> {
+        self.place(object).map(|place| self.at(place))
+    }
+
+    pub(super) fn get_mut(&mut self, object: Handle) -> Option<&mut Link> {
+        self.place(object).map(|place| self.at_mut(place))
+    }
+
+    pub(super) fn at(&self, place: usize) -> &Link {
+        &self.0[place].1
+    }
+
+    pub(super) fn at_mut(&mut self, place: usize) -> &mut Link {
+        &mut self.0[place].1
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = (Handle, &Link)> {
+        self.0.iter().map(|(handle, link)| (*handle, link))
+    }
+
+    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = (Handle, &mut Link)> {
+        self.0.iter_mut().map(|(handle, link)| (*handle, link))
+    }
+
+    pub(super) fn values_mut(&mut self) -> impl Iterator<Item = &mut Link> {
+        self.0.iter_mut().map(|(_, link)| link)
+    }
+}
 
 /// A constraint in the engine.
 pub(super) struct Link {
@@ -71,7 +111,7 @@ pub(super) fn move_with_joints(
     scene: &Scene,
 ) {
     for (&handle, plan) in plans {
-        let Some(old) = links.get(&handle).filter(|old| old.plan.base != plan.base) else { continue };
+        let Some(old) = links.get(handle).filter(|old| old.plan.base != plan.base) else { continue };
         let ends = [plan.first, plan.second].map(|shape| bodies.get(shape).map(|body| body.rigid));
         let [Some(first), Some(second)] = ends else { continue };
         let Some(parent) = world.bodies.get(first).filter(|_| [first, second] == old.bodies) else { continue };
@@ -94,7 +134,7 @@ pub(super) fn apply_plan(
     world: &mut World,
     scene: &Scene,
 ) {
-    let mut old = std::mem::take(links);
+    let mut old: BTreeMap<Handle, Link> = std::mem::take(&mut links.0).into_iter().collect();
     for (handle, plan) in plans {
         let (Some(first), Some(second)) = (bodies.get(plan.first), bodies.get(plan.second)) else { continue };
         let ends = [first.rigid, second.rigid];
@@ -111,7 +151,7 @@ pub(super) fn apply_plan(
                 link.motion.position = joint.position + wrap_angle(link.motion.position - joint.position);
             }
         }
-        links.insert(handle, link);
+        links.0.push((handle, link));
     }
     for link in old.into_values() {
         world.joints.remove(link.joint, true);
@@ -274,7 +314,7 @@ fn locked_axes(plan: &LinkPlan) -> JointAxesMask {
 
 /// Clears the reset requests of links that were rebuilt.
 pub(super) fn clear_resets(links: &Links, scene: &mut Scene) {
-    for &handle in links.keys() {
+    for (handle, _) in links.iter() {
         if scene.object(handle).is_ok_and(|object| object.dynamics_reset) {
             // The handle was just read.
             let _ = scene.modify(handle, Field::Dynamics, |object| object.dynamics_reset = false);
@@ -284,7 +324,7 @@ pub(super) fn clear_resets(links: &Links, scene: &mut Scene) {
 
 /// Whether a script moved a link or requested a reset.
 pub(super) fn were_touched(links: &Links, scene: &Scene) -> bool {
-    links.iter().any(|(&handle, link)| {
+    links.iter().any(|(handle, link)| {
         scene.object(handle).map_or(true, |object| object.pose() != link.plan.base || object.dynamics_reset)
     })
 }

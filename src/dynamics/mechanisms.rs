@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use articulation::{BodyProperties, JointProperties, Mechanism};
 use geometry::partition;
-use rapier3d_f64::prelude::Collider;
+use rapier3d_f64::prelude::{Collider, RigidBody};
 
 use super::bodies::{Bodies, Tag};
 use super::contacts;
@@ -33,7 +33,7 @@ pub(super) struct Mechanisms {
     all: Vec<Linked>,
     joint_count: usize,
     /// Bodies and links that are left to rapier.
-    of_rapier: Vec<(Vec<LinkedShape>, Vec<Handle>)>,
+    of_rapier: Vec<(Vec<LinkedShape>, Vec<usize>)>,
     /// The mechanism of a body that moves, and its index there.
     places: BTreeMap<Handle, (usize, usize)>,
     /// Free bodies of which mechanisms solve the contacts in the present sub-step.
@@ -48,7 +48,7 @@ struct Builder {
     shapes: Vec<LinkedShape>,
     places: BTreeMap<Handle, usize>,
     joints: Vec<JointProperties>,
-    links: Vec<Handle>,
+    links: Vec<usize>,
     /// Whether a joint selects rapier's joints, and whether there is a screw, which rapier lacks.
     asks_rapier: bool,
     has_screw: bool,
@@ -61,8 +61,8 @@ impl Mechanisms {
         let builders = builders(links, order, bodies);
         let (of_rapier, exact): (Vec<Builder>, Vec<Builder>) = builders.into_iter().partition(Builder::is_for_rapier);
         self.of_rapier = of_rapier.into_iter().map(|builder| (builder.shapes, builder.links)).collect();
-        self.of_rapier.iter().for_each(|(_, handles)| share(handles, true, links, world));
-        self.all = exact.into_iter().map(Builder::build).collect();
+        self.of_rapier.iter().for_each(|(_, places)| share(places, true, links, world));
+        self.all = exact.into_iter().map(|builder| builder.build(bodies, world)).collect();
         self.joint_count = self.all.iter().map(|linked| linked.links().len()).sum();
         self.all.iter().for_each(|linked| linked.enable_engine_gyration(false, world));
         self.places = BTreeMap::new();
@@ -74,8 +74,8 @@ impl Mechanisms {
 
     /// Notes in how many parts rapier makes the next sub-step for linked bodies.
     pub(super) fn note_parts(&self, links: &mut Links, world: &mut World) {
-        for (bodies, handles) in &self.of_rapier {
-            divide(bodies, handles, true, links, world);
+        for (bodies, places) in &self.of_rapier {
+            divide(bodies, places, true, links, world);
         }
         for linked in &self.all {
             divide(linked.bodies(), linked.links(), linked.shared, links, world);
@@ -86,9 +86,9 @@ impl Mechanisms {
         self.all.is_empty()
     }
 
-    /// Finds the forces for a sub-step of `step` seconds, and applies them to bodies and links. `verdicts`: about contacts.
+    /// Finds the forces for a sub-step of `step` seconds, and tells the links what they bear. `verdicts`: about contacts.
     #[allow(clippy::too_many_arguments, reason = "what a sub-step starts from")]
-    pub(super) fn apply_forces(
+    pub(super) fn solve(
         &mut self,
         links: &mut Links,
         bodies: &Bodies,
@@ -100,7 +100,7 @@ impl Mechanisms {
     ) {
         self.contacts.clear();
         for (number, linked) in self.all.iter_mut().enumerate() {
-            let touching = linked.touching(number, bodies);
+            let touching = linked.touching(number);
             let guests = self.contacts.find(world, &self.places, verdicts, step, touching);
             linked.shared = guests.is_none();
             linked.receive(guests.unwrap_or_default(), bodies);
@@ -117,11 +117,28 @@ impl Mechanisms {
             linked.shared |= !linked.is_solved;
             share(linked.links(), linked.shared, links, world);
             if linked.is_solved {
-                linked.apply_forces(links, world);
+                linked.apply_loads(links, world);
             }
         }
         let alone = self.all.iter().filter(|linked| !linked.shared);
         self.guests = alone.flat_map(Linked::guests).collect();
+    }
+
+    /// Applies the forces to the bodies, which the engine then moves.
+    pub(super) fn apply_forces(&self, world: &mut World) {
+        self.all.iter().filter(|linked| linked.is_solved).for_each(|linked| linked.apply_forces(world));
+    }
+
+    /// Whether all that moves are bodies of mechanisms that were solved with all that acts on them: the engine has nothing to add.
+    pub(super) fn can_integrate(&self, world: &World) -> bool {
+        let moving = world.awake().filter(|&body| world.bodies.get(body).is_some_and(RigidBody::is_dynamic));
+        self.of_rapier.is_empty() && self.all.iter().all(Linked::can_integrate) && moving.count() == self.places.len()
+    }
+
+    /// Moves the bodies over the sub-step that was solved, and finds their corrected positions.
+    pub(super) fn integrate(&mut self, links: &mut Links, world: &mut World, workers: &mut Workers) {
+        self.for_each(workers, Linked::integrate);
+        self.all.iter().for_each(|linked| linked.apply_motions(links, world));
     }
 
     /// Calls `work` for every mechanism.
@@ -166,27 +183,32 @@ impl Mechanisms {
     pub(super) fn correct_positions(&mut self, links: &Links, world: &mut World, workers: &mut Workers) {
         self.all.iter_mut().for_each(|linked| linked.read_motions(links, world));
         self.for_each(workers, Linked::correct_positions);
+        self.apply_positions(world);
+    }
+
+    /// Moves the bodies to the corrected positions.
+    pub(super) fn apply_positions(&self, world: &mut World) {
         self.all.iter().for_each(|linked| linked.apply_positions(world));
     }
 }
 
 /// A builder for each set of links that hang together by bodies that move. Links at the tips come first, which are eliminated first.
 fn builders(links: &Links, order: &[Handle], bodies: &Bodies) -> Vec<Builder> {
-    let plan = |handle: &Handle| links.get(handle).map(|link| (*handle, &link.plan));
-    let plans: Vec<(Handle, &LinkPlan)> = order.iter().rev().filter_map(plan).collect();
+    let plan = |&handle: &Handle| links.place(handle).map(|place| (place, &links.at(place).plan));
+    let plans: Vec<(usize, &LinkPlan)> = order.iter().rev().filter_map(plan).collect();
     let moving = |shape: Handle| bodies.get(shape).filter(|body| body.build.dynamic).map(|_| shape);
-    let ends = |(_, plan): &(Handle, &LinkPlan)| [plan.first, plan.second].into_iter().filter_map(moving);
+    let ends = |(_, plan): &(usize, &LinkPlan)| [plan.first, plan.second].into_iter().filter_map(moving);
     let numbers = partition(plans.iter().map(ends));
     let mut builders = Vec::new();
     builders.resize_with(numbers.iter().max().map_or(0, |last| last + 1), Builder::default);
-    for ((handle, plan), number) in plans.into_iter().zip(numbers) {
-        builders[number].add(handle, plan, bodies);
+    for ((place, plan), number) in plans.into_iter().zip(numbers) {
+        builders[number].add(place, plan, bodies);
     }
     builders
 }
 
 impl Builder {
-    fn add(&mut self, link: Handle, plan: &LinkPlan, bodies: &Bodies) {
+    fn add(&mut self, link: usize, plan: &LinkPlan, bodies: &Bodies) {
         self.asks_rapier |= plan.solver == JointSolver::Impulse;
         self.has_screw |= plan.pitch != 0.0;
         if let (Some(first), Some(second)) = (self.body(plan.first, bodies), self.body(plan.second, bodies)) {
@@ -211,7 +233,7 @@ impl Builder {
         self.asks_rapier && !self.has_screw
     }
 
-    fn build(self) -> Linked {
-        Linked::new(Mechanism::new(self.bodies, self.joints), self.shapes, self.links)
+    fn build(self, bodies: &Bodies, world: &World) -> Linked {
+        Linked::new(Mechanism::new(self.bodies, self.joints), self.shapes, self.links, bodies, world)
     }
 }

@@ -28,6 +28,7 @@ mod load;
 mod mechanisms;
 mod motors;
 mod plan;
+mod reach;
 mod report;
 #[cfg(test)]
 mod tests;
@@ -85,6 +86,10 @@ pub(crate) struct Dynamics {
     known: Option<Mark>,
     call: Option<Call>,
     workers: Workers,
+    /// Whether the engine has made a step since the plan was made: before it does not know new bodies.
+    is_stepped: bool,
+    /// Whether a joint of the engine depends on one that only the scene moves.
+    follows_scene: bool,
 }
 
 /// A dynamics call in progress.
@@ -130,13 +135,19 @@ pub(crate) struct SubStep {
     verdicts: Verdicts,
     /// The pairs of colliders that mechanisms solve.
     apart: Vec<ColliderPair>,
+    /// Whether the mechanisms have moved all that moves, so that the engine only looks for collisions.
+    is_integrated: bool,
 }
 
 impl SubStep {
     /// Advances the engine; `callback` decides about pairs of shapes that may touch.
     pub(crate) fn run(&mut self, callback: Option<ContactCallback<'_>>) {
         let rules = contacts::Rules::new(callback, std::mem::take(&mut self.verdicts), &self.apart);
-        self.world.step(self.step, self.gravity, &rules);
+        if self.is_integrated {
+            self.world.detect_collisions(self.gravity, &rules);
+        } else {
+            self.world.step(self.step, self.gravity, &rules);
+        }
     }
 }
 
@@ -198,6 +209,7 @@ impl Dynamics {
         contacts::note_special(world);
         let_sleep(&self.bodies, &self.links, world);
         self.contacts.forget_resting();
+        self.is_stepped = false;
         self.mechanisms.rebuild(&mut self.links, &scene.all_breadth_first(), &self.bodies, world);
         // Changes made here need no new plan.
         self.has_new_changes(scene);
@@ -214,7 +226,7 @@ impl Dynamics {
         self.bodies.sweep(f64::from(sub_step) / f64::from(call.sub_steps), call.step, world);
         let engine = scene.settings().dynamics.engine.engine;
         let (mut requests, mut dependent) = (Vec::new(), Vec::new());
-        for (&handle, link) in &mut self.links {
+        for (handle, link) in self.links.iter_mut() {
             let Ok(joint) = scene.object(handle).and_then(|object| object.joint()) else { continue };
             if joint.mode == JointMode::Dependent {
                 dependent.push((handle, joint));
@@ -226,9 +238,11 @@ impl Dynamics {
             let drive = link.motor.drive(joint, engine, link.motion, call.step);
             link.set_drive(drive, world);
         }
+        self.follows_scene = false;
         for (handle, joint) in dependent {
+            self.follows_scene |= joint.dependency.is_some_and(|law| !self.links.contains(law.master));
             let master = master_of(scene, joint, &self.links);
-            let Some(link) = self.links.get_mut(&handle) else { continue };
+            let Some(link) = self.links.get_mut(handle) else { continue };
             let drive = master.and_then(|master| motors::coupled_drive(joint, link.motion, master, call.step));
             link.set_drive(drive, world);
         }
@@ -237,7 +251,7 @@ impl Dynamics {
 
     /// Sets the motor of a joint in callback control to the result of its script.
     pub(crate) fn drive(&mut self, joint: Handle, velocity: Option<f64>, force: Option<f64>) {
-        if let (Some(link), Some(world)) = (self.links.get_mut(&joint), self.world.as_mut()) {
+        if let (Some(link), Some(world)) = (self.links.get_mut(joint), self.world.as_mut()) {
             link.set_drive(motors::answered(velocity, force), world);
         }
     }
@@ -266,22 +280,40 @@ impl Dynamics {
         }
         let gravity = scene.settings().dynamics.gravity.map(f64::from);
         let gravity = if gravity.iter().all(|x| x.is_finite()) { gravity } else { [0.0; 3] };
-        if !self.mechanisms.is_empty() {
-            let (links, bodies, workers) = (&mut self.links, &self.bodies, &mut self.workers);
-            self.mechanisms.apply_forces(links, bodies, &mut world, gravity, call.step, &verdicts, workers);
-        }
+        let is_integrated = self.solve_mechanisms(&mut world, gravity, call.step, &verdicts);
         let apart = self.mechanisms.contacts().pairs();
         contacts::set_hooks(&mut world, &verdicts, &apart);
-        world.divide_touching(|collider| self.mechanisms.solves(collider));
-        self.mechanisms.note_parts(&mut self.links, &mut world);
+        if !is_integrated {
+            world.divide_touching(|collider| self.mechanisms.solves(collider));
+            self.mechanisms.note_parts(&mut self.links, &mut world);
+        }
         let seen = attention.watched || sub_step == call.sub_steps;
-        Some(SubStep { world, gravity: convert::to_vector(gravity), step: call.step, seen, verdicts, apart })
+        let gravity = convert::to_vector(gravity);
+        Some(SubStep { world, gravity, step: call.step, seen, verdicts, apart, is_integrated })
+    }
+
+    /// Solves the mechanisms, and moves their bodies if nothing else moves; whether it did.
+    fn solve_mechanisms(&mut self, world: &mut World, gravity: [f64; 3], step: f64, verdicts: &Verdicts) -> bool {
+        if self.mechanisms.is_empty() {
+            return false;
+        }
+        let (links, bodies, workers) = (&mut self.links, &self.bodies, &mut self.workers);
+        self.mechanisms.solve(links, bodies, world, gravity, step, verdicts, workers);
+        let is_usual = self.is_stepped && world.has_gravity(convert::to_vector(gravity)) && !self.bodies.are_sweeping();
+        let is_integrated = is_usual && self.mechanisms.can_integrate(world);
+        if is_integrated {
+            self.mechanisms.integrate(links, world, workers);
+        } else {
+            self.mechanisms.apply_forces(world);
+        }
+        self.is_stepped = true;
+        is_integrated
     }
 
     /// Whether the engine holds this shape, joint or force sensor.
     pub(crate) fn simulates(&self, object: Handle) -> bool {
         self.bodies.get(object).is_some()
-            || self.links.get(&object).is_some_and(|link| link.plan.kind != plan::LinkKind::Weld)
+            || self.links.get(object).is_some_and(|link| link.plan.kind != plan::LinkKind::Weld)
     }
 
     /// Shapes that had to be stopped since this was last asked: their motion was no longer one of numbers.
@@ -297,14 +329,14 @@ impl Dynamics {
 
 /// Bodies with links stay awake.
 fn let_sleep(bodies: &Bodies, links: &Links, world: &mut World) {
-    let linked: BTreeSet<Handle> = links.values().flat_map(|link| [link.plan.first, link.plan.second]).collect();
+    let linked: BTreeSet<Handle> = links.iter().flat_map(|(_, link)| [link.plan.first, link.plan.second]).collect();
     bodies.let_sleep(world, |shape| linked.contains(&shape));
 }
 
 /// Where the master of a joint is; one that nothing in the physics hangs on stands where the scene has it.
 fn master_of(scene: &Scene, joint: &Joint, links: &Links) -> Option<Motion> {
     let master = joint.dependency?.master;
-    links.get(&master).map(|link| link.motion).or_else(|| {
+    links.get(master).map(|link| link.motion).or_else(|| {
         let joint = scene.object(master).ok()?.joint().ok()?;
         Some(Motion { position: joint.position, velocity: 0.0 })
     })

@@ -28,17 +28,22 @@ pub(crate) struct Trigger {
 }
 
 impl Dynamics {
-    /// Takes the engine back after a sub-step and tells the scene: joints and force sensors first, then shapes, base-to-tip. Shapes only
-    /// when somebody can see them before the next sub-step, or when the engine gave up on one.
+    /// Takes the engine back after a sub-step and tells the scene: joints and force sensors first, then shapes, base-to-tip. Only when
+    /// somebody can see them before the next sub-step, or when the engine gave up on a shape.
     pub(crate) fn finish_sub_step(&mut self, sub_step: SubStep, scene: &mut Scene) {
-        let SubStep { mut world, step, seen, .. } = sub_step;
+        let SubStep { mut world, step, seen, is_integrated, .. } = sub_step;
         if self.call.is_none() {
             return;
         }
-        self.links.values_mut().for_each(|link| link.note_turn(&world, step));
-        self.mechanisms.correct_positions(&self.links, &mut world, &mut self.workers);
-        for (&handle, link) in &mut self.links {
-            if let Some(moving_side) = link.after_step(&world, step) {
+        if is_integrated {
+            self.mechanisms.apply_positions(&mut world);
+        } else {
+            self.links.values_mut().for_each(|link| link.note_turn(&world, step));
+            self.mechanisms.correct_positions(&self.links, &mut world, &mut self.workers);
+        }
+        let reports = seen || self.follows_scene;
+        for (handle, link) in self.links.iter_mut() {
+            if let Some(moving_side) = link.after_step(&world, step).filter(|_| reports) {
                 report_link(scene, handle, link, moving_side);
             }
         }
@@ -94,7 +99,7 @@ impl Dynamics {
                 Ok(())
             });
         }
-        let triggers = self.links.iter().filter_map(|(&handle, link)| read(scene, handle, link)).collect();
+        let triggers = self.links.iter().filter_map(|(handle, link)| read(scene, handle, link)).collect();
         self.write_flags(scene);
         triggers
     }
@@ -120,11 +125,9 @@ impl Dynamics {
                 flags.set(DynamicFlags::DYNAMIC, body.build.dynamic);
                 flags
             }),
-            Kind::Joint(_) if self.links.contains_key(&handle) => DynamicFlags::JOINT,
-            Kind::ForceSensor(_) if self.links.contains_key(&handle) => DynamicFlags::FORCE_SENSOR,
-            Kind::Dummy(dummy)
-                if [Some(handle), dummy.link].iter().flatten().any(|end| self.links.contains_key(end)) =>
-            {
+            Kind::Joint(_) if self.links.contains(handle) => DynamicFlags::JOINT,
+            Kind::ForceSensor(_) if self.links.contains(handle) => DynamicFlags::FORCE_SENSOR,
+            Kind::Dummy(dummy) if [Some(handle), dummy.link].iter().flatten().any(|&end| self.links.contains(end)) => {
                 DynamicFlags::DUMMY
             }
             _ => DynamicFlags::empty(),
@@ -140,7 +143,7 @@ fn is_root(scene: &Scene, shape: Handle) -> bool {
 fn is_held(links: &Links, scene: &Scene, shape: Handle) -> bool {
     let parent = scene.object(shape).ok().and_then(|object| object.parent());
     parent
-        .and_then(|parent| links.get(&parent))
+        .and_then(|parent| links.get(parent))
         .is_some_and(|link| link.plan.second_is_child && link.plan.second == shape)
 }
 

@@ -69,10 +69,32 @@ impl World {
 
     /// Advances everything by `step` seconds under `gravity` (m/s2).
     pub(super) fn step(&mut self, step: f64, gravity: Vector, hooks: &dyn PhysicsHooks) {
-        self.parameters.dt = step;
         if self.gravity.replace(gravity).is_some_and(|before| before != gravity) {
             self.wake_all();
         }
+        self.run_pipeline(step, gravity, hooks);
+        // Only those are changed: rapier processes every body that may have changed.
+        let awake = self.islands.active_bodies();
+        let fast = awake.filter(|&handle| self.bodies.get(handle).is_some_and(|rigid| turns_fast(rigid, step)));
+        for handle in fast.collect::<Vec<_>>() {
+            if let Some(rigid) = self.bodies.get_mut(handle) {
+                complete_turn(rigid, step);
+            }
+        }
+    }
+
+    /// Finds what touches what, and moves nothing: a step of no length.
+    pub(super) fn detect_collisions(&mut self, gravity: Vector, hooks: &dyn PhysicsHooks) {
+        self.run_pipeline(0.0, gravity, hooks);
+    }
+
+    /// Whether the last step was made under the same gravity.
+    pub(super) fn has_gravity(&self, gravity: Vector) -> bool {
+        self.gravity == Some(gravity)
+    }
+
+    fn run_pipeline(&mut self, step: f64, gravity: Vector, hooks: &dyn PhysicsHooks) {
+        self.parameters.dt = step;
         self.pipeline.step(
             gravity,
             &self.parameters,
@@ -88,14 +110,6 @@ impl World {
             hooks,
             &(),
         );
-        // Only those are changed: rapier processes every body that may have changed.
-        let awake = self.islands.active_bodies();
-        let fast = awake.filter(|&handle| self.bodies.get(handle).is_some_and(|rigid| turns_fast(rigid, step)));
-        for handle in fast.collect::<Vec<_>>() {
-            if let Some(rigid) = self.bodies.get_mut(handle) {
-                complete_turn(rigid, step);
-            }
-        }
     }
 
     /// Selects the bodies that are solved in parts: those in contact. Mechanisms solve their own contacts, in whole sub-steps: `exact` says which
