@@ -195,7 +195,7 @@ impl Dynamics {
         links::move_with_joints(&self.links, &plan.links, &self.bodies, world, scene);
         links::apply_plan(&mut self.links, plan.links, &self.bodies, world, scene);
         links::clear_resets(&self.links, scene);
-        contacts::note_special(world);
+        contacts::note_colliders(world);
         let_sleep(&self.bodies, &self.links, world);
         self.contacts.forget_resting();
         self.mechanisms.rebuild(&mut self.links, &scene.all_breadth_first(), &self.bodies, world);

@@ -44,8 +44,40 @@ pub(super) struct World {
     parameters: IntegrationParameters,
     /// Of the step before.
     gravity: Option<Vector>,
+    pub known: Known,
+}
+
+/// What only changes with the plan, so that it need not be looked up for each pair of colliders.
+#[derive(Default)]
+pub(super) struct Known {
+    /// By index.
+    colliders: Vec<Option<KnownCollider>>,
     /// Whether shapes have masks of their own, or no friction.
     pub is_special: bool,
+    /// Whether there are shapes of several colliders.
+    pub is_composite: bool,
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct KnownCollider {
+    handle: ColliderHandle,
+    /// Its user data.
+    pub tag: u128,
+    pub moves: bool,
+}
+
+impl Known {
+    pub(super) fn add(&mut self, handle: ColliderHandle, tag: u128, moves: bool) {
+        let index = handle.into_raw_parts().0 as usize;
+        self.colliders.resize(self.colliders.len().max(index + 1), None);
+        self.colliders[index] = Some(KnownCollider { handle, tag, moves });
+    }
+
+    /// A collider that is still there.
+    pub(super) fn of(&self, handle: ColliderHandle) -> Option<&KnownCollider> {
+        let known = self.colliders.get(handle.into_raw_parts().0 as usize)?.as_ref();
+        known.filter(|known| known.handle == handle)
+    }
 }
 
 impl World {
@@ -63,7 +95,7 @@ impl World {
             pipeline: PhysicsPipeline::new(),
             parameters: parameters(),
             gravity: None,
-            is_special: false,
+            known: Known::default(),
         }
     }
 
