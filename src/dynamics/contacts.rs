@@ -151,7 +151,7 @@ impl PhysicsHooks for Rules<'_> {
 pub(super) fn pairs_near(world: &World) -> Vec<(Handle, Handle)> {
     let known = &world.known;
     let near = |pair: &ContactPair| {
-        let [first, second] = [known.of(pair.collider1)?, known.of(pair.collider2)?];
+        let [first, second] = known.pair(pair)?;
         let [a, b] = [Tag::unpack(first.tag), Tag::unpack(second.tag)];
         let may_touch = (first.moves || second.moves) && a.shape != b.shape && masks_overlap(a, b);
         may_touch.then_some((a.shape, b.shape))
@@ -178,13 +178,14 @@ pub(super) fn tags(
 /// shall not for others; whether scripts look on changes nothing.
 pub(super) fn set_hooks(world: &mut World, verdicts: &Verdicts, apart: &[ColliderPair]) {
     let asked = asked_about(world, verdicts, apart);
+    let is_asked = |handle: ColliderHandle| asked.get(handle.into_raw_parts().0 as usize).is_some_and(|&asked| asked);
     let awake = world.awake().filter_map(|body| world.bodies.get(body)).flat_map(|rigid| rigid.colliders());
-    let others = asked.iter().filter_map(|&index| Some(world.colliders.get_unknown_gen(index)?.1));
+    let others = (0..).zip(&asked).filter(|(_, asked)| **asked);
+    let others = others.filter_map(|(index, _)| Some(world.colliders.get_unknown_gen(index)?.1));
     let hooks = |handle: ColliderHandle| {
         let collider = world.colliders.get(handle)?;
         let rigid = world.bodies.get(collider.parent()?).filter(|rigid| rigid.is_dynamic())?;
-        let is_asked = asked.contains(&handle.into_raw_parts().0) || is_fast(rigid);
-        let hooks = if is_asked { ALL_HOOKS } else { ActiveHooks::empty() };
+        let hooks = if is_asked(handle) || is_fast(rigid) { ALL_HOOKS } else { ActiveHooks::empty() };
         (collider.active_hooks() != hooks).then_some((handle, hooks))
     };
     let changes: Vec<_> = awake.copied().chain(others).filter_map(hooks).collect();
@@ -198,18 +199,24 @@ pub(super) fn set_hooks(world: &mut World, verdicts: &Verdicts, apart: &[Collide
     }
 }
 
-/// The colliders in pairs that do not just collide, by index.
-fn asked_about(world: &World, verdicts: &Verdicts, apart: &[ColliderPair]) -> BTreeSet<u32> {
-    let mut asked: BTreeSet<u32> = apart.iter().flat_map(|&(first, second)| [first, second]).collect();
+/// Whether colliders are in pairs that do not just collide, by index.
+fn asked_about(world: &World, verdicts: &Verdicts, apart: &[ColliderPair]) -> Vec<bool> {
+    let mut asked = Vec::new();
+    let mut ask = |pair: ColliderPair| {
+        for index in [pair.0 as usize, pair.1 as usize] {
+            asked.resize(asked.len().max(index + 1), false);
+            asked[index] = true;
+        }
+    };
+    apart.iter().copied().for_each(&mut ask);
     if !world.known.is_special && !verdicts.is_special {
         return asked;
     }
     for pair in world.narrow_phase.contact_pairs() {
-        let colliders = [pair.collider1, pair.collider2];
-        let [Some(first), Some(second)] = colliders.map(|collider| world.colliders.get(collider)) else { continue };
-        let response = verdicts.response(Tag::unpack(first.user_data), Tag::unpack(second.user_data));
-        if response != ContactResponse::Default || friction(first, second) == 0.0 {
-            asked.extend(colliders.map(|collider| collider.into_raw_parts().0));
+        let Some([first, second]) = world.known.pair(pair) else { continue };
+        let response = verdicts.response(Tag::unpack(first.tag), Tag::unpack(second.tag));
+        if response != ContactResponse::Default || first.friction(second) == 0.0 {
+            ask(pair_of([pair.collider1, pair.collider2]));
         }
     }
     asked
@@ -220,8 +227,7 @@ pub(super) fn note_colliders(world: &mut World) {
     let mut known = Known::default();
     let mut shapes = BTreeSet::new();
     for (handle, collider) in world.colliders.iter() {
-        let rigid = collider.parent().and_then(|body| world.bodies.get(body));
-        known.add(handle, collider.user_data, rigid.is_some_and(RigidBody::is_dynamic));
+        known.add(handle, collider, &world.bodies);
         let tag = Tag::unpack(collider.user_data);
         known.is_special |= tag.mask != u16::MAX || collider.friction() == 0.0;
         known.is_composite |= !shapes.insert(tag.shape);

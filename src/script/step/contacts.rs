@@ -14,21 +14,21 @@ pub(super) const CONTACT: [SysCall; 2] = [SysCall::ContactCallback, SysCall::Con
 
 /// The table that scripts get, of the pair before. Making a new one would take as long as the call.
 #[derive(Default)]
-pub(super) struct Question(Cell<Option<Data>>);
+pub(super) struct Question(Cell<Vec<Data>>);
 
 impl Question {
-    fn about(&self, first: Handle, second: Handle, engine: Engine) -> Data {
-        let values = [first.raw(), second.raw(), engine.number()].map(Data::Int);
-        match self.0.take() {
-            Some(Data::Map(mut entries)) => {
-                entries.iter_mut().zip(values).for_each(|((_, known), value)| *known = value);
-                Data::Map(entries)
-            }
-            _ => {
-                let [first, second, engine] = values;
-                Data::map([("handle1", first), ("handle2", second), ("engine", engine)])
+    /// The arguments of the callbacks.
+    fn about(&self, first: Handle, second: Handle, engine: Engine) -> Vec<Data> {
+        let mut arguments = self.0.take();
+        if arguments.is_empty() {
+            arguments = vec![Data::map(["handle1", "handle2", "engine"].map(|key| (key, Data::Nil)))];
+        }
+        if let [Data::Map(entries)] = &mut arguments[..] {
+            for ((_, known), value) in entries.iter_mut().zip([first.raw(), second.raw(), engine.number()]) {
+                *known = Data::Int(value);
             }
         }
+        arguments
     }
 }
 
@@ -41,12 +41,11 @@ impl Sim {
         second: Handle,
     ) -> ContactResponse {
         let engine = self.scene.borrow().settings().dynamics.engine.engine;
-        let data = [question.about(first, second, engine)];
+        let arguments = question.about(first, second, engine);
         let mut callbacks = CONTACT.into_iter().filter(|&callback| self.scripts.may_respond(callback));
         let answer =
-            callbacks.find_map(|callback| self.first_answer(&self.active_scripts_reversed(), callback, &data));
-        let [data] = data;
-        question.0.set(Some(data));
+            callbacks.find_map(|callback| self.first_answer(&self.active_scripts_reversed(), callback, &arguments));
+        question.0.set(arguments);
         answer.map_or(ContactResponse::Default, |answer| response(&answer, engine))
     }
 }
