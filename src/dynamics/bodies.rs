@@ -20,7 +20,7 @@ use crate::scene::{Field, Handle, Pose, Scene};
 /// A static body that moved less than this between two calls has not moved: metres and radians.
 const STILL: (f64, f64) = (1e-5, 0.05 * std::f64::consts::PI / 180.0);
 /// A body of which no point moves faster, metres per second, for so many seconds, falls asleep, with all that it touches.
-const RESTING: (f64, f64) = (1e-5, 1.0);
+const RESTING: (f64, f64) = (1e-5, 0.5);
 /// The threshold of bodies that stay awake.
 const NEVER: f64 = -1.0;
 

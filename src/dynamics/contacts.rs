@@ -1,18 +1,18 @@
 //! Contacts: collision filters, callbacks of scripts, and the contact impulses that the links need.
 
 use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
     ActiveHooks, CoefficientCombineRule, Collider, ColliderHandle, ColliderSet, ContactManifold,
-    ContactModificationContext, PairFilterContext, PhysicsHooks, RigidBody, SolverFlags,
+    ContactModificationContext, ContactPair, PairFilterContext, PhysicsHooks, RigidBody, SolverFlags,
 };
 
 use super::bodies::Tag;
 use super::convert::from_vector;
 use super::flat_faces;
-use super::world::{ALL_HOOKS, World, parts_of_impulse};
+use super::world::{ALL_HOOKS, Known, World, parts_of_impulse};
 use crate::scene::Handle;
 
 /// A body of which a point moves faster, m/s, may touch what the sub-step before did not find near.
@@ -44,21 +44,37 @@ pub(super) fn pair_of(colliders: [ColliderHandle; 2]) -> ColliderPair {
 
 /// What scripts have decided about pairs of shapes for a sub-step.
 #[derive(Default)]
-pub(crate) struct Verdicts(BTreeMap<(Handle, Handle), ContactResponse>);
+pub(crate) struct Verdicts {
+    all: Vec<((Handle, Handle), ContactResponse)>,
+    /// Whether the pairs rise: few sub-steps look one up.
+    is_sorted: bool,
+    /// Whether there are pairs for which scripts change anything.
+    is_special: bool,
+}
 
 impl Verdicts {
-    /// Asks `callback` about pairs of shapes.
+    /// Asks `callback` about pairs of shapes, which all differ.
     pub(crate) fn ask(pairs: Vec<(Handle, Handle)>, callback: ContactCallback<'_>) -> Self {
-        let mut all = BTreeMap::new();
-        for (first, second) in pairs {
-            all.entry((first, second)).or_insert_with(|| callback(first, second));
+        let ask = |pair: (Handle, Handle)| (pair, callback(pair.0, pair.1));
+        let all: Vec<_> = pairs.into_iter().map(ask).collect();
+        let is_special = all.iter().any(|(_, response)| *response != ContactResponse::Default);
+        let mut verdicts = Self { all, is_sorted: false, is_special };
+        if is_special {
+            verdicts.sort();
         }
-        Self(all)
+        verdicts
     }
 
-    /// Whether there are pairs for which scripts change anything.
-    fn has_special(&self) -> bool {
-        self.0.values().any(|response| *response != ContactResponse::Default)
+    fn sort(&mut self) {
+        if !self.is_sorted {
+            self.all.sort_unstable_by_key(|&(pair, _)| pair);
+            self.is_sorted = true;
+        }
+    }
+
+    /// The verdict about a pair, or the place for it.
+    fn find(&self, pair: (Handle, Handle)) -> Result<ContactResponse, usize> {
+        self.all.binary_search_by_key(&pair, |&(pair, _)| pair).map(|place| self.all[place].1)
     }
 
     /// How a pair responds: masks first, then scripts.
@@ -66,7 +82,10 @@ impl Verdicts {
         if !masks_overlap(a, b) {
             return ContactResponse::NoCollision;
         }
-        self.0.get(&(a.shape, b.shape)).copied().unwrap_or(ContactResponse::Default)
+        if !self.is_special {
+            return ContactResponse::Default;
+        }
+        self.find((a.shape, b.shape)).unwrap_or(ContactResponse::Default)
     }
 }
 
@@ -85,14 +104,17 @@ impl<'a> Rules<'a> {
 
     /// Scripts are asked about pairs that were not known before the sub-step.
     fn response(&self, a: Tag, b: Tag) -> ContactResponse {
-        if let Some(callback) = self.callback.filter(|_| masks_overlap(a, b)) {
-            let known = self.verdicts.borrow().0.contains_key(&(a.shape, b.shape));
-            if !known {
-                let response = callback(a.shape, b.shape);
-                self.verdicts.borrow_mut().0.insert((a.shape, b.shape), response);
-            }
-        }
-        self.verdicts.borrow().response(a, b)
+        let Some(callback) = self.callback.filter(|_| masks_overlap(a, b)) else {
+            return self.verdicts.borrow().response(a, b);
+        };
+        let pair = (a.shape, b.shape);
+        self.verdicts.borrow_mut().sort();
+        let known = self.verdicts.borrow().find(pair);
+        known.unwrap_or_else(|place| {
+            let response = callback(a.shape, b.shape);
+            self.verdicts.borrow_mut().all.insert(place, (pair, response));
+            response
+        })
     }
 }
 
@@ -125,19 +147,21 @@ impl PhysicsHooks for Rules<'_> {
     }
 }
 
-/// The pairs of shapes that may touch, without those whose masks do not allow it.
+/// The pairs of shapes that may touch, each once, without those whose masks do not allow it.
 pub(super) fn pairs_near(world: &World) -> Vec<(Handle, Handle)> {
-    let moves = |collider: ColliderHandle| {
-        let parent = world.colliders.get(collider).and_then(|collider| collider.parent());
-        parent.and_then(|body| world.bodies.get(body)).is_some_and(|rigid| rigid.is_dynamic())
+    let known = &world.known;
+    let near = |pair: &ContactPair| {
+        let [first, second] = known.pair(pair)?;
+        let [a, b] = [Tag::unpack(first.tag), Tag::unpack(second.tag)];
+        let may_touch = (first.moves || second.moves) && a.shape != b.shape && masks_overlap(a, b);
+        may_touch.then_some((a.shape, b.shape))
     };
-    let pairs = world.narrow_phase.contact_pairs().map(|pair| [pair.collider1, pair.collider2]);
+    let mut pairs: Vec<_> = world.narrow_phase.contact_pairs().filter_map(near).collect();
+    if known.is_composite {
+        let mut seen = BTreeSet::new();
+        pairs.retain(|&pair| seen.insert(pair));
+    }
     pairs
-        .filter(|pair| pair.iter().any(|&collider| moves(collider)))
-        .filter_map(|[first, second]| tags(&world.colliders, first, second))
-        .filter(|[a, b]| a.shape != b.shape && masks_overlap(*a, *b))
-        .map(|[a, b]| (a.shape, b.shape))
-        .collect()
 }
 
 /// The tags of two colliders.
@@ -154,13 +178,14 @@ pub(super) fn tags(
 /// shall not for others; whether scripts look on changes nothing.
 pub(super) fn set_hooks(world: &mut World, verdicts: &Verdicts, apart: &[ColliderPair]) {
     let asked = asked_about(world, verdicts, apart);
+    let is_asked = |handle: ColliderHandle| asked.get(handle.into_raw_parts().0 as usize).is_some_and(|&asked| asked);
     let awake = world.awake().filter_map(|body| world.bodies.get(body)).flat_map(|rigid| rigid.colliders());
-    let others = asked.iter().filter_map(|&index| Some(world.colliders.get_unknown_gen(index)?.1));
+    let others = (0..).zip(&asked).filter(|(_, asked)| **asked);
+    let others = others.filter_map(|(index, _)| Some(world.colliders.get_unknown_gen(index)?.1));
     let hooks = |handle: ColliderHandle| {
         let collider = world.colliders.get(handle)?;
         let rigid = world.bodies.get(collider.parent()?).filter(|rigid| rigid.is_dynamic())?;
-        let is_asked = asked.contains(&handle.into_raw_parts().0) || is_fast(rigid);
-        let hooks = if is_asked { ALL_HOOKS } else { ActiveHooks::empty() };
+        let hooks = if is_asked(handle) || is_fast(rigid) { ALL_HOOKS } else { ActiveHooks::empty() };
         (collider.active_hooks() != hooks).then_some((handle, hooks))
     };
     let changes: Vec<_> = awake.copied().chain(others).filter_map(hooks).collect();
@@ -174,27 +199,40 @@ pub(super) fn set_hooks(world: &mut World, verdicts: &Verdicts, apart: &[Collide
     }
 }
 
-/// The colliders in pairs that do not just collide, by index.
-fn asked_about(world: &World, verdicts: &Verdicts, apart: &[ColliderPair]) -> BTreeSet<u32> {
-    let mut asked: BTreeSet<u32> = apart.iter().flat_map(|&(first, second)| [first, second]).collect();
-    if !world.is_special && !verdicts.has_special() {
+/// Whether colliders are in pairs that do not just collide, by index.
+fn asked_about(world: &World, verdicts: &Verdicts, apart: &[ColliderPair]) -> Vec<bool> {
+    let mut asked = Vec::new();
+    let mut ask = |pair: ColliderPair| {
+        for index in [pair.0 as usize, pair.1 as usize] {
+            asked.resize(asked.len().max(index + 1), false);
+            asked[index] = true;
+        }
+    };
+    apart.iter().copied().for_each(&mut ask);
+    if !world.known.is_special && !verdicts.is_special {
         return asked;
     }
     for pair in world.narrow_phase.contact_pairs() {
-        let colliders = [pair.collider1, pair.collider2];
-        let [Some(first), Some(second)] = colliders.map(|collider| world.colliders.get(collider)) else { continue };
-        let response = verdicts.response(Tag::unpack(first.user_data), Tag::unpack(second.user_data));
-        if response != ContactResponse::Default || friction(first, second) == 0.0 {
-            asked.extend(colliders.map(|collider| collider.into_raw_parts().0));
+        let Some([first, second]) = world.known.pair(pair) else { continue };
+        let response = verdicts.response(Tag::unpack(first.tag), Tag::unpack(second.tag));
+        if response != ContactResponse::Default || first.friction(second) == 0.0 {
+            ask(pair_of([pair.collider1, pair.collider2]));
         }
     }
     asked
 }
 
-/// Notes whether shapes have masks of their own, or no friction.
-pub(super) fn note_special(world: &mut World) {
-    let special = |collider: &Collider| Tag::unpack(collider.user_data).mask != u16::MAX || collider.friction() == 0.0;
-    world.is_special = world.colliders.iter().any(|(_, collider)| special(collider));
+/// Notes what the rules need to know of the colliders, which came, went or changed.
+pub(super) fn note_colliders(world: &mut World) {
+    let mut known = Known::default();
+    let mut shapes = BTreeSet::new();
+    for (handle, collider) in world.colliders.iter() {
+        known.add(handle, collider, &world.bodies);
+        let tag = Tag::unpack(collider.user_data);
+        known.is_special |= tag.mask != u16::MAX || collider.friction() == 0.0;
+        known.is_composite |= !shapes.insert(tag.shape);
+    }
+    world.known = known;
 }
 
 /// Friction between two colliders.

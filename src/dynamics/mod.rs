@@ -206,7 +206,7 @@ impl Dynamics {
         links::move_with_joints(&self.links, &plan.links, &self.bodies, world, scene);
         links::apply_plan(&mut self.links, plan.links, &self.bodies, world, scene);
         links::clear_resets(&self.links, scene);
-        contacts::note_special(world);
+        contacts::note_colliders(world);
         let_sleep(&self.bodies, &self.links, world);
         self.contacts.forget_resting();
         self.is_stepped = false;

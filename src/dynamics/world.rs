@@ -1,16 +1,17 @@
 //! rapier's world: its sets, its settings, one sub-step.
 //!
-//! For free bodies a sub-step is one semi-implicit Euler step, so that they move exactly as in the original. Bodies in contact, with all that
-//! is connected to them, are solved in parts of it: only then are contacts stiff, and independent of the masses above each other.
+//! For free bodies a sub-step is one semi-implicit Euler step, so that they move exactly as in the original. Bodies that touch each other, with all
+//! that is connected to them, are solved in parts of it: only then are contacts stiff, and independent of the masses above each other.
 
 use rapier3d_f64::math::{Rotation, Vector};
 use rapier3d_f64::prelude::{
-    ActiveHooks, BroadPhaseBvh, CCDSolver, Collider, ColliderHandle, ColliderSet, ContactManifold, FrictionModel,
-    ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, NarrowPhase, PhysicsHooks,
-    PhysicsPipeline, RigidBody, RigidBodyHandle, RigidBodySet, SoftBodySet, SpringCoefficients,
+    ActiveHooks, BroadPhaseBvh, CCDSolver, CoefficientCombineRule, Collider, ColliderHandle, ColliderSet,
+    ContactManifold, ContactPair, FrictionModel, ImpulseJointSet, IntegrationParameters, IslandManager,
+    MultibodyJointSet, NarrowPhase, PhysicsHooks, PhysicsPipeline, RigidBody, RigidBodyHandle, RigidBodySet,
+    SoftBodySet, SpringCoefficients,
 };
 
-/// Parts of a sub-step in which bodies in contact are solved.
+/// Parts of a sub-step in which bodies that touch each other are solved.
 pub(super) const PARTS: usize = 4;
 /// Iterations of the constraint solver in each part.
 const ITERATIONS: usize = 2;
@@ -44,8 +45,58 @@ pub(super) struct World {
     parameters: IntegrationParameters,
     /// Of the step before.
     gravity: Option<Vector>,
+    /// The colliders of the present plan.
+    pub known: Known,
+}
+
+/// What only changes with the plan, so that it need not be looked up for each pair of colliders in each sub-step.
+#[derive(Default)]
+pub(super) struct Known {
+    /// By index.
+    colliders: Vec<Option<KnownCollider>>,
     /// Whether shapes have masks of their own, or no friction.
     pub is_special: bool,
+    /// Whether there are shapes of several colliders.
+    pub is_composite: bool,
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct KnownCollider {
+    handle: ColliderHandle,
+    body: Option<RigidBodyHandle>,
+    /// Whether the body is dynamic.
+    pub moves: bool,
+    /// Its user data.
+    pub tag: u128,
+    friction: (f64, CoefficientCombineRule),
+}
+
+impl Known {
+    pub(super) fn add(&mut self, handle: ColliderHandle, collider: &Collider, bodies: &RigidBodySet) {
+        let index = handle.into_raw_parts().0 as usize;
+        self.colliders.resize(self.colliders.len().max(index + 1), None);
+        let body = collider.parent();
+        let moves = body.and_then(|body| bodies.get(body)).is_some_and(RigidBody::is_dynamic);
+        let friction = (collider.friction(), collider.friction_combine_rule());
+        self.colliders[index] = Some(KnownCollider { handle, body, moves, tag: collider.user_data, friction });
+    }
+
+    /// Colliders that are still there.
+    pub(super) fn pair(&self, pair: &ContactPair) -> Option<[&KnownCollider; 2]> {
+        let of = |handle: ColliderHandle| {
+            let known = self.colliders.get(handle.into_raw_parts().0 as usize)?.as_ref();
+            known.filter(|known| known.handle == handle)
+        };
+        Some([of(pair.collider1)?, of(pair.collider2)?])
+    }
+}
+
+impl KnownCollider {
+    /// Friction between this collider and another one.
+    pub(super) fn friction(&self, other: &Self) -> f64 {
+        let (own, others) = (self.friction, other.friction);
+        CoefficientCombineRule::combine(own.0, others.0, own.1, others.1)
+    }
 }
 
 impl World {
@@ -63,7 +114,7 @@ impl World {
             pipeline: PhysicsPipeline::new(),
             parameters: parameters(),
             gravity: None,
-            is_special: false,
+            known: Known::default(),
         }
     }
 
@@ -112,8 +163,8 @@ impl World {
         );
     }
 
-    /// Selects the bodies that are solved in parts: those in contact. Mechanisms solve their own contacts, in whole sub-steps: `exact` says which
-    /// colliders are theirs.
+    /// Selects the bodies that are solved in parts: those that touch others that move. One that lies on what is fixed, with nothing on it, has
+    /// only its own weight to bear. Mechanisms solve their own contacts, in whole sub-steps: `exact` says which colliders are theirs.
     pub(super) fn divide_touching(&mut self, exact: impl Fn(&Collider) -> bool) {
         let touching = self.touching(exact);
         let extra = |handle: RigidBodyHandle| {
@@ -132,19 +183,26 @@ impl World {
         }
     }
 
-    /// Whether bodies are in contact, by index.
+    /// Whether bodies touch others that are not fixed, by index.
     fn touching(&self, exact: impl Fn(&Collider) -> bool) -> Vec<bool> {
         let mut touching = vec![false; self.bodies.len()];
-        for pair in self.narrow_phase.contact_pairs().filter(|pair| pair.has_any_active_contact()) {
-            let colliders = [pair.collider1, pair.collider2].map(|collider| self.colliders.get(collider));
-            let divided = colliders.into_iter().flatten().filter(|collider| !exact(collider));
-            for body in divided.filter_map(Collider::parent) {
+        for pair in self.narrow_phase.contact_pairs() {
+            let Some(colliders) = self.known.pair(pair) else { continue };
+            if colliders.iter().any(|known| self.is_fixed(known)) || !pair.has_any_active_contact() {
+                continue;
+            }
+            for (known, body) in colliders.iter().filter_map(|known| Some((known, known.body?))) {
                 let index = index_of(body);
                 touching.resize(touching.len().max(index + 1), false);
-                touching[index] = true;
+                touching[index] = touching[index] || !self.colliders.get(known.handle).is_some_and(&exact);
             }
         }
         touching
+    }
+
+    /// Whether a collider stays where it is: static bodies that follow the scene do not.
+    fn is_fixed(&self, known: &KnownCollider) -> bool {
+        !known.moves && known.body.and_then(|body| self.bodies.get(body)).is_none_or(RigidBody::is_fixed)
     }
 
     /// Parts in which a body is solved in the next step.

@@ -1,5 +1,6 @@
 //! Contacts: scripts that look on, mechanisms on the ground and with guests, speeds.
 
+use super::super::bodies::Tag;
 use super::*;
 
 /// A tower that does not stand exactly upright, and a box that is thrown at it.
@@ -34,6 +35,37 @@ fn a_callback_that_decides_nothing_changes_no_bit() {
         assert_eq!(format!("{a:?}"), format!("{b:?}"));
     }
     assert!(calls.get() > 4000, "{}", calls.get());
+}
+
+#[test]
+fn bodies_that_touch_others_are_solved_in_parts() {
+    let mut bench = Bench::new();
+    bench.shape([10.0, 10.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
+    let alone = bench.shape([0.1; 3], [-1.0, 0.0, 0.05], 1.0, true, true);
+    let lower = bench.shape([0.1; 3], [1.0, 0.0, 0.05], 1.0, true, true);
+    let upper = bench.shape([0.1; 3], [1.0, 0.0, 0.15], 1.0, true, true);
+    bench.run(2);
+    let world = bench.dynamics.world.as_ref().expect("there is a world");
+    let parts = [alone, lower, upper].map(|shape| world.parts_of(bench.dynamics.bodies.get(shape).expect("is").rigid));
+    assert_eq!(parts, [1, 4, 4]);
+    near(bench.height(alone), 0.05, 1e-5);
+}
+
+#[test]
+fn answers_of_scripts_about_pairs_are_found_again() {
+    let pairs: Vec<(Handle, Handle)> = [(3, 1), (2, 9), (1, 3), (2, 4)].map(|(a, b)| (Handle(a), Handle(b))).into();
+    let asked = std::cell::RefCell::new(Vec::new());
+    let refuse = |first, second| {
+        asked.borrow_mut().push((first, second));
+        if second == Handle(9) { ContactResponse::NoCollision } else { ContactResponse::Default }
+    };
+    let verdicts = Verdicts::ask(pairs.clone(), &refuse);
+    assert_eq!(*asked.borrow(), pairs, "in the order of the engine");
+    let tag = |shape| Tag { shape: Handle(shape), root: Handle(shape), mask: u16::MAX };
+    let response = |a, b| verdicts.response(tag(a), tag(b));
+    assert_eq!(response(2, 9), ContactResponse::NoCollision);
+    assert_eq!(response(9, 2), ContactResponse::Default, "the other way round was not asked about");
+    assert_eq!(response(3, 1), ContactResponse::Default);
 }
 
 /// A trunk of `mass` on a foot of 0.1 kg, tied by a force sensor.

@@ -44,18 +44,6 @@ impl Sim {
         scripts.iter().find_map(|script| self.deliver(script, call, args).value)
     }
 
-    /// Reverse order, for contacts: sandbox, add-ons, main, then script objects by increasing depth.
-    pub(crate) fn active_scripts_reversed(&self) -> Vec<Rc<Script>> {
-        let mut list: Vec<Rc<Script>> = Vec::new();
-        for group in [Group::Sandbox, Group::AddOn, Group::Main] {
-            list.extend(self.scripts_in(group).iter().cloned());
-        }
-        for group in [Group::Customization, Group::Simulation] {
-            list.extend(self.scripts_in(group).iter().rev().cloned());
-        }
-        list
-    }
-
     /// A message to all initialised scripts but the sender.
     pub(crate) fn broadcast_message(self: &Rc<Self>, sender: i64, args: &[Data]) {
         self.note_broadcast(args.first().and_then(|message| message.field("id")));

@@ -24,6 +24,7 @@ pub(crate) struct OrderCache {
     main: ScriptList,
     everyone: ScriptList,
     everyone_stopped: ScriptList,
+    everyone_reversed: ScriptList,
 }
 
 impl OrderCache {
@@ -65,6 +66,12 @@ impl Sim {
         if stopped { &cache.everyone_stopped } else { &cache.everyone }.clone()
     }
 
+    /// Reverse order, for contacts: sandbox, add-ons, main, then script objects by increasing depth.
+    pub(crate) fn active_scripts_reversed(&self) -> ScriptList {
+        self.refresh_order();
+        self.scripts.order.borrow().everyone_reversed.clone()
+    }
+
     fn refresh_order(&self) {
         let mut order = self.scripts.order.borrow_mut();
         if !self.scene.borrow().journal().changed_since(order.known.get_or_insert(Mark::new(ORDER))) {
@@ -84,6 +91,8 @@ impl Sim {
         cache.sandbox = self.detached_of(ScriptType::Sandbox);
         cache.main = self.detached_of(ScriptType::Main);
         cache.everyone_stopped = joined(&[&cache.customization, &cache.add_ons, &cache.sandbox]);
+        let [objects, others] = [&cache.customization, &cache.simulation].map(reversed);
+        cache.everyone_reversed = joined(&[&cache.sandbox, &cache.add_ons, &cache.main, &objects, &others]);
         let embedded = joined(&[&old_simulation, &old_customization, &simulation, &customization]);
         cache.everyone = joined(&[&embedded, &cache.main, &cache.add_ons, &cache.sandbox]);
     }
@@ -125,6 +134,10 @@ impl Sim {
 
 fn joined(lists: &[&ScriptList]) -> ScriptList {
     lists.iter().flat_map(|list| list.iter().cloned()).collect()
+}
+
+fn reversed(list: &ScriptList) -> ScriptList {
+    list.iter().rev().cloned().collect()
 }
 
 /// The objects that match: trees in pre-order with children stably sorted by priority, then the deepest level of the whole scene

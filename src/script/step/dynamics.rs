@@ -3,17 +3,15 @@
 
 use std::rc::Rc;
 
-use crate::dynamics::{Attention, Call, ContactResponse, Dynamics, JointRequest, Trigger, Verdicts};
+use super::contacts::{CONTACT, Question};
+use crate::dynamics::{Attention, Call, Dynamics, JointRequest, Trigger, Verdicts};
 use crate::scene::joint::Joint;
-use crate::scene::parameters::engine::Engine;
 use crate::scene::{Data, Handle, Scene};
 use crate::script::calls::callback::SysCall;
 use crate::script::error::{ApiError, ApiResult};
 use crate::script::log::verbosity;
 use crate::script::sim::Sim;
 
-/// The callbacks that filter contacts: the old name first.
-const CONTACT: [SysCall; 2] = [SysCall::ContactCallback, SysCall::Contact];
 /// The callbacks before and after a sub-step: the old name first.
 const DYN: [SysCall; 2] = [SysCall::DynCallback, SysCall::Dyn];
 
@@ -93,7 +91,8 @@ impl Sim {
     fn run_sub_step(self: &Rc<Self>, number: u32, driven: bool) {
         let contact_callbacks = self.scripts.may_respond_to_any(&CONTACT);
         let attention = Attention { watched: driven || contact_callbacks || self.scripts.may_respond_to_any(&DYN) };
-        let filter = |first: Handle, second: Handle| self.contact_callback(first, second);
+        let question = Question::default();
+        let filter = |first: Handle, second: Handle| self.ask_about_contact(&question, first, second);
         let pairs = |dynamics: &mut Dynamics, _: &mut Scene| dynamics.pairs_near();
         let near = if contact_callbacks { self.with_dynamics(pairs).unwrap_or_default() } else { Vec::new() };
         let verdicts = Verdicts::ask(near, &filter);
@@ -113,19 +112,6 @@ impl Sim {
             verbosity::WARNINGS,
             &format!("{path}: its motion has no finite values any more; the physics holds it where it was. Check masses and forces."),
         );
-    }
-
-    fn contact_callback(self: &Rc<Self>, first: Handle, second: Handle) -> ContactResponse {
-        let engine = self.scene.borrow().settings().dynamics.engine.engine;
-        let data = Data::map([
-            ("handle1", first.raw().into()),
-            ("handle2", second.raw().into()),
-            ("engine", engine.number().into()),
-        ]);
-        let everyone = self.active_scripts_reversed();
-        let answer =
-            CONTACT.iter().find_map(|&callback| self.first_answer(&everyone, callback, std::slice::from_ref(&data)));
-        answer.map_or(ContactResponse::Default, |answer| response(&answer, engine))
     }
 
     fn force_sensor_triggered(self: &Rc<Self>, trigger: &Trigger) {
@@ -173,28 +159,4 @@ fn joint_data(joint: &Joint, request: &JointRequest, call: Call, number: u32) ->
         ("maxAccel", joint.max_accel.into()),
         ("maxJerk", joint.max_jerk.into()),
     ])
-}
-
-/// Decodes the table returned by `sysCall_contact` (spec: dynamics 4): values for the selected engine come first, then
-/// those for Bullet.
-fn response(answer: &Data, engine: Engine) -> ContactResponse {
-    let number = |engine: &str, name: &str| {
-        let nested = answer.field(engine).and_then(|table| table.field(name));
-        nested.or_else(|| answer.field(&format!("{engine}.{name}"))).and_then(Data::as_f64)
-    };
-    let own = |[ode, newton]: [&str; 2]| match engine {
-        Engine::Ode => number("ode", ode),
-        Engine::Newton => number("newton", newton),
-        _ => None,
-    };
-    match (answer.field("ignoreContact"), answer.field("collisionResponse")) {
-        (Some(ignore), response) if !ignore.truthy() => match response.is_some_and(Data::truthy) {
-            true => ContactResponse::Collide {
-                friction: own(["mu", "kineticFriction"]).or_else(|| number("bullet", "friction")).unwrap_or(1.0),
-                restitution: own(["bounce", "restitution"]).or_else(|| number("bullet", "restitution")).unwrap_or(0.0),
-            },
-            false => ContactResponse::NoCollision,
-        },
-        _ => ContactResponse::Default,
-    }
 }

@@ -2,6 +2,7 @@
 
 mod calculation_objects;
 pub(in crate::script) mod clock;
+mod contacts;
 pub(in crate::script) mod dynamics;
 pub(in crate::script) mod joint_motion;
 mod proximity;
