@@ -8,6 +8,7 @@ local function kinds(...)
     print(table.concat(names, ', '))
 end
 
+print(getAsString(_G):find("simIK") ~= nil)
 local seen = {}
 for name, value in pairs(_G) do seen[name] = type(value) end
 print(seen.sim, seen.simIK, seen.simROS2, seen.Matrix, seen.Vector7, seen.print, seen.map, seen.isbuffer, seen.operator)
