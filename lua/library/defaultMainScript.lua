@@ -10,8 +10,8 @@ local handleEmbeddedScripts, handleAddOnScripts = sim.handleEmbeddedScripts, sim
 local handleSandboxScript, handleSimulationScripts = sim.handleSandboxScript, sim.handleSimulationScripts
 local handleJointMotion, handleDynamics = sim.handleJointMotion, sim.handleDynamics
 local handlePath = simHandlePath
-local handleSensingStart, handleProximitySensor = sim.handleSensingStart, sim.handleProximitySensor
-local handleVisionSensor, getTimeStep = sim.handleVisionSensor, sim.getSimulationTimeStep
+local handleSensingStart, handleSensors = sim.handleSensingStart, sim._handleSensors
+local getTimeStep = sim.getSimulationTimeStep
 local ACTUATION <const>, SENSING <const>, CLEANUP <const> = sim.syscb_actuation, sim.syscb_sensing, sim.syscb_cleanup
 local SUSPEND <const>, SUSPENDED <const>, RESUME <const> = sim.syscb_suspend, sim.syscb_suspended, sim.syscb_resume
 local NOT_EXPLICIT <const> = sim.handle_all_except_explicit
@@ -34,8 +34,7 @@ end
 
 function sysCall_sensing()
     handleSensingStart(NOT_EXPLICIT)
-    handleProximitySensor(NOT_EXPLICIT)
-    handleVisionSensor(NOT_EXPLICIT)
+    handleSensors() -- those that are not handled explicitly
     tellScripts(SENSING)
 end
 

@@ -61,6 +61,8 @@ const INNER: &[&str] = &[
     "swanilda/conveyors/belt",
     "swanilda/conveyors/control",
     "swanilda/conveyors/parts",
+    "swanilda/extensions",
+    "swanilda/implicit",
     "swanilda/modload",
     "swanilda/old_helpers",
     "swanilda/pathmodel",
@@ -73,6 +75,7 @@ const INNER: &[&str] = &[
     "swanilda/settings_window",
     "swanilda/test/recordings",
     "swanilda/test/scripts",
+    "swanilda/thread",
     "swanilda/trajectory",
 ];
 

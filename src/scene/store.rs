@@ -70,15 +70,28 @@ impl Scene {
     /// Adds `object` as the last root, under a new handle and identifier and without family.
     pub(super) fn insert(&mut self, mut object: Object) -> SceneResult<Handle> {
         let handle = self.objects.free_handle()?;
+        object.old_name = self.old_names.claim(&object.old_name, handle);
+        self.enlist(handle, object);
+        Ok(handle)
+    }
+
+    /// Adds an object whose name from before aliases is still to be found, by [`Scene::number_names`].
+    pub(super) fn insert_unnumbered(&mut self, mut object: Object) -> SceneResult<Handle> {
+        let handle = self.objects.free_handle()?;
+        object.old_name.clear();
+        self.enlist(handle, object);
+        Ok(handle)
+    }
+
+    /// Puts an object among the roots.
+    fn enlist(&mut self, handle: Handle, mut object: Object) {
         (object.handle, object.parent) = (handle, None);
         object.children.clear();
         self.identify(&mut object);
-        object.old_name = self.old_names.claim(&object.old_name, handle);
         self.referrers.note(&object);
         self.objects.insert(object);
         self.roots.push(handle);
         self.note(Change::Added(handle));
-        Ok(handle)
     }
 
     /// Assigns identifiers to a new object. A copy keeps the DNA of its original.

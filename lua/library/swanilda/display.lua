@@ -37,6 +37,7 @@ end
 -- Values first by type: what is short and simple is shown before what is long.
 local function sortedEntries(t)
     local entries = {}
+    if rawequal(t, _G) then pairs(t) end -- names that are there when they are looked up
     for key, value in next, t do
         entries[#entries + 1] = {key = key, name = tostring(key), value = value, rank = RANK[type(value)] or 0}
     end

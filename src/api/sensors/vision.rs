@@ -10,6 +10,7 @@ use crate::script::{Bytes, IntPair, Number, Results};
 
 pub(crate) const FUNCTIONS: &[ApiFn] = functions![
     handle_vision_sensor,
+    handle_sensors,
     check_vision_sensor,
     check_vision_sensor_ex,
     read_vision_sensor,
@@ -38,6 +39,27 @@ mod option {
 /// @return result, packets number of sensors that were triggered, and the packets of numbers of a single sensor, at least two
 #[api("sim.handleVisionSensor")]
 fn handle_vision_sensor(cx: &mut Cx, sensor_handle: Number) -> Result<Results> {
+    let (count, mut packets) = take_pictures(cx, sensor_handle)?;
+    if sensor_handle.0 < 0 {
+        packets.clear();
+    }
+    packets.resize(packets.len().max(2), Vec::new());
+    Ok(Results(results(count, &packets)))
+}
+
+/// Measures with all proximity sensors and takes pictures with all vision sensors that are not handled explicitly. For the usual main
+/// script, which has no use for the results.
+#[api("sim._handleSensors")]
+fn handle_sensors(cx: &mut Cx) -> Result<()> {
+    if cx.scene().has_sensors() {
+        cx.handle_proximity_sensors(false);
+        take_pictures(cx, Number(special::ALL_EXCEPT_EXPLICIT))?;
+    }
+    Ok(())
+}
+
+/// The number of sensors that were triggered, and the packets of the last one.
+fn take_pictures(cx: &mut Cx, sensor_handle: Number) -> Result<(i64, Vec<Vec<f32>>)> {
     let (mut count, mut packets) = (0, Vec::new());
     let handled = sensors(cx, sensor_handle)?;
     let handled = if sensors_are_handled(cx, HANDLING_ENABLED) { handled } else { Vec::new() };
@@ -48,11 +70,7 @@ fn handle_vision_sensor(cx: &mut Cx, sensor_handle: Number) -> Result<Results> {
             packets = reading.packets;
         }
     }
-    if sensor_handle.0 < 0 {
-        packets.clear();
-    }
-    packets.resize(packets.len().max(2), Vec::new());
-    Ok(Results(results(count, &packets)))
+    Ok((count, packets))
 }
 
 /// Takes a picture of an entity with a vision sensor and lets its scripts look at it. The picture and the results of the sensor stay as

@@ -78,17 +78,18 @@ impl Scene {
         options: CopyOptions,
     ) -> SceneResult<BTreeMap<Handle, Handle>> {
         let mut copies = BTreeMap::new();
-        for &original in originals {
+        let all = originals.iter().try_for_each(|&original| {
             let copy = self.copy_object(original, &copies, options)?;
             copies.insert(original, copy);
-        }
+            Ok(())
+        });
         for &copy in copies.values() {
             self.modify(copy, crate::scene::Field::Other, |object| redirect(object, &copies))?;
         }
         let name = |(&original, &copy): (&Handle, &Handle)| Ok((copy, self.object(original)?.old_name().to_owned()));
         let names = copies.iter().map(name).collect::<SceneResult<Vec<_>>>()?;
         self.number_names(&names)?;
-        Ok(copies)
+        all.map(|()| copies)
     }
 
     fn copy_object(
@@ -103,7 +104,7 @@ impl Scene {
         let mut object = self.object(original)?.clone();
         start_anew(&mut object, options);
         let local = object.pose;
-        let copy = self.insert(object)?;
+        let copy = self.insert_unnumbered(object)?;
         self.set_parent(copy, parent, false)?;
         let pose = if direct { local } else { self.parent_frame(copy)?.inverse() * world };
         self.object_mut(copy)?.pose = normalized(pose);

@@ -173,8 +173,11 @@ impl Scene {
     /// When an object does not exist.
     pub fn number_names(&mut self, group: &[(Handle, String)]) -> SceneResult<()> {
         for (handle, _) in group {
-            let name = self.object(*handle)?.old_name().to_owned();
-            self.old_names.release(&name);
+            // A copy has none yet.
+            let name = self.objects.get(*handle)?.old_name();
+            if !name.is_empty() {
+                self.old_names.release(name);
+            }
         }
         let mut by_suffix: BTreeMap<i64, Vec<(Handle, &str)>> = BTreeMap::new();
         for (handle, name) in group {

@@ -76,15 +76,20 @@ fn read_table(stack: Stack<'_>, table: c_int, above: &mut Vec<*const c_void>) ->
     data
 }
 
-/// The bytes of the table at `table`, when it is a buffer.
-pub(crate) fn read_buffer(stack: Stack<'_>, table: c_int) -> Option<Vec<u8>> {
-    if !stack.push_metatable(table) {
-        return None;
+/// Whether the value at `index`, if there is one, is a buffer.
+pub(crate) fn is_buffer(stack: Stack<'_>, index: c_int) -> bool {
+    if stack.kind(index) != Type::Table || !stack.push_metatable(index) {
+        return false;
     }
     stack.push_registry(BUFFER_METATABLE);
     let is_buffer = stack.same(-1, -2);
     stack.pop(2);
-    if !is_buffer {
+    is_buffer
+}
+
+/// The bytes of the table at `table`, when it is a buffer.
+pub(crate) fn read_buffer(stack: Stack<'_>, table: c_int) -> Option<Vec<u8>> {
+    if !is_buffer(stack, table) {
         return None;
     }
     stack.push_registry(BUFFER_FIELD_NAME);

@@ -62,9 +62,11 @@ impl Sim {
 
     /// Notifies everyone of new objects.
     pub(crate) fn notify_created(self: &Rc<Self>, handles: &[Handle]) {
-        let list = raw(handles);
-        let data = Data::map([("objects", list.clone().into()), ("objectHandles", list.into())]);
-        self.broadcast(SysCall::AfterCreate, &[data]);
+        if self.scripts.may_respond(SysCall::AfterCreate) {
+            let list = raw(handles);
+            let data = Data::map([("objects", list.clone().into()), ("objectHandles", list.into())]);
+            self.broadcast(SysCall::AfterCreate, &[data]);
+        }
     }
 
     /// Copies objects according to the options; copied scripts are new scripts. Returns originals and copies.
@@ -80,10 +82,12 @@ impl Sim {
         if originals.is_empty() {
             return Ok(BTreeMap::new());
         }
-        let data = Data::map([("objects", raw(&originals).into()), ("objectHandles", marked(&originals))]);
-        self.broadcast(SysCall::BeforeCopy, std::slice::from_ref(&data));
+        let data = self.data_for([SysCall::BeforeCopy, SysCall::AfterCopy], || {
+            Data::map([("objects", raw(&originals).into()), ("objectHandles", marked(&originals))])
+        });
+        self.broadcast(SysCall::BeforeCopy, data.as_slice());
         let copies = self.scene.borrow_mut().copy_objects(&originals, options)?;
-        self.broadcast(SysCall::AfterCopy, &[data]);
+        self.broadcast(SysCall::AfterCopy, data.as_slice());
         let created: Vec<Handle> = originals.iter().filter_map(|original| copies.get(original).copied()).collect();
         copies.iter().for_each(|(original, copy)| self.copy_attached(*original, *copy));
         self.notify_created(&created);
@@ -105,11 +109,17 @@ impl Sim {
         if removed.is_empty() {
             return Ok(());
         }
-        let data = self.removal_data(&removed);
-        self.broadcast(SysCall::BeforeDelete, std::slice::from_ref(&data));
+        let data = self.data_for([SysCall::BeforeDelete, SysCall::AfterDelete], || self.removal_data(&removed));
+        self.broadcast(SysCall::BeforeDelete, data.as_slice());
         self.remove_from_scene(removed)?;
-        self.broadcast(SysCall::AfterDelete, &[data]);
+        self.broadcast(SysCall::AfterDelete, data.as_slice());
         Ok(())
+    }
+
+    /// The argument of two callbacks, before and after something, if a script has one of them. Where none has, none can come to have one in
+    /// between: only callbacks run then.
+    fn data_for(&self, calls: [SysCall; 2], data: impl FnOnce() -> Data) -> Option<Data> {
+        self.scripts.may_respond_to_any(&calls).then(data)
     }
 
     /// Removes objects with their scripts and signals. Callbacks may have removed some of them already.

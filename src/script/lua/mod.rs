@@ -25,10 +25,11 @@ mod pool;
 mod seal;
 mod stack;
 mod state;
+mod subjects;
 
 pub(crate) use api::{Entries, Room, Scalar};
 pub(crate) use bytecode::{Bytecode, PassedFunction, Prototype};
-pub(crate) use calls::callback::{Callback, push_callback};
+pub(crate) use calls::callback::{Callback, Outcome, push_callback, push_plain};
 pub(crate) use calls::{LuaError, MULTIPLE};
 pub(crate) use file::report_closed_pipes;
 pub(crate) use hooks::count::{HOOK_INTERVAL, HookAction, hasten_count_hook, install_coroutine_hooks, set_count_hook};
@@ -40,6 +41,7 @@ pub(crate) use seal::seal_argument;
 pub(crate) use stack::tables::LONGEST_LIST;
 pub(crate) use stack::{Stack, Type};
 pub(crate) use state::State;
+pub(crate) use subjects::accept_buffers;
 
 use super::lifecycle::budget::Budget;
 

@@ -25,8 +25,8 @@ const LARGE: usize = LARGEST + 1;
 const OFFSET: usize = 8;
 const _: () = assert!(ffi::SYS_MIN_ALIGN == STEP, "blocks of mlua's allocator must be told apart by their alignment");
 
-/// Sizes of chunks, in lines of `STEP` bytes.
-const FIRST_CHUNK: usize = (8 << 10) / STEP;
+/// Sizes of chunks, in lines of `STEP` bytes. A chunk has a quarter of what there is already: most scripts are small, and there may be thousands.
+const SMALLEST_CHUNK: usize = (4 << 10) / STEP;
 const LARGEST_CHUNK: usize = (256 << 10) / STEP;
 
 /// A free block: it holds the link to the next one of its class.
@@ -156,7 +156,8 @@ impl Pool {
     }
 
     fn add_chunk(&mut self) {
-        let lines = self.chunks.last().map_or(FIRST_CHUNK, |last| (last.capacity() * 2).min(LARGEST_CHUNK));
+        let total: usize = self.chunks.iter().map(Vec::capacity).sum();
+        let lines = (total / 4).clamp(SMALLEST_CHUNK, LARGEST_CHUNK);
         let mut chunk = Vec::<Line>::with_capacity(lines);
         let start = NonNull::from(chunk.spare_capacity_mut()).cast();
         self.chunks.push(chunk);

@@ -1,12 +1,15 @@
 //! Scripts in Lua: the implementation of [`Language`] and [`Interpreter`] above the virtual machine of `script::lua`.
 
 mod bottom;
+mod buffers;
 pub(in crate::script) mod coverage;
 pub(in crate::script) mod embedded;
+mod implicit;
 mod library_globals;
 mod old_calls;
 pub(in crate::script) mod reference_modules;
 mod shared_process;
+mod stand_ins;
 mod startup;
 mod test_file;
 pub(in crate::script) mod threads;

@@ -8,12 +8,13 @@ use mlua::{Function, Lua, Table};
 
 use super::reference_modules::ReferenceModule;
 use super::user_modules::UserModule;
-use super::{coverage, library_globals, shared_process, test_file, threads, user_modules};
-use crate::script::binding::data::{BUFFER_FIELD, BUFFER_FIELD_NAME, BUFFER_METATABLE};
+use super::{
+    buffers, coverage, implicit, library_globals, shared_process, stand_ins, test_file, threads, user_modules,
+};
 use crate::script::binding::registry::{Member, MissingId, Namespace};
 use crate::script::binding::{deprecation_notice, error_text, push_function, push_function_of_old_name};
 use crate::script::lifecycle::instance::Script;
-use crate::script::lua::{self, LuaError, Stack, State, Type, push_callback};
+use crate::script::lua::{self, LuaError, Outcome, Stack, State, Type, push_callback, push_plain};
 use crate::script::sim::Sim;
 
 /// The `sim` table of a state.
@@ -26,7 +27,7 @@ pub(super) fn fill(sim: &Rc<Sim>, state: &State, user_modules: &[UserModule]) ->
     let stack = state.stack();
     threads::install(stack);
     lua::install_coroutine_hooks(stack, threads::on_count);
-    lua::restrict_debug(stack, state.lua())?;
+    lua::restrict_debug(stack);
     lua::report_closed_pipes(stack);
     let is_restricted = !sim.options.permissions.is_all();
     if is_restricted {
@@ -42,7 +43,7 @@ pub(super) fn fill(sim: &Rc<Sim>, state: &State, user_modules: &[UserModule]) ->
     stack.set_global("sim_script_handle");
     stack.push_int(name_suffix(sim, &stack.owner().script));
     stack.set_global("sim_script_name_index");
-    load_module(stack, sim, "base").and_then(|()| stack.protected_call(0, 0))?;
+    run_base(sim, stack)?;
     if is_restricted {
         load_module(stack, sim, "restricted")?;
         stack.push_bool(sim.options.permissions.can_load_native());
@@ -55,6 +56,20 @@ pub(super) fn fill(sim: &Rc<Sim>, state: &State, user_modules: &[UserModule]) ->
         shared_process::install(sim, stack)?;
     }
     library_globals::take(sim, stack);
+    Ok(())
+}
+
+/// Defines what scripts find beside Lua's own functions.
+fn run_base(sim: &Sim, stack: Stack<'_>) -> Result<(), LuaError> {
+    load_module(stack, sim, "base")?;
+    buffers::install(stack);
+    implicit::install(stack);
+    push_plain(stack, stand_ins::begin_thread);
+    push_plain(stack, implicit::remove_proxies);
+    implicit::push_proxies(stack);
+    stack.protected_call(3, 1)?;
+    stand_ins::set_caller(stack);
+    stand_ins::install(stack);
     Ok(())
 }
 
@@ -250,38 +265,25 @@ fn install_globals(sim: &Sim, stack: Stack<'_>) {
         push_function(stack, id);
         stack.set_global(name);
     }
-    push_callback(stack, set_buffer_metatable, 0);
-    stack.set_global("_setBufferMetatable");
     stack.push_globals();
-    push_metatable_with_index(stack, index_globals);
-    stack.set_metatable(-2);
+    set_access(stack, index_globals, implicit::pairs_globals);
     stack.pop(1);
 }
 
-fn set_buffer_metatable(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    if stack.kind(1) != Type::Table {
-        return Err("_setBufferMetatable: a table is needed".into());
-    }
-    stack.set_top(1);
-    stack.set_registry(BUFFER_METATABLE);
-    stack.push_bytes(BUFFER_FIELD.as_bytes());
-    stack.set_registry(BUFFER_FIELD_NAME);
-    Ok(0)
-}
-
-fn push_metatable_with_index(stack: Stack<'_>, index: impl lua::Callback) {
-    stack.new_table(0, 1);
+/// Gives the table on top a metatable with these metamethods.
+fn set_access(stack: Stack<'_>, index: impl lua::Callback, pairs: impl Fn(Stack<'_>) -> Outcome + Copy + 'static) {
+    stack.new_table(0, 2);
     push_callback(stack, index, 0);
     stack.raw_set_field(-2, "__index");
+    push_plain(stack, pairs);
+    stack.raw_set_field(-2, "__pairs");
+    stack.set_metatable(-2);
 }
 
 /// The `sim` table fills itself: a name is looked up when it is first used.
 fn install_sim(stack: Stack<'_>) {
     stack.new_table(0, 0);
-    push_metatable_with_index(stack, index_sim);
-    push_callback(stack, pairs_sim, 0);
-    stack.raw_set_field(-2, "__pairs");
-    stack.set_metatable(-2);
+    set_access(stack, index_sim, pairs_sim);
     stack.set_registry(SIM);
     stack.new_table(0, 0);
     stack.set_registry(LUA_MODULES);
@@ -299,25 +301,29 @@ fn index_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
 }
 
 /// `pairs(sim)`: who iterates gets all names, used before or not.
-fn pairs_sim(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
-    library_globals::push(stack, "next");
+fn pairs_sim(stack: Stack<'_>) -> Outcome {
     stack.push_registry(SIM);
     for name in stack.owner().registry.members_of_sim().names() {
         let is_known = stack.raw_get_field(-1, name) != Type::Nil;
         stack.pop(1);
         if !is_known {
-            push_member(stack, name)?;
+            if let Err(error) = push_member(stack, name) {
+                return Outcome::Raise(error);
+            }
             stack.raw_set_field(-2, name);
         }
     }
-    Ok(2)
+    stand_ins::push_iteration(stack)
 }
 
-/// Old global names. Their functions log no deprecation.
+/// Modules and classes used without being asked for, and old global names, whose functions log no deprecation.
 fn index_globals(stack: Stack<'_>, _: usize) -> Result<c_int, String> {
     // Most of what scripts look for in vain is something else, which is not worth a copy.
-    let Some(true) = stack.with_bytes(2, |name| name.starts_with(b"sim")) else { return Ok(0) };
+    let Some(true) = stack.with_bytes(2, implicit::is_candidate) else { return Ok(0) };
     let Ok(name) = String::from_utf8(stack.bytes(2).unwrap_or_default()) else { return Ok(0) };
+    if implicit::define(stack, &name) {
+        return Ok(1);
+    }
     match stack.owner().registry.members_of_sim().of_global(&name) {
         None => return Ok(0),
         Some(Member::Native(id)) => push_function_of_old_name(stack, id),

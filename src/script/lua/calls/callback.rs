@@ -12,19 +12,40 @@ pub(crate) trait Callback: Fn(Stack<'_>, usize) -> Result<c_int, String> + Copy 
 
 impl<F: Fn(Stack<'_>, usize) -> Result<c_int, String> + Copy + 'static> Callback for F {}
 
-/// Pushes `callback` as a Lua function. Each call gets `number` and looks it up.
+/// Pushes `callback` as a Lua function. Each call gets `number` and looks it up. With 0 the function takes no memory of the state.
 pub(crate) fn push_callback<F: Callback>(stack: Stack<'_>, callback: F, number: usize) {
-    push_function(stack, Some(number as i64), move |stack| {
-        match callback(stack, stack.number_of_function() as usize) {
-            Ok(results) => {
-                debug_assert!((0..=stack.top()).contains(&results), "results are on the stack");
-                Exit::Results(results)
-            }
-            Err(text) => {
-                stack.push_bytes(text.as_bytes());
-                Exit::Raise
-            }
+    let number = (number != 0).then_some(number as i64);
+    push_function(stack, number, move |stack| match callback(stack, stack.number_of_function() as usize) {
+        Ok(results) => {
+            debug_assert!((0..=stack.top()).contains(&results), "results are on the stack");
+            Exit::Results(results)
         }
+        Err(text) => {
+            stack.push_bytes(text.as_bytes());
+            Exit::Raise
+        }
+    });
+}
+
+/// How a function of [`push_plain`] ends.
+pub(crate) enum Outcome {
+    /// This number of values on top are its results.
+    Results(c_int),
+    /// This text is raised.
+    Raise(String),
+    /// The lowest value on the stack is called with those above it, and may yield; its results are those of this function.
+    Call,
+}
+
+/// Pushes a Lua function that takes no memory of the state. It is a function, not a closure with values.
+pub(crate) fn push_plain<F: Fn(Stack<'_>) -> Outcome + Copy + 'static>(stack: Stack<'_>, function: F) {
+    push_function(stack, None, move |stack| match function(stack) {
+        Outcome::Results(results) => Exit::Results(results),
+        Outcome::Raise(text) => {
+            stack.push_bytes(text.as_bytes());
+            Exit::Raise
+        }
+        Outcome::Call => Exit::Call,
     });
 }
 

@@ -20,6 +20,8 @@ pub(in crate::script::lua) enum Exit {
     Raise,
     /// Argument 1 is bad for this reason.
     Refuse(&'static CStr),
+    /// The lowest value on the stack is called with those above it, and may yield; its results are those of this function.
+    Call,
     /// Lua's function continues in the same frame, then the other one, if any, sees its results.
     Original(Original, Option<fn(Stack<'_>)>),
 }
@@ -65,6 +67,7 @@ unsafe extern "C-unwind" fn enter<F: Function>(raw: *mut ffi::lua_State) -> c_in
             Exit::Results(count) => count,
             Exit::Raise => ffi::lua_error(raw),
             Exit::Refuse(reason) => ffi::luaL_argerror(raw, 1, reason.as_ptr()),
+            Exit::Call => call_lowest(raw),
             Exit::Original(original, then) => {
                 let count = original.0(raw);
                 let Some(then) = then else { return count };
@@ -75,6 +78,28 @@ unsafe extern "C-unwind" fn enter<F: Function>(raw: *mut ffi::lua_State) -> c_in
             }
         }
     }
+}
+
+/// Calls the lowest value on the stack with all others as arguments; returns the number of results.
+///
+/// # Safety
+/// `raw` is the living coroutine of the running function. May raise.
+unsafe fn call_lowest(raw: *mut ffi::lua_State) -> c_int {
+    // SAFETY: what is called is there, and nothing here or in the caller's frame has a destructor.
+    unsafe {
+        let arguments = ffi::lua_gettop(raw) - 1;
+        if arguments < 0 {
+            return 0;
+        }
+        ffi::lua_callk(raw, arguments, ffi::LUA_MULTRET, 0, Some(after_yield));
+        ffi::lua_gettop(raw)
+    }
+}
+
+/// Where [`call_lowest`] goes on after what it called has yielded: all that is on the stack are results.
+unsafe extern "C-unwind" fn after_yield(raw: *mut ffi::lua_State, _: c_int, _: ffi::lua_KContext) -> c_int {
+    // SAFETY: Lua calls with a living coroutine.
+    unsafe { ffi::lua_gettop(raw) }
 }
 
 /// Runs host code. After a panic, which is an error of the script, its text is on top.

@@ -37,7 +37,20 @@ pub(in crate::script::lua) mod guarded {
     pub const FILE_WRITE: usize = 23;
     pub const SET_HOOK: usize = 24;
     pub const GET_HOOK: usize = 25;
-    pub const COUNT: usize = 26;
+    pub const FIND: usize = 26;
+    pub const GMATCH: usize = 27;
+    pub const GSUB: usize = 28;
+    pub const MATCH: usize = 29;
+    pub const REP: usize = 30;
+    pub const LOWER: usize = 31;
+    pub const UPPER: usize = 32;
+    pub const REVERSE: usize = 33;
+    pub const LEN: usize = 34;
+    pub const SUB: usize = 35;
+    pub const BYTE: usize = 36;
+    pub const UNPACK: usize = 37;
+    pub const TO_NUMBER: usize = 38;
+    pub const COUNT: usize = 39;
 }
 
 /// The action after a guard.

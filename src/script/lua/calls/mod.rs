@@ -102,7 +102,7 @@ impl Stack<'_> {
     }
 
     /// `chunk:line: ` of the Lua function that called; nothing when that is none.
-    pub(super) fn place_of_call(self) -> String {
+    pub(crate) fn place_of_call(self) -> String {
         api::luaL_where(self.large_room(), 1);
         let place = self.text(-1).unwrap_or_default();
         self.pop(1);

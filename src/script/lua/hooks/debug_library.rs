@@ -4,18 +4,21 @@
 //! called or freed. So natives have no upvalues and no locals for `debug`, userdata keep their metatables, a metatable with `__metatable`
 //! is hidden from `debug.getmetatable` too, and the registry is a copy of what is public in it.
 
-use std::ffi::c_int;
+use std::ffi::{CStr, c_int};
 
-use mlua::{Lua, Table, ffi};
+use mlua::ffi;
 
 use super::beside::keep_watch;
 use crate::script::lua::api::{self, Slot};
 use crate::script::lua::calls::guard::{Next, guarded, install};
 use crate::script::lua::stack::frame::Facts;
-use crate::script::lua::{Stack, Type};
+use crate::script::lua::{Outcome, Stack, Type, push_plain};
+
+/// What scripts get as the registry.
+const PUBLIC_REGISTRY: &CStr = c"swanilda.registry";
 
 /// Replaces the functions of `debug` that reach into native functions.
-pub(crate) fn restrict_debug(stack: Stack<'_>, lua: &Lua) -> mlua::Result<()> {
+pub(crate) fn restrict_debug(stack: Stack<'_>) {
     stack.push_global("debug");
     install::<{ guarded::GET_LOCAL }, _>(stack, "getlocal", get_local);
     install::<{ guarded::SET_LOCAL }, _>(stack, "setlocal", set_local);
@@ -26,20 +29,25 @@ pub(crate) fn restrict_debug(stack: Stack<'_>, lua: &Lua) -> mlua::Result<()> {
     if stack.owner().is_interruptible() {
         keep_watch(stack);
     }
+    push_plain(stack, get_registry);
+    stack.raw_set_field(-2, "getregistry");
     stack.pop(1);
-    let registry = public_registry(lua)?;
-    let get_registry = lua.create_function(move |_, ()| Ok(registry.clone()))?;
-    lua.globals().get::<Table>("debug")?.raw_set("getregistry", get_registry)
 }
 
-/// The public part of the registry: modules and their loaders.
-fn public_registry(lua: &Lua) -> mlua::Result<Table> {
-    let package: Table = lua.globals().get("package")?;
-    let registry = lua.create_table()?;
-    registry.raw_set(ffi::LUA_RIDX_GLOBALS, lua.globals())?;
-    registry.raw_set("_LOADED", package.get::<Table>("loaded")?)?;
-    registry.raw_set("_PRELOAD", package.get::<Table>("preload")?)?;
-    Ok(registry)
+/// The public part of the registry: modules and their loaders. It is made when it is first asked for.
+fn get_registry(stack: Stack<'_>) -> Outcome {
+    if stack.push_registry(PUBLIC_REGISTRY) != Type::Table {
+        stack.new_table(0, 3);
+        stack.push_globals();
+        stack.raw_set_index(-2, ffi::LUA_RIDX_GLOBALS);
+        for name in ["_LOADED", "_PRELOAD"] {
+            stack.push_named_registry(name);
+            stack.raw_set_field(-2, name);
+        }
+        stack.push_value(-1);
+        stack.set_registry(PUBLIC_REGISTRY);
+    }
+    Outcome::Results(1)
 }
 
 fn access_upvalue(stack: Stack<'_>) -> Next {

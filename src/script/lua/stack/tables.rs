@@ -122,6 +122,12 @@ impl Stack<'_> {
         api::lua_rawsetp(self.value(), Table::REGISTRY, key.as_ptr().cast());
     }
 
+    /// Pushes the value that is stored under a name, as Lua's own libraries do.
+    pub(in crate::script::lua) fn push_named_registry(self, name: &'static str) {
+        self.push_bytes(name.as_bytes());
+        api::lua_rawget(self.value(), Table::REGISTRY);
+    }
+
     /// Pops a value and stores it under a name, where mlua finds it.
     pub(crate) fn set_named_registry(self, name: &'static str) {
         api::lua_rawset(self.value().with_name(name), Table::REGISTRY);
