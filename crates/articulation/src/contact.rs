@@ -237,12 +237,13 @@ impl Mechanism {
         contacts.directions.clear();
         contacts.directions.resize(contacts.rows.len(), Vector3::zeros());
         let (mut changed, mut square) = (false, f64::INFINITY);
-        for _ in 0..SWEEPS {
+        for sweep in 1..=SWEEPS {
             contacts.before.clear();
             contacts.before.extend(contacts.rows.iter().map(|row| row.impulse));
             let (change, largest) = contacts.sweep();
             changed |= change > 0.0;
-            if change <= FOUND * largest {
+            // What is found in the end lies within the friction cones, where only sweeps keep it.
+            if change <= FOUND * largest || sweep == SWEEPS {
                 break;
             }
             square = contacts.extrapolate(square);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use geometry::Pose;
 use geometry::pose::euler::wrap_angle;
-use nalgebra::Vector3;
+use nalgebra::{RealField, Vector3};
 
 use crate::block_cholesky::{Block, Segment};
 use crate::contact::Contact;
@@ -77,7 +77,8 @@ impl JointKind {
     /// The coordinate along the free axis of a joint whose tip lies at `tip_in_base`: radians within half a turn, or metres.
     pub fn coordinate(self, tip_in_base: &Pose) -> f64 {
         match self {
-            Self::Revolute => wrap_angle(2.0 * tip_in_base.rotation.k.atan2(tip_in_base.rotation.w)),
+            // nalgebra's arc tangent has the same bits on every processor, that of the C library has not.
+            Self::Revolute => wrap_angle(2.0 * RealField::atan2(tip_in_base.rotation.k, tip_in_base.rotation.w)),
             Self::Prismatic => tip_in_base.translation.z,
             Self::Spherical | Self::Fixed => 0.0,
         }
