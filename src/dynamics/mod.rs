@@ -8,7 +8,7 @@
 //!
 //! - `plan`: the bodies and constraints that the scene needs; compared with those that exist, so that only changes reach the engine.
 //! - `bodies`, `colliders`, `links`: the objects of a plan in the engine; `mechanisms`: linked bodies, solved by the crate `articulation`.
-//! - `linked`: a mechanism with its bodies; `workers`: threads that solve mechanisms.
+//! - `linked`: a mechanism with its bodies; `reach`: how fast these may be without rapier; `workers`: threads that solve mechanisms.
 //! - `contacts`: collision filters; `exact_contacts`: what mechanisms touch; `flat_faces`: contacts without friction; `motors`: the control law.
 //! - `load`, `contact_log`: readings; `frozen`: bodies without finite motion.
 //!

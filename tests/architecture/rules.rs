@@ -217,7 +217,8 @@ const DYNAMICS: Rooms = &[
     ("contact_log", &["bodies", "convert", "exact_contacts", "world"]),
     ("load", &["convert", "plan", "world"]),
     ("links", &["bodies", "convert", "load", "motors", "plan", "world"]),
-    ("linked", &["bodies", "convert", "exact_contacts", "links", "world"]),
+    ("reach", &[]),
+    ("linked", &["bodies", "convert", "exact_contacts", "links", "reach", "world"]),
     ("mechanisms", &["bodies", "contacts", "exact_contacts", "linked", "links", "plan", "workers", "world"]),
     ("report", &["bodies", "convert", "links", "load", "plan", "world"]),
 ];

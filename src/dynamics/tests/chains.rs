@@ -135,6 +135,24 @@ fn an_arm_moves_the_same_beside_a_wild_chain() {
     assert_eq!(alone.joint(lone).position, chain.bench.joint(beside).position);
 }
 
+/// A body that falls is moved by rapier, and everything with it; an arm alone by its mechanism.
+#[test]
+fn an_arm_moves_alike_with_rapier_and_without() {
+    let (mut alone, mut beside) = (Bench::new(), Bench::new());
+    beside.shape([0.1; 3], [5.0, 0.0, 100.0], 1.0, true, true);
+    let [lone, other] = [&mut alone, &mut beside].map(|bench| {
+        let joint = bench.arm(0.02, 0.1, |_| {}).0;
+        bench.run(30);
+        joint
+    });
+    let is_integrated = [&alone, &beside].map(|bench| {
+        let world = bench.dynamics.world.as_ref().expect("it was stepped");
+        bench.dynamics.mechanisms.can_integrate(world)
+    });
+    assert_eq!(is_integrated, [true, false]);
+    near(alone.joint(lone).position, beside.joint(other).position, 1e-3);
+}
+
 #[test]
 fn a_swinging_chain_keeps_its_energy() {
     let mut bench = Bench::new();
