@@ -38,16 +38,18 @@ fn a_callback_that_decides_nothing_changes_no_bit() {
 }
 
 #[test]
-fn bodies_that_touch_others_are_solved_in_parts() {
+fn bodies_in_contact_are_solved_in_parts() {
     let mut bench = Bench::new();
     bench.shape([10.0, 10.0, 0.1], [0.0, 0.0, -0.05], 1.0, false, true);
+    let falling = bench.shape([0.1; 3], [0.0, 0.0, 1.0], 1.0, true, true);
     let alone = bench.shape([0.1; 3], [-1.0, 0.0, 0.05], 1.0, true, true);
     let lower = bench.shape([0.1; 3], [1.0, 0.0, 0.05], 1.0, true, true);
     let upper = bench.shape([0.1; 3], [1.0, 0.0, 0.15], 1.0, true, true);
     bench.run(2);
     let world = bench.dynamics.world.as_ref().expect("there is a world");
-    let parts = [alone, lower, upper].map(|shape| world.parts_of(bench.dynamics.bodies.get(shape).expect("is").rigid));
-    assert_eq!(parts, [1, 4, 4]);
+    let parts =
+        [falling, alone, lower, upper].map(|shape| world.parts_of(bench.dynamics.bodies.get(shape).expect("is").rigid));
+    assert_eq!(parts, [1, 4, 4, 4]);
     near(bench.height(alone), 0.05, 1e-5);
 }
 
