@@ -2,17 +2,16 @@
 //! keep them apart, with friction.
 //!
 //! A foot answers an impulse with all that stands on it. The response of the touching bodies with all joints holding is found from the
-//! factor of the system of the joints, `R = M^-1 - (L^-1 J M^-1)^T (L^-1 J M^-1)`, of which only the part between a touching body and the
-//! root of the tree is computed. Impulses are then found by projected Gauss-Seidel sweeps over the contacts, which change the velocities of the
-//! touching bodies by `R`, until they do not change any more: normal impulses push, tangential ones lie in the friction cone (M. Jean, *The
-//! non-smooth contact dynamics method*, 1999).
+//! factor of the system of the joints ([`System::responses`](crate::system::System::responses)); for a tree only the path between a touching
+//! body and the root is visited. Impulses are then found by projected Gauss-Seidel sweeps over the contacts, which change the velocities of the
+//! touching bodies by this response, until they do not change any more: normal impulses push, tangential ones lie in the friction cone (M. Jean,
+//! *The non-smooth contact dynamics method*, 1999).
 //!
 //! Neighbours at a joint that overlap where the joint lets neither of them escape do not push each other: neither where its motion does not
 //! separate them, nor where what separates them at one point brings them together at another one, as around a ball joint between two faces.
 
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3, Vector6};
 
-use crate::block_cholesky::Block;
 use crate::joint::Joint;
 use crate::linked_body::LinkedBody;
 use crate::mechanism::Mechanism;
@@ -87,8 +86,6 @@ pub(crate) struct Contacts {
     rows: Vec<Row>,
     /// The touching bodies: their places.
     bodies: Vec<usize>,
-    /// For each of them: its response to the joints next to it, carried along the factor. By column.
-    carried: Vec<Vec<Option<Block>>>,
     /// Velocities of the touching bodies.
     velocities: Vec<Vector6<f64>>,
     /// Their changes by an impulse along the axes of a contact, contact by contact.
@@ -136,7 +133,7 @@ impl Row {
     fn free_response(&self, bodies: &[LinkedBody]) -> f64 {
         let of_side = |side: &Side| {
             let normal = side.jacobian.column(0).into_owned();
-            normal.dot(&bodies[side.body].inverse_mass.times(&normal))
+            normal.dot(&bodies[side.body].inverse_mass().times(&normal))
         };
         self.sides.iter().flatten().map(of_side).sum()
     }
@@ -188,11 +185,12 @@ impl Mechanism {
         self.contacts.rows.iter().map(|row| row.axes.tr_mul(&row.impulse).into())
     }
 
-    /// The impulses of the contacts by body: force and torque about the centre of mass, times the step.
-    pub(crate) fn add_contact_impulses(&self, impulses: &mut [Vector6<f64>]) {
+    /// Lets the impulses of the contacts act on the bodies.
+    pub(crate) fn apply_contact_impulses(&mut self) {
+        self.bodies.iter_mut().for_each(|body| body.contact_impulse = Vector6::zeros());
         for row in &self.contacts.rows {
             for side in row.sides.iter().flatten() {
-                impulses[side.body] += side.jacobian * row.impulse;
+                self.bodies[side.body].contact_impulse += side.jacobian * row.impulse;
             }
         }
     }
@@ -203,30 +201,8 @@ impl Mechanism {
 
     /// Finds how contacts respond to each other while the joints hold, from the factor of the system.
     pub(crate) fn find_contact_response(&mut self) {
-        let mut carried = std::mem::take(&mut self.contacts.carried);
-        carried.resize_with(self.contacts.bodies.len(), Vec::new);
-        for (&body, blocks) in self.contacts.bodies.iter().zip(&mut carried) {
-            blocks.clear();
-            blocks.resize(self.joints.len(), None);
-            for (joint, block) in self.joints.iter().zip(blocks.iter_mut()) {
-                for side in (0..2).filter(|&side| joint.body(side) == body) {
-                    *block.get_or_insert_with(Block::zeros) += joint.active_inverse_mass[side].dense();
-                }
-            }
-            self.matrix.carry(&self.pattern, blocks);
-        }
-        let count = carried.len();
-        let mut bodies = Vec::with_capacity(count * count);
-        for (i, first) in carried.iter().enumerate() {
-            for (j, second) in carried.iter().enumerate() {
-                let own =
-                    if i == j { self.bodies[self.contacts.bodies[i]].inverse_mass.dense() } else { Matrix6::zeros() };
-                let shared = first.iter().zip(second).filter_map(|(a, b)| Some(a.as_ref()?.tr_mul(b.as_ref()?)));
-                bodies.push(shared.fold(own, |sum, product| sum - product));
-            }
-        }
-        self.contacts.carried = carried;
-        self.contacts.update_changes(&bodies);
+        let Self { system, joints, contacts, .. } = self;
+        contacts.update_changes(&system.responses(joints, &contacts.bodies));
     }
 
     /// Finds the impulses of the contacts, the joints having been solved for those assumed so far; true when they changed.

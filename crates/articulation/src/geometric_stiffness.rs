@@ -9,7 +9,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::joint::Joint;
+use crate::joint::{Joint, JointKind, JointProperties};
 use crate::linked_body::LinkedBody;
 use crate::mechanism::Mechanism;
 
@@ -21,12 +21,16 @@ const LARGEST_RATIO: f64 = 3.0;
 /// The geometric stiffness of a body under tension.
 #[derive(Default)]
 pub(crate) struct GeometricStiffness {
-    /// The stiffness against rotation, times the square of the step.
-    stiffness: Matrix3<f64>,
+    /// The levers of the forces times the forces, times the square of the step: `a` about an axis, the stiffness is the trace less `a M a`.
+    tension: Matrix3<f64>,
     /// The contribution of the body's mass to its inertia, if it is attached to a fixed point.
     pendulum_inertia: Matrix3<f64>,
     /// World axes.
     added_inertia: Option<Matrix3<f64>>,
+    /// The largest response of the body to torques about a free axis of its joints, 1/(kg m2).
+    response: f64,
+    /// What the stiffness cannot exceed, times the square of the step.
+    bound: f64,
 }
 
 impl GeometricStiffness {
@@ -40,7 +44,7 @@ impl Mechanism {
     pub(crate) fn stabilize(&mut self) {
         for body in self.bodies.iter_mut().filter(|body| body.geometric_stiffness.added_inertia.is_some()) {
             body.geometric_stiffness.added_inertia = None;
-            body.update_inverse_inertia();
+            body.update_inertia();
         }
         self.add_inertia(TARGET_RATIO);
     }
@@ -50,15 +54,51 @@ impl Mechanism {
         self.add_inertia(LARGEST_RATIO)
     }
 
+    /// Finds how easily bodies turn about the free axes of their joints, for [`may_exceed`](Self::may_exceed).
+    pub(crate) fn find_turning_responses(&mut self) {
+        for joint in &self.joints {
+            let JointProperties { base, tip, .. } = &joint.properties;
+            for (side, frame) in [base, tip].into_iter().enumerate() {
+                let body = &mut self.bodies[joint.body(side)];
+                let axis = frame.rotation * Vector3::z();
+                let inertia = match joint.properties.kind {
+                    JointKind::Revolute => axis.dot(&(body.inertia * axis)),
+                    JointKind::Spherical => body.inertia.symmetric_eigenvalues().min(),
+                    JointKind::Prismatic | JointKind::Fixed => continue,
+                };
+                let of_body = &mut body.geometric_stiffness;
+                of_body.response = of_body.response.max(1.0 / inertia);
+            }
+        }
+    }
+
+    /// Whether the stiffness of a body may be more than that many times its inertia. Most often the sizes of forces and levers tell that it
+    /// is not, whatever their directions.
+    fn may_exceed(&mut self, ratio: f64) -> bool {
+        self.bodies.iter_mut().for_each(|body| body.geometric_stiffness.bound = 0.0);
+        for joint in self.joints.iter().filter(|joint| joint.holds_point()) {
+            let force = joint.impulse.fixed_rows::<3>(0).norm() * self.step;
+            for side in 0..2 {
+                self.bodies[joint.body(side)].geometric_stiffness.bound += force * joint.levers[side].norm();
+            }
+        }
+        let exceeds = |of_body: &GeometricStiffness| of_body.bound * of_body.response > ratio;
+        self.bodies.iter().any(|body| body.is_dynamic() && exceeds(&body.geometric_stiffness))
+    }
+
     fn add_inertia(&mut self, largest_ratio: f64) -> bool {
+        if !self.may_exceed(largest_ratio) {
+            return false;
+        }
         for body in &mut self.bodies {
             let of_body = &mut body.geometric_stiffness;
-            (of_body.stiffness, of_body.pendulum_inertia) = (Matrix3::zeros(), Matrix3::zeros());
+            (of_body.tension, of_body.pendulum_inertia) = (Matrix3::zeros(), Matrix3::zeros());
         }
         for joint in self.joints.iter().filter(|joint| joint.holds_point()) {
             let [first, second] = joint.properties.bodies.map(|body| self.bodies[body].is_dynamic());
-            for (side, other_moves) in [second, first].into_iter().enumerate() {
-                self.bodies[joint.body(side)].add_tension(joint, side, other_moves, self.step);
+            let force = joint.axes.tr_mul(&joint.impulse.fixed_rows::<3>(0)) * self.step;
+            for (side, force, other_moves) in [(0, -force, second), (1, force, first)] {
+                self.bodies[joint.body(side)].add_tension(joint, &force, other_moves);
             }
         }
         let mut added = false;
@@ -74,34 +114,27 @@ impl Mechanism {
 }
 
 impl LinkedBody {
-    fn add_tension(&mut self, joint: &Joint, side: usize, other_moves: bool, step: f64) {
+    /// `force`: on the body at the joint, times the square of the step.
+    fn add_tension(&mut self, joint: &Joint, force: &Vector3<f64>, other_moves: bool) {
         let lever = joint.point - self.com;
-        let force = joint.jacobians[side].linear.tr_mul(&joint.impulse.fixed_rows::<3>(0));
-        let across = lever * force.transpose();
-        let restoring = Matrix3::identity() * lever.dot(&force) - (across + across.transpose()) * 0.5;
-        self.geometric_stiffness.stiffness += restoring * step;
+        self.geometric_stiffness.tension += lever * force.transpose();
         if !other_moves && self.is_dynamic() {
             let square = Matrix3::identity() * lever.norm_squared() - lever * lever.transpose();
             self.geometric_stiffness.pendulum_inertia += square / self.properties.inverse_mass;
         }
     }
 
-    /// Adds inertia about an axis if the ratio of stiffness to inertia is too large there.
+    /// Adds inertia about an axis if the ratio of stiffness to inertia is too large there; true if it is.
     fn add_inertia(&mut self, axis: &Vector3<f64>, largest_ratio: f64) -> bool {
-        let of_body = &self.geometric_stiffness;
-        let stiffness = axis.dot(&(of_body.stiffness * axis));
-        let response = axis.dot(&(self.inverse_mass.angular * axis));
-        if !(self.is_dynamic() && stiffness.is_finite() && stiffness * response > largest_ratio) {
+        let GeometricStiffness { tension, pendulum_inertia, added_inertia, .. } = &mut self.geometric_stiffness;
+        let stiffness = tension.trace() - axis.dot(&(*tension * axis));
+        let inertia = axis.dot(&((self.inertia + *pendulum_inertia) * axis));
+        if !(self.properties.is_dynamic() && stiffness.is_finite() && stiffness > largest_ratio * inertia) {
             return false;
         }
-        let added = of_body.added_inertia.unwrap_or_else(Matrix3::zeros);
-        let inertia = axis.dot(&((self.world_inertia() + of_body.pendulum_inertia + added) * axis));
-        if stiffness <= largest_ratio * inertia {
-            return false;
-        }
-        let added = added + axis * axis.transpose() * (stiffness / TARGET_RATIO - inertia);
-        self.geometric_stiffness.added_inertia = Some(added);
-        self.update_inverse_inertia();
+        let missing = axis * axis.transpose() * (stiffness / TARGET_RATIO - inertia);
+        *added_inertia.get_or_insert_with(Matrix3::zeros) += missing;
+        self.update_inertia();
         true
     }
 }

@@ -23,28 +23,6 @@ pub(crate) struct InverseMass {
 }
 
 impl Jacobian {
-    pub(crate) fn zeros() -> Self {
-        let none = Matrix3::zeros();
-        Self { linear: none, lever: none, angular: none }
-    }
-
-    /// Velocities along the rows.
-    #[inline]
-    pub(crate) fn velocity(&self, of_body: &Vector6<f64>) -> Segment {
-        let (linear, angular) = halves(of_body);
-        spatial(self.linear * linear + self.lever * angular, self.angular * angular)
-    }
-
-    /// Velocity along a row.
-    pub(crate) fn row_velocity(&self, row: usize, of_body: &Vector6<f64>) -> f64 {
-        let (linear, angular) = halves(of_body);
-        if row < 3 {
-            self.linear.row(row).tr_dot(&linear) + self.lever.row(row).tr_dot(&angular)
-        } else {
-            self.angular.row(row - 3).tr_dot(&angular)
-        }
-    }
-
     /// Impulse and angular impulse on the body of impulses along the rows.
     #[inline]
     pub(crate) fn impulse(&self, of_rows: &Segment) -> Vector6<f64> {
@@ -140,10 +118,6 @@ impl Jacobian {
 }
 
 impl InverseMass {
-    pub(crate) fn zero() -> Self {
-        Self { linear: 0.0, angular: Matrix3::zeros() }
-    }
-
     /// The change of velocity by an impulse and an angular impulse.
     #[inline]
     pub(crate) fn times(&self, impulse: &Vector6<f64>) -> Vector6<f64> {
@@ -189,7 +163,6 @@ mod tests {
         let (a, b) = (jacobian(0.3), jacobian(0.9));
         let mass = InverseMass { linear: 2.5, angular: matrix(0.1) };
         let vector = Vector6::from_fn(|row, _| row as f64 - 1.5);
-        assert!((a.velocity(&vector) - a.dense() * vector).amax() < 1e-15);
         assert!((a.impulse(&vector) - a.dense().transpose() * vector).amax() < 1e-15);
         assert!((mass.times(&vector) - mass.dense() * vector).amax() < 1e-15);
         assert!((a.times(&mass).dense() - a.dense() * mass.dense()).amax() < 1e-15);

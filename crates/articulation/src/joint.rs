@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use geometry::Pose;
 use geometry::pose::euler::wrap_angle;
-use nalgebra::{RealField, Vector3};
+use nalgebra::{Matrix3, RealField, Vector3, Vector6};
 
-use crate::block_cholesky::{Block, Segment};
+use crate::block_cholesky::Segment;
 use crate::contact::Contact;
 use crate::free_axis::{FreeAxis, MotorState};
-use crate::jacobian::{Jacobian, times_cross_matrix};
+use crate::jacobian::{Jacobian, halves, times_cross_matrix};
 use crate::linked_body::LinkedBody;
 use crate::spatial;
 
@@ -99,18 +99,15 @@ impl JointKind {
 pub(crate) struct Joint {
     pub properties: JointProperties,
     pub state: JointState,
-    /// The Jacobian of the joint: from the velocities of its two bodies to its rows.
-    pub jacobians: [Jacobian; 2],
+    /// The axes of the base: rows.
+    pub axes: Matrix3<f64>,
     /// The point at which the forces of the joint act, world.
     pub point: Vector3<f64>,
+    /// From there to the centres of mass of the bodies.
+    pub levers: [Vector3<f64>; 2],
     locked: [bool; 6],
     pub axis: Option<FreeAxis>,
     pub impulse: Segment,
-    /// The Jacobians of the active rows; other rows are zero.
-    pub active: [Jacobian; 2],
-    /// The same times the inverse masses of the bodies: the halves of the inverse effective mass.
-    pub active_inverse_mass: [Jacobian; 2],
-    active_rows: [bool; 6],
     /// The axis of the joint in the frame of the second body.
     tip_axis: Vector3<f64>,
 }
@@ -122,18 +119,15 @@ fn misaligned(axis: &Vector3<f64>) -> Vector3<f64> {
 
 impl Joint {
     pub(crate) fn new(properties: JointProperties) -> Self {
-        let none = [Jacobian::zeros(); 2];
         Self {
             properties,
             state: JointState { position: 0.0, velocity: 0.0, motor: None, limits: None },
-            jacobians: none,
+            axes: Matrix3::zeros(),
             point: Vector3::zeros(),
+            levers: [Vector3::zeros(); 2],
             locked: properties.kind.locked_rows(),
             axis: FreeAxis::of(properties.kind),
             impulse: Segment::zeros(),
-            active: none,
-            active_inverse_mass: none,
-            active_rows: [false; 6],
             tip_axis: properties.tip.rotation * Vector3::z(),
         }
     }
@@ -143,37 +137,77 @@ impl Joint {
         self.properties.bodies[side]
     }
 
-    /// Computes the Jacobians for where the bodies are.
-    pub(crate) fn update_jacobians(&mut self, bodies: &[LinkedBody]) {
-        let JointProperties { base, tip, pitch, .. } = &self.properties;
+    /// Finds the axes and the point for where the bodies are.
+    pub(crate) fn place(&mut self, bodies: &[LinkedBody]) {
+        let JointProperties { base, tip, .. } = &self.properties;
         let [first, second] = self.properties.bodies.map(|body| &bodies[body]);
-        let axes = (first.pose.rotation * base.rotation).to_rotation_matrix().into_inner().transpose();
-        self.point = (second.pose * tip).translation.vector;
-        for (side, (body, axes)) in [(first, -axes), (second, axes)].into_iter().enumerate() {
-            let mut lever = times_cross_matrix(&axes, &(body.com - self.point));
-            if *pitch != 0.0 {
-                let screwed = lever.row(2) - axes.row(2) * *pitch;
-                lever.set_row(2, &screwed);
-            }
-            self.jacobians[side] = Jacobian { linear: axes, lever, angular: axes };
+        self.axes = (first.pose.rotation * base.rotation).to_rotation_matrix().into_inner().transpose();
+        self.point = (second.pose.transform_point(&tip.translation.vector.into())).coords;
+        self.levers = [first.com - self.point, second.com - self.point];
+    }
+
+    /// The Jacobian of the joint: from the velocity of one of its bodies to its rows.
+    pub(crate) fn jacobian(&self, side: usize) -> Jacobian {
+        let axes = if side == 0 { -self.axes } else { self.axes };
+        let mut lever = times_cross_matrix(&axes, &self.levers[side]);
+        if self.properties.pitch != 0.0 {
+            let screwed = lever.row(2) - axes.row(2) * self.properties.pitch;
+            lever.set_row(2, &screwed);
         }
+        Jacobian { linear: axes, lever, angular: axes }
+    }
+
+    /// The motions of the second body at the point of the joint that the joint leaves free if no motor and no limit acts, at unit velocity.
+    pub(crate) fn free_motions(&self) -> impl Iterator<Item = Vector6<f64>> {
+        let axis = |row: usize| self.axes.row(row).transpose();
+        let motion = move |row| match row {
+            0..3 => spatial(axis(row), Vector3::zeros()),
+            _ => spatial(axis(row - 3) * self.properties.pitch, axis(row - 3)),
+        };
+        (0..6).filter(|&row| !self.locked[row]).map(motion)
+    }
+
+    /// A twist given along the rows, at the point of the joint.
+    pub(crate) fn along_axes(&self, rows: &Segment) -> Vector6<f64> {
+        let (linear, angular) = halves(rows);
+        spatial(self.axes.tr_mul(&linear), self.axes.tr_mul(&angular))
+    }
+
+    /// Takes the impulse on the second body at the point of the joint as that of the rows.
+    pub(crate) fn set_impulse(&mut self, impulse: &Vector6<f64>) {
+        let (linear, angular) = halves(impulse);
+        let mut rows = spatial(self.axes * linear, self.axes * angular);
+        rows[5] += self.properties.pitch * rows[2];
+        self.impulse = self.with_active(rows - self.saturated_rows());
+    }
+
+    /// Velocity of the second body relative to the first at the point of the joint.
+    fn relative_velocity(&self, bodies: &[LinkedBody]) -> (Vector3<f64>, Vector3<f64>) {
+        let [first, second] = [0, 1].map(|side| {
+            let (linear, angular) = halves(&bodies[self.body(side)].velocity);
+            (linear + self.levers[side].cross(&angular), angular)
+        });
+        (second.0 - first.0, second.1 - first.1)
     }
 
     /// Velocities along the rows.
     fn velocity(&self, bodies: &[LinkedBody]) -> Segment {
-        let [first, second] = self.properties.bodies.map(|body| &bodies[body].velocity);
-        self.jacobians[0].velocity(first) + self.jacobians[1].velocity(second)
+        let (linear, angular) = self.relative_velocity(bodies);
+        let mut rows = spatial(self.axes * linear, self.axes * angular);
+        rows[2] -= self.properties.pitch * rows[5];
+        rows
     }
 
-    /// Velocity along a row.
-    fn row_velocity(&self, row: usize, bodies: &[LinkedBody]) -> f64 {
-        let [first, second] = self.properties.bodies.map(|body| &bodies[body].velocity);
-        self.jacobians[0].row_velocity(row, first) + self.jacobians[1].row_velocity(row, second)
+    /// Velocity along the free axis of a joint with one degree of freedom.
+    fn axis_velocity(&self, row: usize, bodies: &[LinkedBody]) -> f64 {
+        let (linear, angular) = self.relative_velocity(bodies);
+        let along = if row < 3 { linear } else { angular };
+        self.axes.row(row % 3).tr_dot(&along)
     }
 
     /// Velocity of the second body about the axis relative to the first.
     pub(crate) fn turning_velocity(&self, bodies: &[LinkedBody]) -> f64 {
-        self.row_velocity(5, bodies)
+        self.axis_velocity(5, bodies)
     }
 
     /// By how much the locked rows are violated: metres and radians. `turned`: how far the joint turned in this step.
@@ -195,31 +229,24 @@ impl Joint {
         if *pitch != 0.0 {
             error[2] -= pitch * kind.continued_coordinate(&apart, self.state.position, turned);
         }
-        (0..6).filter(|&row| !self.locked[row]).for_each(|row| error[row] = 0.0);
-        error
+        self.locked_part(error)
     }
 
-    /// Computes what the active rows add to the inverse effective mass of the system.
-    pub(crate) fn update_effective_mass(&mut self, bodies: &[LinkedBody]) {
-        self.active_rows = std::array::from_fn(|row| self.is_active(row));
-        for side in 0..2 {
-            let rows = self.jacobians[side].with_rows(&self.active_rows);
-            self.active[side] = rows;
-            self.active_inverse_mass[side] = rows.times(&bodies[self.body(side)].inverse_mass);
-        }
+    /// With zeros in the rows that are not locked.
+    pub(crate) fn locked_part(&self, mut rows: Segment) -> Segment {
+        (0..6).filter(|&row| !self.locked[row]).for_each(|row| rows[row] = 0.0);
+        rows
     }
 
-    /// Adds the response of the active rows to themselves by one of the bodies: the lower triangle.
-    pub(crate) fn add_own_response(&self, side: usize, bodies: &[LinkedBody], block: &mut Block) {
-        let mass = &bodies[self.body(side)].inverse_mass;
-        self.active[side].add_own_product(&self.active_inverse_mass[side], mass, &self.active_rows, block);
+    /// Which rows are constrained.
+    pub(crate) fn active_rows(&self) -> [bool; 6] {
+        std::array::from_fn(|row| self.is_active(row))
     }
 
-    /// Sets the rows that are not active to zero.
-    fn keep_active(&self, rows: &mut Segment) {
-        for row in (0..6).filter(|&row| !self.active_rows[row]) {
-            rows[row] = 0.0;
-        }
+    /// With zeros in the rows that are not active.
+    fn with_active(&self, mut rows: Segment) -> Segment {
+        (0..6).filter(|&row| !self.is_active(row)).for_each(|row| rows[row] = 0.0);
+        rows
     }
 
     fn is_active(&self, row: usize) -> bool {
@@ -229,22 +256,40 @@ impl Joint {
         }
     }
 
+    /// Whether a motor or a limit imposes a velocity along the free axis.
+    pub(crate) fn imposes_velocity(&self) -> bool {
+        self.axis.as_ref().is_some_and(FreeAxis::is_active)
+    }
+
+    /// The velocity along the free axis that a motor or a limit requires.
+    pub(crate) fn imposed_velocity(&self) -> f64 {
+        self.axis.as_ref().map_or(0.0, FreeAxis::target_velocity)
+    }
+
     /// The change of velocity that the active rows require.
-    pub(crate) fn right_hand_side(&self, bodies: &[LinkedBody]) -> Segment {
+    pub(crate) fn missing_velocity(&self, bodies: &[LinkedBody]) -> Segment {
         let mut missing = -self.velocity(bodies);
         if let Some(axis) = &self.axis {
             missing[axis.row] += axis.target_velocity();
         }
-        self.keep_active(&mut missing);
-        missing
+        self.with_active(missing)
     }
 
-    /// The impulse of a saturated motor.
-    pub(crate) fn saturated_impulse(&self) -> Option<Segment> {
-        let Some(FreeAxis { row, motor: MotorState::Saturated(all), .. }) = self.axis else { return None };
-        let mut impulse = Segment::zeros();
-        impulse[row] = all;
-        Some(impulse)
+    /// The impulse of a saturated motor along the free axis; 0 for others.
+    pub(crate) fn saturated_impulse(&self) -> f64 {
+        match self.axis {
+            Some(FreeAxis { motor: MotorState::Saturated(all), .. }) => all,
+            _ => 0.0,
+        }
+    }
+
+    /// The same by rows.
+    pub(crate) fn saturated_rows(&self) -> Segment {
+        let mut rows = Segment::zeros();
+        if let Some(axis) = &self.axis {
+            rows[axis.row] = self.saturated_impulse();
+        }
+        rows
     }
 
     fn motor_impulse(&self) -> f64 {
@@ -257,28 +302,18 @@ impl Joint {
 
     /// All impulses of the rows.
     pub(crate) fn total_impulse(&self) -> Segment {
-        self.saturated_impulse().map_or(self.impulse, |saturated| self.impulse + saturated)
+        self.impulse + self.saturated_rows()
     }
 
     pub(crate) fn load(&self, step: f64) -> JointLoad {
         JointLoad { rows: self.total_impulse() / step, motor: self.motor_impulse() / step }
     }
 
-    /// Changes the velocities of the bodies by an impulse along the rows.
-    pub(crate) fn apply_impulse(&self, bodies: &mut [LinkedBody], impulse: &Segment) {
-        for side in 0..2 {
-            let body = &mut bodies[self.body(side)];
-            let impulse = self.jacobians[side].impulse(impulse);
-            body.joint_impulse += impulse;
-            body.velocity += body.inverse_mass.times(&impulse);
-        }
-    }
-
     /// Lets motor and limit change sides where the solution violates their bounds; true when the system must be solved again. With caution
     /// nothing leaves its bound again.
     pub(crate) fn update_active_set(&mut self, bodies: &[LinkedBody], step: f64, is_cautious: bool) -> bool {
         let Some(mut axis) = self.axis.filter(|axis| axis.can_change(&self.state)) else { return false };
-        let velocity = self.row_velocity(axis.row, bodies);
+        let velocity = self.axis_velocity(axis.row, bodies);
         let changed = axis.update_active_set(&self.state, velocity, self.impulse[axis.row], step, is_cautious);
         self.axis = Some(axis);
         changed
@@ -295,10 +330,10 @@ impl Joint {
             let speed = velocity.norm();
             Vector3::x() * if speed > 0.0 { sign * velocity.dot(&normal) / speed } else { 0.0 }
         };
-        let Jacobian { linear, angular, .. } = &self.jacobians[1];
+        let axis = self.axes.row(2).transpose();
         match self.properties.kind {
-            JointKind::Revolute => along(angular.row(2).transpose().cross(&lever)),
-            JointKind::Prismatic => along(linear.row(2).transpose()),
+            JointKind::Revolute => along(axis.cross(&lever)),
+            JointKind::Prismatic => along(axis),
             JointKind::Spherical if lever != Vector3::zeros() => sign * lever.cross(&normal) / lever.norm(),
             JointKind::Spherical | JointKind::Fixed => Vector3::zeros(),
         }
@@ -311,7 +346,7 @@ impl Joint {
 
     /// The axes its bodies may turn about against each other, world.
     pub(crate) fn free_rotation_axes(&self) -> impl Iterator<Item = Vector3<f64>> {
-        let axis = |row: usize| self.jacobians[1].angular.row(row - 3).transpose();
+        let axis = |row: usize| self.axes.row(row - 3).transpose();
         (3..6).filter(|&row| !self.is_active(row)).map(axis)
     }
 }

@@ -20,16 +20,18 @@
 //! # Method
 //!
 //! 1. Velocities at the end of the step are predicted from gravity, external forces, expected contact impulses and the gyroscopic torque.
-//! 2. Every joint has six rows; active are the locked ones and those of motors and limits. With the Jacobian `J` of the active rows and the
+//! 2. The impulses of joints and the velocities follow from a system of equations. Without loops it is solved by the articulated-body
+//!    algorithm (R. Featherstone, *Rigid Body Dynamics Algorithms*, 2008), which only knows the free axes. With loops every joint has six rows;
+//!    active are the locked ones and those of motors and limits. With the Jacobian `J` of the active rows and the
 //!    masses `M`, the system `(J M^-1 J^T + C) lambda = b - J v` gives the impulses `lambda` (D. Baraff, *Linear-time dynamics using
 //!    Lagrange multipliers*, SIGGRAPH 1996). Two joints are coupled where they share a body that moves, so that the matrix has a 6 x 6 block for
-//!    each such pair. It is factorised by a sparse block Cholesky decomposition, eliminated from the tips of the tree; loops
+//!    each such pair. It is factorised by a sparse block Cholesky decomposition; loops
 //!    cause fill-in. The compliance `C`, a relative 1e-9, makes redundant rows solvable.
 //! 3. A motor beyond its largest force becomes a known force (saturated), a limit that would pull becomes inactive, one that is reached
 //!    active; the system is then solved again, at most eight times: an active-set method without guarantee of the optimum, which in
 //!    practice ends after one or two solutions since it begins with the set of the step before.
 //! 4. Contacts push, and rub within the friction cone. Their impulses are found by nonsmooth conjugate gradients (M. Silcowitz, S. Niebe and K.
-//!    Erleben, 2010) of projected Gauss-Seidel sweeps over the response of the contacts with all joints holding, which follows from the factor; then
+//!    Erleben, 2010) of projected Gauss-Seidel sweeps over the response of the contacts with all joints holding, which follows from the same factor; then
 //!    the joints are solved again. Free bodies that touch the mechanism take part as guests.
 //! 5. Light bodies under heavy tension get additional inertia, so that explicit integration stays stable (S. Andrews, M. Teichmann and
 //!    P. Kry, *Geometric stiffness for real-time constrained multibody dynamics*, 2017).
@@ -86,6 +88,11 @@ mod joint;
 mod linked_body;
 mod mechanism;
 mod position_correction;
+mod rows;
+mod spatial_inertia;
+mod system;
+mod tree;
+mod tree_growth;
 
 use nalgebra::{Vector3, Vector6};
 

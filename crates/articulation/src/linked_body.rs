@@ -5,8 +5,9 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3, Vector6};
 
 use crate::fast_rotor::FastRotor;
 use crate::geometric_stiffness::GeometricStiffness;
-use crate::jacobian::InverseMass;
+use crate::jacobian::{InverseMass, halves};
 use crate::spatial;
+use crate::spatial_inertia::SpatialInertia;
 
 /// Up to here the series of a rotation are used: half its angle, rad.
 const SMALL_HALF_ANGLE: f64 = 0.01;
@@ -54,6 +55,11 @@ impl BodyProperties {
         Self { inverse_mass: 0.0, inertia: Matrix3::zeros(), inverse_inertia: Matrix3::zeros(), com }
     }
 
+    /// Whether torques turn the body.
+    pub(crate) fn can_turn(&self) -> bool {
+        self.inverse_inertia != Matrix3::zeros()
+    }
+
     /// Whether forces move the body.
     pub fn is_dynamic(&self) -> bool {
         self.inverse_mass > 0.0
@@ -66,14 +72,16 @@ pub(crate) struct LinkedBody {
     pub pose: Pose,
     /// Centre of mass, world.
     pub com: Vector3<f64>,
-    /// Response to impulses about the centre of mass, world axes.
-    pub inverse_mass: InverseMass,
+    /// Inertia about the centre of mass, what was added to it included; world axes.
+    pub inertia: Matrix3<f64>,
     /// Velocity before all impulses, gravity included, and with them.
     free_velocity: Vector6<f64>,
     present_velocity: Vector6<f64>,
     pub velocity: Vector6<f64>,
-    /// Impulses of the joints; during the correction of positions what moves the body, kg m and kg m2.
+    /// Impulses of the joints.
     pub joint_impulse: Vector6<f64>,
+    /// Impulses of the contacts that are solved with the mechanism.
+    pub contact_impulse: Vector6<f64>,
     /// Impulses of external forces, contacts and the gyroscopic torque.
     pub external_impulse: Vector6<f64>,
     pub geometric_stiffness: GeometricStiffness,
@@ -100,11 +108,12 @@ impl LinkedBody {
             properties,
             pose: Pose::identity(),
             com: Vector3::zeros(),
-            inverse_mass: InverseMass { linear: properties.inverse_mass, ..InverseMass::zero() },
+            inertia: properties.inertia,
             free_velocity: Vector6::zeros(),
             present_velocity: Vector6::zeros(),
             velocity: Vector6::zeros(),
             joint_impulse: Vector6::zeros(),
+            contact_impulse: Vector6::zeros(),
             external_impulse: Vector6::zeros(),
             geometric_stiffness: GeometricStiffness::default(),
             is_guest: false,
@@ -125,7 +134,7 @@ impl LinkedBody {
 
     pub(crate) fn set_pose(&mut self, pose: Pose) {
         self.place(pose);
-        self.update_inverse_inertia();
+        self.update_inertia();
     }
 
     /// Moves the body without changing its response to impulses.
@@ -134,15 +143,35 @@ impl LinkedBody {
         self.com = pose.transform_point(&self.properties.com.into()).coords;
     }
 
-    /// Computes the response to angular impulses for the present orientation and added inertia.
-    pub(crate) fn update_inverse_inertia(&mut self) {
+    /// Computes the inertia for the present orientation, with what is added.
+    pub(crate) fn update_inertia(&mut self) {
+        self.inertia = self.along_world(&self.properties.inertia);
+        if let Some(added) = self.geometric_stiffness.added_inertia() {
+            self.inertia += added;
+        }
+    }
+
+    /// A tensor of the body along the axes of the world.
+    fn along_world(&self, tensor: &Matrix3<f64>) -> Matrix3<f64> {
         let turn = self.pose.rotation.to_rotation_matrix();
-        let inverse = turn.matrix() * self.properties.inverse_inertia * turn.matrix().transpose();
-        let inverse = match self.geometric_stiffness.added_inertia() {
-            Some(added) => (self.world_inertia() + added).try_inverse().unwrap_or(inverse),
-            None => inverse,
-        };
-        self.inverse_mass.angular = inverse;
+        turn.matrix() * tensor * turn.matrix().transpose()
+    }
+
+    /// The response to impulses about the centre of mass, world axes.
+    pub(crate) fn inverse_mass(&self) -> InverseMass {
+        let inverse = || self.along_world(&self.properties.inverse_inertia);
+        let with_added = || self.inertia.try_inverse().unwrap_or_else(inverse);
+        let is_added = self.geometric_stiffness.added_inertia().is_some();
+        InverseMass { linear: self.properties.inverse_mass, angular: if is_added { with_added() } else { inverse() } }
+    }
+
+    /// Inertia of a body that forces move, world axes.
+    pub(crate) fn spatial_inertia(&self) -> SpatialInertia {
+        if self.is_dynamic() {
+            SpatialInertia::of_body(1.0 / self.properties.inverse_mass, self.inertia)
+        } else {
+            SpatialInertia::zero()
+        }
     }
 
     /// Predicts the velocity at the end of the step without joints, and collects the other impulses.
@@ -168,10 +197,30 @@ impl LinkedBody {
         spatial(shift, turn) / step
     }
 
-    /// The velocity with all impulses but those of joints and contacts.
-    pub(crate) fn reset_velocity(&mut self) {
-        self.joint_impulse = Vector6::zeros();
-        self.velocity = self.free_velocity + self.inverse_mass.times(&self.external_impulse);
+    /// The velocity without any impulse but that of gravity.
+    pub(crate) fn free_velocity(&self) -> Vector6<f64> {
+        self.free_velocity
+    }
+
+    /// All impulses but those of joints and gravity.
+    pub(crate) fn known_impulse(&self) -> Vector6<f64> {
+        self.external_impulse + self.contact_impulse
+    }
+
+    /// The momentum with all impulses but those of joints.
+    pub(crate) fn free_momentum(&self) -> Vector6<f64> {
+        self.momentum(&self.free_velocity) + self.known_impulse()
+    }
+
+    /// The impulse of joints that leads to the velocity.
+    pub(crate) fn missing_impulse(&self) -> Vector6<f64> {
+        self.momentum(&(self.velocity - self.free_velocity)) - self.known_impulse()
+    }
+
+    /// The momentum at a velocity.
+    fn momentum(&self, velocity: &Vector6<f64>) -> Vector6<f64> {
+        let (linear, angular) = halves(velocity);
+        spatial(linear / self.properties.inverse_mass, self.inertia * angular)
     }
 
     /// The velocity before the step.
@@ -181,8 +230,7 @@ impl LinkedBody {
 
     /// Inertia along the axes of the world.
     pub(crate) fn world_inertia(&self) -> Matrix3<f64> {
-        let turn = self.pose.rotation.to_rotation_matrix();
-        turn.matrix() * self.properties.inertia * turn.matrix().transpose()
+        self.along_world(&self.properties.inertia)
     }
 
     /// The inertia times an angular velocity, both along the axes of the world.
@@ -220,12 +268,13 @@ impl LinkedBody {
 
     /// The impulse that gives the body of an engine, which applies external forces by itself and knows no added inertia, the
     /// velocity that `of_joints` gives this one.
-    pub(crate) fn engine_impulse(&self, of_joints: &Vector6<f64>) -> Vector6<f64> {
+    pub(crate) fn engine_impulse(&self) -> Vector6<f64> {
+        let found = self.joint_impulse + self.contact_impulse;
         if self.is_guest {
-            return *of_joints;
+            return found;
         }
-        let angular = of_joints.fixed_rows::<3>(3) + self.gyroscopic_impulse;
-        spatial(of_joints.fixed_rows::<3>(0).into_owned(), self.without_added_inertia(angular))
+        let angular = found.fixed_rows::<3>(3) + self.gyroscopic_impulse;
+        spatial(found.fixed_rows::<3>(0).into_owned(), self.without_added_inertia(angular))
     }
 
     fn without_added_inertia(&self, angular: Vector3<f64>) -> Vector3<f64> {
@@ -233,7 +282,7 @@ impl LinkedBody {
             return angular;
         }
         let external = self.external_impulse.fixed_rows::<3>(3) - self.gyroscopic_impulse;
-        self.angular_momentum(&(self.inverse_mass.angular * (angular + external))) - external
+        self.angular_momentum(&(self.inverse_mass().angular * (angular + external))) - external
     }
 }
 

@@ -1,22 +1,21 @@
-//! Bodies linked by joints, solved together: one system, with a row of blocks for each joint.
+//! Bodies linked by joints, solved together.
 //!
 //! A motor that cannot reach its velocity exerts its largest force, a limit only pushes: which of them are active is found by iteration
 //! over active sets.
 
 use nalgebra::{Vector3, Vector6};
 
-use crate::block_cholesky::{Matrix, Pattern, Place, Segment};
+use crate::block_cholesky::Segment;
 use crate::contact::Contacts;
 use crate::joint::{Joint, JointLoad, JointProperties, JointState};
 use crate::linked_body::{BodyProperties, BodyState, LinkedBody};
 use crate::spatial;
+use crate::system::{System, system_of};
 
 /// Largest number of solutions in a step: with any other active sets, and then with sets in which motors stay saturated and limits active. Without the
 /// latter, many weak motors may leave and enter the set for ever, and what is applied then exceeds their forces.
 const ITERATIONS: usize = 8;
 const CAUTIOUS_ITERATIONS: usize = 24;
-/// Compliance of the rows as a fraction of their own response: makes systems with redundant rows, such as flat loops, solvable.
-const COMPLIANCE: f64 = 1e-9;
 
 /// Bodies linked by joints, and the solver's state between steps.
 ///
@@ -26,13 +25,9 @@ const COMPLIANCE: f64 = 1e-9;
 pub struct Mechanism {
     pub(crate) bodies: Vec<LinkedBody>,
     pub(crate) joints: Vec<Joint>,
-    couplings: Vec<Coupling>,
-    pub(crate) pattern: Pattern,
-    pub(crate) matrix: Matrix,
+    pub(crate) system: Box<dyn System>,
     pub(crate) contacts: Contacts,
-    /// A segment for each joint, reused by each solution.
-    impulses: Vec<Segment>,
-    /// The same for the correction of positions.
+    /// The errors of positions, a segment for each joint.
     pub(crate) errors: Vec<Segment>,
     /// Number of bodies that joints link; guests come after them.
     linked: usize,
@@ -40,16 +35,8 @@ pub struct Mechanism {
     pub(crate) step: f64,
 }
 
-/// Two joints, or one with itself, at a body that moves: each by index and side, the column no greater than the row.
-struct Coupling {
-    row: (usize, usize),
-    column: (usize, usize),
-    /// Of the block of the system that they share.
-    place: Place,
-}
-
 impl Mechanism {
-    /// Lays out the system. Joints are eliminated in their order: with those at the tips of a tree first, there is no fill-in.
+    /// Lays out the system. Where joints form loops they are eliminated in their order: those at the tips should come first.
     ///
     /// # Panics
     /// When a joint refers to a body that is not there.
@@ -60,24 +47,12 @@ impl Mechanism {
         );
         let bodies: Vec<LinkedBody> = bodies.into_iter().map(LinkedBody::new).collect();
         let joints: Vec<Joint> = joints.into_iter().map(Joint::new).collect();
-        let pairs = coupled_pairs(&bodies, &joints);
-        let pattern = Pattern::new(joints.len(), pairs.iter().map(|(row, column)| (row.0, column.0)));
-        let couplings =
-            pairs.into_iter().map(|(row, column)| Coupling { row, column, place: pattern.place(row.0, column.0) });
-        let couplings = couplings.collect();
+        let system = system_of(&bodies, &joints);
         let linked = bodies.len();
-        Self {
-            bodies,
-            joints,
-            couplings,
-            linked,
-            pattern,
-            matrix: Matrix::default(),
-            contacts: Contacts::default(),
-            impulses: Vec::new(),
-            errors: Vec::new(),
-            step: 0.0,
-        }
+        let (contacts, errors) = (Contacts::default(), Vec::new());
+        let mut mechanism = Self { bodies, joints, system, contacts, errors, linked, step: 0.0 };
+        mechanism.find_turning_responses();
+        mechanism
     }
 
     /// Whether joints form loops. A tree has as many joints as bodies that move, at most.
@@ -89,6 +64,7 @@ impl Mechanism {
     pub fn set_guests(&mut self, guests: impl IntoIterator<Item = BodyProperties>) {
         self.bodies.truncate(self.linked);
         self.bodies.extend(guests.into_iter().map(LinkedBody::guest));
+        self.system.set_guests(self.linked..self.bodies.len());
     }
 
     /// Begins a step of `step` seconds: where bodies and joints are, and what acts on them. `gravity` in m/s2, world axes. Bodies (guests last) and joints
@@ -102,7 +78,7 @@ impl Mechanism {
         }
         for (joint, state) in self.joints.iter_mut().zip(joints) {
             joint.state = *state;
-            joint.update_jacobians(&self.bodies);
+            joint.place(&self.bodies);
             joint.axis.iter_mut().for_each(|axis| axis.warm_start(state, step));
         }
         self.stabilize();
@@ -120,8 +96,7 @@ impl Mechanism {
     pub fn solve(&mut self) -> bool {
         let last = ITERATIONS + CAUTIOUS_ITERATIONS - 1;
         for iteration in 0..=last {
-            self.assemble();
-            if !self.matrix.factorize(&self.pattern) {
+            if !self.system.factorize(&self.joints, &self.bodies) {
                 return false;
             }
             self.find_impulses();
@@ -149,11 +124,8 @@ impl Mechanism {
     /// Force and torque about the centre of mass (N, N m, world axes) that an engine is to apply to each body during the step, beside
     /// gravity, external forces and contacts, but instead of the gyroscopic torque; None for bodies that no force moves.
     pub fn body_loads(&self) -> Vec<Option<Vector6<f64>>> {
-        let mut impulses: Vec<Vector6<f64>> = self.bodies.iter().map(|body| body.joint_impulse).collect();
-        self.add_contact_impulses(&mut impulses);
-        let load =
-            |(body, impulse): (&LinkedBody, _)| body.is_dynamic().then(|| body.engine_impulse(&impulse) / self.step);
-        self.bodies.iter().zip(impulses).map(load).collect()
+        let load = |body: &LinkedBody| body.is_dynamic().then(|| body.engine_impulse() / self.step);
+        self.bodies.iter().map(load).collect()
     }
 
     /// The velocities of the bodies at the end of the step: of the centre of mass (m/s), then angular (rad/s), along the axes of the world.
@@ -166,71 +138,11 @@ impl Mechanism {
         self.joints.iter().map(|joint| joint.load(self.step))
     }
 
-    /// Forms the inverse effective mass of the active rows.
-    pub(crate) fn assemble(&mut self) {
-        self.matrix.clear(&self.pattern);
-        self.joints.iter_mut().for_each(|joint| joint.update_effective_mass(&self.bodies));
-        for Coupling { row, column, place } in &self.couplings {
-            let (joint, other) = (&self.joints[row.0], &self.joints[column.0]);
-            match *place {
-                Place::Diagonal(index) => {
-                    joint.add_own_response(row.1, &self.bodies, &mut self.matrix.diagonal[index]);
-                }
-                Place::Below(index) => {
-                    let below = &mut self.matrix.below[index];
-                    joint.active_inverse_mass[row.1].add_product(&other.active[column.1], below);
-                }
-            }
-        }
-        for diagonal in &mut self.matrix.diagonal {
-            for row in 0..6 {
-                let response = diagonal[(row, row)];
-                diagonal[(row, row)] = if response > 0.0 { response * (1.0 + COMPLIANCE) } else { 1.0 };
-            }
-        }
-    }
-
-    /// Solves for the impulses and changes the velocities by them.
+    /// Solves for the impulses and velocities.
     fn find_impulses(&mut self) {
-        self.bodies.iter_mut().for_each(LinkedBody::reset_velocity);
-        if self.has_contacts() {
-            let mut impulses = vec![Vector6::zeros(); self.bodies.len()];
-            self.add_contact_impulses(&mut impulses);
-            for (body, impulse) in self.bodies.iter_mut().zip(impulses) {
-                body.velocity += body.inverse_mass.times(&impulse);
-            }
-        }
-        for joint in &self.joints {
-            if let Some(saturated) = joint.saturated_impulse() {
-                joint.apply_impulse(&mut self.bodies, &saturated);
-            }
-        }
-        let Self { joints, bodies, impulses, .. } = self;
-        impulses.clear();
-        impulses.extend(joints.iter().map(|joint| joint.right_hand_side(bodies)));
-        self.matrix.solve(&self.pattern, impulses);
-        for (joint, impulse) in joints.iter_mut().zip(impulses) {
-            joint.impulse = *impulse;
-            joint.apply_impulse(bodies, impulse);
-        }
+        self.apply_contact_impulses();
+        self.system.find_impulses(&mut self.joints, &mut self.bodies);
     }
-}
-
-/// The pairs of joints that share a body that moves: index and side of the later one, then of the other.
-fn coupled_pairs(bodies: &[LinkedBody], joints: &[Joint]) -> Vec<((usize, usize), (usize, usize))> {
-    let mut at_body: Vec<Vec<(usize, usize)>> = vec![Vec::new(); bodies.len()];
-    for (index, joint) in joints.iter().enumerate() {
-        for side in (0..2).filter(|&side| bodies[joint.body(side)].is_dynamic()) {
-            at_body[joint.body(side)].push((index, side));
-        }
-    }
-    let mut pairs = Vec::new();
-    for ends in at_body {
-        for (i, &row) in ends.iter().enumerate() {
-            pairs.extend(ends[..=i].iter().map(|&column| (row, column)));
-        }
-    }
-    pairs
 }
 
 #[cfg(test)]
@@ -347,7 +259,7 @@ mod tests {
         let corrected = mechanism.correct_positions(&motions, &[0.0; 3]);
         assert!(corrected[0].is_none() && corrected[1..].iter().all(Option::is_some));
         let errors = mechanism.joints.iter().map(|joint| joint.position_error(&mechanism.bodies, 0.0).amax());
-        assert!(errors.fold(0.0, f64::max) < 1e-9);
+        assert!(errors.fold(0.0, f64::max) < 1e-6);
     }
 
     /// A chain of rods with its tip on an obstacle that supports it from below.

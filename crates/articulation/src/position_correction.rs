@@ -7,8 +7,10 @@ use crate::mechanism::Mechanism;
 
 /// Errors this small are none, metres and radians.
 const CLOSED: f64 = 1e-9;
-/// So much of the gap that a step left is none either, but for loops: where they can fold two ways, they need all digits.
-const NEGLIGIBLE: f64 = 1e-4;
+/// So much of the gap that a step left is none either, as long as it is small, but for loops: where they can fold two ways, they need all
+/// digits.
+const NEGLIGIBLE: f64 = 1e-3;
+const SMALL: f64 = 1e-6;
 /// Errors that should have been corrected at once, metres and radians.
 const WIDE: f64 = 1e-4;
 /// Largest number of corrections in a step.
@@ -45,27 +47,31 @@ impl Mechanism {
     /// Corrections act along the joints as they were. Where that leads nowhere, as near a position in which a loop can fold two ways, the bodies
     /// are taken back and corrected along the joints as they are. False when wide errors remain.
     fn close_gaps(&mut self, turned: &[f64]) -> bool {
-        let mut largest = self.find_errors(turned);
-        let closed = if self.has_loops() { CLOSED } else { CLOSED.max(largest * NEGLIGIBLE) };
-        let mut is_current = false;
-        let begin = (largest > WIDE && self.has_loops()).then(|| (largest, self.placements()));
+        let (mut largest, has_loops) = (self.find_errors(turned), self.has_loops());
+        let closed = if has_loops { CLOSED } else { (largest * NEGLIGIBLE).clamp(CLOSED, SMALL) };
+        let (mut rate, mut is_current) = (f64::INFINITY, false);
+        let begin = (largest > WIDE && has_loops).then(|| (largest, self.placements()));
         for _ in 0..ITERATIONS {
-            if largest < closed || !largest.is_finite() || !self.matrix.is_factor() {
+            if largest < closed || !largest.is_finite() || !self.system.is_factor() {
                 break;
             }
             let placements = self.placements();
-            self.displace();
+            self.system.displace(&self.joints, &mut self.bodies, &mut self.errors);
+            // Without loops every correction leaves about the same part of the error.
+            if !has_loops && largest * rate < closed {
+                largest *= rate;
+                break;
+            }
             let now = self.find_errors(turned);
             if now <= largest * (1.0 - PROGRESS) || is_current {
-                (largest, is_current) = (now, false);
+                (rate, largest, is_current) = (now / largest, now, false);
                 continue;
             }
             self.restore(&placements);
-            largest = self.find_errors(turned);
+            (largest, is_current) = (self.find_errors(turned), true);
             if !self.update_system() {
                 break;
             }
-            is_current = true;
         }
         // Errors that cannot be closed, as in a loop that is too short, remain.
         if let Some((_, placements)) = begin.filter(|(before, _)| largest > before * (1.0 - PROGRESS)) {
@@ -92,27 +98,11 @@ impl Mechanism {
 
     /// The system for where the bodies are now; false when it cannot be solved.
     fn update_system(&mut self) -> bool {
-        self.bodies.iter_mut().for_each(LinkedBody::update_inverse_inertia);
+        self.bodies.iter_mut().for_each(LinkedBody::update_inertia);
         for joint in &mut self.joints {
-            joint.update_jacobians(&self.bodies);
+            joint.place(&self.bodies);
         }
-        self.assemble();
-        self.matrix.factorize(&self.pattern)
-    }
-
-    /// Moves the bodies as impulses along the rows against the errors would, which are used up.
-    fn displace(&mut self) {
-        let Self { joints, bodies, errors, matrix, pattern, .. } = self;
-        matrix.solve(pattern, errors);
-        bodies.iter_mut().for_each(|body| body.joint_impulse = Vector6::zeros());
-        for (joint, multiplier) in joints.iter().zip(errors) {
-            for side in 0..2 {
-                bodies[joint.body(side)].joint_impulse -= joint.jacobians[side].impulse(multiplier);
-            }
-        }
-        for body in bodies.iter_mut().filter(|body| body.is_dynamic()) {
-            body.displace(&body.inverse_mass.times(&body.joint_impulse));
-        }
+        self.system.factorize(&self.joints, &self.bodies)
     }
 }
 

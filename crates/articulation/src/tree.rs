@@ -1,0 +1,308 @@
+//! Mechanisms without loops: the articulated-body algorithm, for impulses and velocities (R. Featherstone, *Rigid Body Dynamics Algorithms*,
+//! 2008, chapter 7).
+//!
+//! From the tips to the root every body gets its articulated inertia, that by which it resists an impulse together with all that hangs on
+//! it: what is beyond a joint resists only across the free axes of the joint. Those are eliminated one after the other, as if there were bodies
+//! without mass between them; a body that hangs on nothing has six free axes. The second pass, from the root to the tips, finds the velocities.
+//! A motor that tracks its velocity, and a limit, leave no free axis but impose a velocity.
+
+use std::ops::Range;
+
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+use crate::block_cholesky::Segment;
+use crate::joint::Joint;
+use crate::linked_body::LinkedBody;
+use crate::spatial_inertia::{SpatialInertia, shifted_impulse, shifted_velocity};
+use crate::system::System;
+use crate::tree_growth::grown;
+
+/// The bodies of a tree, and what was found for them.
+pub(crate) struct Tree {
+    /// For every body that moves, those at the tips first; guests come last.
+    links: Vec<Link>,
+    /// Number of links without those of guests.
+    linked: usize,
+    is_factor: bool,
+}
+
+/// A body with the joint that leads to the root.
+pub(crate) struct Link {
+    body: usize,
+    /// None for a body that hangs on nothing.
+    root_side: Option<RootSide>,
+    axes: Vec<Axis>,
+    /// Whether a motor or a limit imposes the velocity along the axis.
+    is_imposed: bool,
+    /// The articulated inertia, the free axes eliminated.
+    inertia: SpatialInertia,
+    /// Velocity of the body relative to the one before that the joint imposes, and its momentum.
+    offset: Vector6<f64>,
+    offset_momentum: Vector6<f64>,
+    /// Impulse of a saturated motor along the axis.
+    effort: f64,
+    /// Impulse on the body and on what is beyond.
+    impulse: Vector6<f64>,
+    /// Velocity or displacement.
+    velocity: Vector6<f64>,
+}
+
+/// The joint between a body and the one before it on the way from the root.
+pub(crate) struct RootSide {
+    pub joint: usize,
+    pub body: usize,
+    /// The place of the link of that body; None if it does not move.
+    place: Option<usize>,
+    /// 1 if the joint's second body is the one farther from the root, else -1.
+    pub sign: f64,
+    /// From the centre of mass of the body before to that of the body.
+    arm: Vector3<f64>,
+    /// From the point of the joint to the centre of mass of the body.
+    lever: Vector3<f64>,
+}
+
+/// An axis that the joint leaves free.
+#[derive(Clone)]
+struct Axis {
+    /// The motion of the body at unit velocity, about its centre of mass.
+    motion: Vector6<f64>,
+    /// Its momentum.
+    momentum: Vector6<f64>,
+    /// One over the momentum along the axis; 0 where a motor or a limit imposes the velocity.
+    response: f64,
+    /// Impulse along the axis, times the response.
+    rate: f64,
+}
+
+/// What a unit impulse on a body becomes along a free axis on the way to the root: a row for each part of the impulse.
+struct Share {
+    /// Link and axis.
+    axis: (usize, usize),
+    impulses: Vector6<f64>,
+    response: f64,
+}
+
+impl Tree {
+    /// The tree of all bodies; None where joints form a loop, or a body has an inertia that the algorithm cannot use.
+    pub(crate) fn new(bodies: &[LinkedBody], joints: &[Joint]) -> Option<Self> {
+        let usable = |body: &LinkedBody| !body.is_dynamic() || body.properties.can_turn();
+        let mut links = bodies.iter().all(usable).then(|| grown(bodies, joints))??;
+        let place = |body| links.iter().position(|link| link.body == body);
+        let places: Vec<Option<usize>> = (0..bodies.len()).map(place).collect();
+        for side in links.iter_mut().filter_map(|link| link.root_side.as_mut()) {
+            side.place = places[side.body];
+        }
+        Some(Self { linked: links.len(), links, is_factor: false })
+    }
+
+    /// Calls `visit` for every link from the tips to the root, and `carry` with it and the one before.
+    fn toward_root(&mut self, mut visit: impl FnMut(&mut Link), carry: impl Fn(&Link, &mut Link, &Vector3<f64>)) {
+        for place in 0..self.links.len() {
+            let (visited, others) = self.links.split_at_mut(place + 1);
+            let link = &mut visited[place];
+            visit(link);
+            if let Some(RootSide { place: Some(before), arm, .. }) = &link.root_side {
+                carry(link, &mut others[before - place - 1], arm);
+            }
+        }
+    }
+
+    /// Both passes: impulses on the bodies become velocities.
+    fn find_velocities(&mut self) {
+        self.toward_root(Link::eliminate_impulse, Link::carry_impulse);
+        for place in (0..self.links.len()).rev() {
+            let (links, others) = self.links.split_at_mut(place + 1);
+            let link = &mut links[place];
+            let before = |side: &RootSide| Some(shifted_velocity(&others[side.place? - place - 1].velocity, &side.arm));
+            let before = link.root_side.as_ref().and_then(before);
+            link.find_velocity(before.unwrap_or_else(Vector6::zeros));
+        }
+    }
+
+    /// The impulses of the joints that lead to the velocities of the bodies.
+    fn find_joint_impulses(&mut self, joints: &mut [Joint], bodies: &mut [LinkedBody]) {
+        self.links.iter_mut().for_each(|link| link.impulse = Vector6::zeros());
+        let visit = |link: &mut Link| {
+            let body = &mut bodies[link.body];
+            let Some(side) = &link.root_side else {
+                body.joint_impulse = -link.impulse;
+                return;
+            };
+            body.joint_impulse = body.missing_impulse();
+            link.impulse += body.joint_impulse;
+            joints[side.joint].set_impulse(&(shifted_impulse(&link.impulse, &side.lever) * side.sign));
+        };
+        self.toward_root(visit, Link::carry_impulse);
+    }
+
+    /// What unit impulses on a body become along the free axes from there to the root.
+    fn shares(&self, body: usize) -> Vec<Share> {
+        let mut impulses = Matrix6::identity();
+        let mut shares = Vec::new();
+        let mut next = self.links.iter().position(|link| link.body == body);
+        while let Some(place) = next {
+            let link = &self.links[place];
+            for (number, Axis { motion, momentum, response, .. }) in link.axes.iter().enumerate() {
+                let along = impulses.tr_mul(motion);
+                impulses -= momentum * (along * *response).transpose();
+                shares.push(Share { axis: (place, number), impulses: along, response: *response });
+            }
+            next = link.root_side.as_ref().and_then(|side| side.place);
+            for column in (0..6).filter(|_| next.is_some()) {
+                let arm = link.root_side.as_ref().map_or_else(Vector3::zeros, |side| side.arm);
+                impulses.set_column(column, &shifted_impulse(&impulses.column(column).into_owned(), &arm));
+            }
+        }
+        shares
+    }
+}
+
+impl System for Tree {
+    fn set_guests(&mut self, guests: Range<usize>) {
+        self.links.truncate(self.linked);
+        self.links.extend(guests.map(|guest| Link::new(guest, None, 6)));
+    }
+
+    fn factorize(&mut self, joints: &[Joint], bodies: &[LinkedBody]) -> bool {
+        for link in &mut self.links {
+            link.place(joints, bodies);
+        }
+        let carry = |link: &Link, before: &mut Link, arm: &Vector3<f64>| before.inertia.add_shifted(&link.inertia, arm);
+        self.toward_root(Link::eliminate_axes, carry);
+        let can_respond = |axis: &Axis| axis.response >= 0.0 && axis.response.is_finite();
+        self.is_factor = self.links.iter().all(|link| link.axes.iter().all(can_respond));
+        self.is_factor
+    }
+
+    fn is_factor(&self) -> bool {
+        self.is_factor
+    }
+
+    fn find_impulses(&mut self, joints: &mut [Joint], bodies: &mut [LinkedBody]) {
+        for link in &mut self.links {
+            link.impulse = bodies[link.body].free_momentum();
+            link.impose_velocity(joints, bodies);
+        }
+        self.find_velocities();
+        for link in &self.links {
+            bodies[link.body].velocity = link.velocity;
+        }
+        self.find_joint_impulses(joints, bodies);
+    }
+
+    fn displace(&mut self, joints: &[Joint], bodies: &mut [LinkedBody], errors: &mut [Segment]) {
+        for link in &mut self.links {
+            link.impose_displacement(joints, errors);
+        }
+        self.find_velocities();
+        for link in &self.links[..self.linked] {
+            bodies[link.body].displace(&link.velocity);
+        }
+    }
+
+    fn responses(&mut self, _: &[Joint], touching: &[usize]) -> Vec<Matrix6<f64>> {
+        let shares: Vec<Vec<Share>> = touching.iter().map(|&body| self.shares(body)).collect();
+        let of = |first: &[Share], second: &[Share]| {
+            let common = first.iter().rev().zip(second.iter().rev()).take_while(|(a, b)| a.axis == b.axis);
+            common.map(|(a, b)| a.impulses * (b.impulses * b.response).transpose()).sum()
+        };
+        shares.iter().flat_map(|first| shares.iter().map(move |second| of(first, second))).collect()
+    }
+}
+
+impl Link {
+    pub(crate) fn new(body: usize, root_side: Option<RootSide>, axes: usize) -> Self {
+        let none = Vector6::zeros();
+        let axis = Axis { motion: none, momentum: none, response: 0.0, rate: 0.0 };
+        Self {
+            body,
+            root_side,
+            axes: vec![axis; axes],
+            is_imposed: false,
+            inertia: SpatialInertia::zero(),
+            offset: none,
+            offset_momentum: none,
+            effort: 0.0,
+            impulse: none,
+            velocity: none,
+        }
+    }
+
+    /// Finds the axes for where the bodies are.
+    fn place(&mut self, joints: &[Joint], bodies: &[LinkedBody]) {
+        self.inertia = bodies[self.body].spatial_inertia();
+        let Some(side) = &mut self.root_side else {
+            (0..6).for_each(|row| self.axes[row].motion = Vector6::ith(row, 1.0));
+            return;
+        };
+        let (joint, com) = (&joints[side.joint], bodies[self.body].com);
+        (side.arm, side.lever) = (com - bodies[side.body].com, com - joint.point);
+        for (axis, motion) in self.axes.iter_mut().zip(joint.free_motions()) {
+            axis.motion = shifted_velocity(&motion, &side.lever) * side.sign;
+        }
+        self.is_imposed = joint.imposes_velocity();
+    }
+
+    /// Eliminates the free axes from the inertia.
+    fn eliminate_axes(&mut self) {
+        for axis in &mut self.axes {
+            axis.momentum = self.inertia.times(&axis.motion);
+            axis.response = 0.0;
+            if !self.is_imposed {
+                axis.response = 1.0 / axis.motion.dot(&axis.momentum);
+                self.inertia.subtract_square(&axis.momentum, axis.response);
+            }
+        }
+    }
+
+    /// Sets what motors and limits do, and bodies that are moved.
+    fn impose_velocity(&mut self, joints: &[Joint], bodies: &[LinkedBody]) {
+        (self.offset, self.offset_momentum, self.effort) = (Vector6::zeros(), Vector6::zeros(), 0.0);
+        let Some(side) = &self.root_side else { return };
+        let joint = &joints[side.joint];
+        if self.is_imposed {
+            let velocity = joint.imposed_velocity();
+            (self.offset, self.offset_momentum) = (self.axes[0].motion * velocity, self.axes[0].momentum * velocity);
+        } else {
+            self.effort = joint.saturated_impulse();
+        }
+        if side.place.is_none() {
+            self.offset += shifted_velocity(&bodies[side.body].free_velocity(), &side.arm);
+        }
+    }
+
+    /// Lets the body move against the error of its joint.
+    fn impose_displacement(&mut self, joints: &[Joint], errors: &[Segment]) {
+        (self.impulse, self.effort) = (Vector6::zeros(), 0.0);
+        let Some(side) = &self.root_side else { return };
+        self.offset = shifted_velocity(&joints[side.joint].along_axes(&errors[side.joint]), &side.lever) * -side.sign;
+        self.offset_momentum = self.inertia.times(&self.offset);
+    }
+
+    /// What the impulse becomes beyond the free axes.
+    fn eliminate_impulse(&mut self) {
+        for axis in &mut self.axes {
+            axis.rate = (axis.motion.dot(&self.impulse) + self.effort) * axis.response;
+            self.impulse -= axis.momentum * axis.rate;
+        }
+        self.impulse -= self.offset_momentum;
+    }
+
+    fn carry_impulse(&self, before: &mut Self, arm: &Vector3<f64>) {
+        before.impulse += shifted_impulse(&self.impulse, arm);
+    }
+
+    /// Finds the velocity on a body that would carry this one along at `carried`.
+    fn find_velocity(&mut self, carried: Vector6<f64>) {
+        self.velocity = carried + self.offset;
+        for axis in self.axes.iter().rev() {
+            self.velocity += axis.motion * (axis.rate - axis.momentum.dot(&self.velocity) * axis.response);
+        }
+    }
+}
+
+impl RootSide {
+    pub(crate) fn new(joint: usize, body: usize, sign: f64) -> Self {
+        Self { joint, body, place: None, sign, arm: Vector3::zeros(), lever: Vector3::zeros() }
+    }
+}
