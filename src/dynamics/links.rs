@@ -252,7 +252,7 @@ impl Link {
     pub(super) fn deviation(&self, world: &World) -> Option<Pose> {
         let base = self.end(0, world)? * self.plan.base;
         let tip = self.end(1, world)? * self.plan.tip;
-        Some(base.inverse() * tip)
+        Some(base.inv_mul(&tip))
     }
 
     fn end(&self, index: usize, world: &World) -> Option<Pose> {

@@ -73,8 +73,8 @@ const PLANNED: Topics = Topics::TREE.with_fields(&[
 /// The physics world that belongs to a scene.
 #[derive(Default)]
 pub(crate) struct Dynamics {
-    /// None while a sub-step runs.
-    world: Option<World>,
+    /// None while a sub-step runs. Boxed, since it is large and moves into every sub-step.
+    world: Option<Box<World>>,
     bodies: Bodies,
     links: Links,
     mechanisms: Mechanisms,
@@ -127,7 +127,7 @@ pub(crate) struct Attention {
 
 /// A sub-step ready to run. Holds the engine, so that a script called meanwhile finds no physics to disturb.
 pub(crate) struct SubStep {
-    world: World,
+    world: Box<World>,
     gravity: Vector,
     step: f64,
     /// Whether scripts can read the scene before the next sub-step.
@@ -177,7 +177,7 @@ impl Dynamics {
         if !self.bodies.iter().any(|(_, body)| body.build.dynamic) {
             return Ok(None);
         }
-        let world = self.world.get_or_insert_with(World::new);
+        let world = self.world.get_or_insert_with(Box::default);
         self.bodies.plan_sweeps(world, scene);
         for link in self.links.values_mut() {
             link.efforts.clear();
@@ -199,7 +199,7 @@ impl Dynamics {
         {
             return;
         }
-        let world = self.world.get_or_insert_with(World::new);
+        let world = self.world.get_or_insert_with(Box::default);
         let plan = Plan::new(scene, &self.frozen);
         self.far = plan.far;
         self.bodies.apply_plan(plan.bodies, world, scene);
@@ -258,7 +258,7 @@ impl Dynamics {
 
     /// The pairs of shapes that may touch in the next sub-step, as far as they are known.
     pub(crate) fn pairs_near(&self) -> Vec<(Handle, Handle)> {
-        self.world.as_ref().map(contacts::pairs_near).unwrap_or_default()
+        self.world.as_deref().map(contacts::pairs_near).unwrap_or_default()
     }
 
     /// Prepares sub-step number `sub_step` (from 1): forces of scripts, gravity. `verdicts`: what scripts decided about contacts.

@@ -100,8 +100,8 @@ impl KnownCollider {
     }
 }
 
-impl World {
-    pub(super) fn new() -> Self {
+impl Default for World {
+    fn default() -> Self {
         Self {
             bodies: RigidBodySet::new(),
             colliders: ColliderSet::new(),
@@ -118,7 +118,9 @@ impl World {
             known: Known::default(),
         }
     }
+}
 
+impl World {
     /// Advances everything by `step` seconds under `gravity` (m/s2).
     pub(super) fn step(&mut self, step: f64, gravity: Vector, hooks: &dyn PhysicsHooks) {
         if self.gravity.replace(gravity).is_some_and(|before| before != gravity) {
