@@ -49,6 +49,9 @@ pub(in crate::scene) struct PlaceInWorld {
     /// The pose after change `posed`.
     pose: Cell<Pose>,
     posed: Cell<u64>,
+    /// The frame of the children in that of the object, after its own change `intrinsic_of`.
+    intrinsic: Cell<Option<Pose>>,
+    intrinsic_of: Cell<u64>,
     /// The last measurement of velocities that concerned it.
     pub(in crate::scene::pose) measurement: u64,
 }
@@ -62,6 +65,8 @@ impl Default for PlaceInWorld {
             checked: Cell::new(0),
             pose: Cell::new(Pose::identity()),
             posed: Cell::new(0),
+            intrinsic: Cell::new(None),
+            intrinsic_of: Cell::new(u64::MAX),
             measurement: 0,
         }
     }
@@ -123,7 +128,7 @@ impl Scene {
         let mut above = object.parent();
         while let Some(parent) = above {
             let parent = self.object(parent)?;
-            if let Some(intrinsic) = parent.intrinsic_pose() {
+            if let Some(intrinsic) = parent.cached_intrinsic_pose() {
                 pose = intrinsic * pose;
             }
             pose = parent.pose() * pose;
@@ -134,6 +139,15 @@ impl Scene {
 }
 
 impl Object {
+    /// From the object's frame to the frame its children live in, computed once after each change.
+    fn cached_intrinsic_pose(&self) -> Option<Pose> {
+        let place = &self.place;
+        if place.intrinsic_of.replace(place.moved) != place.moved {
+            place.intrinsic.set(self.intrinsic_pose());
+        }
+        place.intrinsic.get()
+    }
+
     /// Local frames that determine the world poses of the object and its descendants, as bits.
     pub(in crate::scene) fn frames(&self) -> impl PartialEq + use<> {
         (self.parent, bits(&self.pose), self.intrinsic_pose().as_ref().map(bits))
