@@ -30,13 +30,13 @@ pub(crate) struct Tree {
 pub(crate) struct Link {
     body: usize,
     /// None for a body that hangs on nothing.
-    root_side: Option<RootSide>,
+    parent: Option<Parent>,
     axes: Vec<Axis>,
     /// Whether a motor or a limit imposes the velocity along the axis.
     is_imposed: bool,
     /// The articulated inertia, the free axes eliminated.
     inertia: SpatialInertia,
-    /// Velocity of the body relative to the one before that the joint imposes, and its momentum.
+    /// Velocity of the body relative to its parent that the joint imposes, and its momentum.
     offset: Vector6<f64>,
     offset_momentum: Vector6<f64>,
     /// Impulse of a saturated motor along the axis.
@@ -47,15 +47,15 @@ pub(crate) struct Link {
     velocity: Vector6<f64>,
 }
 
-/// The joint between a body and the one before it on the way from the root.
-pub(crate) struct RootSide {
-    pub joint: usize,
+/// The body before, on the way from the root, and the joint to it.
+pub(crate) struct Parent {
     pub body: usize,
+    pub joint: usize,
     /// The place of the link of that body; None if it does not move.
     place: Option<usize>,
     /// 1 if the joint's second body is the one farther from the root, else -1.
     pub sign: f64,
-    /// From the centre of mass of the body before to that of the body.
+    /// From the centre of mass of the parent to that of the body.
     arm: Vector3<f64>,
     /// From the point of the joint to the centre of mass of the body.
     lever: Vector3<f64>,
@@ -89,20 +89,20 @@ impl Tree {
         let mut links = bodies.iter().all(usable).then(|| grown(bodies, joints))??;
         let place = |body| links.iter().position(|link| link.body == body);
         let places: Vec<Option<usize>> = (0..bodies.len()).map(place).collect();
-        for side in links.iter_mut().filter_map(|link| link.root_side.as_mut()) {
-            side.place = places[side.body];
+        for parent in links.iter_mut().filter_map(|link| link.parent.as_mut()) {
+            parent.place = places[parent.body];
         }
         Some(Self { linked: links.len(), links, is_factor: false })
     }
 
-    /// Calls `visit` for every link from the tips to the root, and `carry` with it and the one before.
+    /// Calls `visit` for every link from the tips to the root, and `carry` with it, its parent and the arm between them.
     fn toward_root(&mut self, mut visit: impl FnMut(&mut Link), carry: impl Fn(&Link, &mut Link, &Vector3<f64>)) {
         for place in 0..self.links.len() {
             let (visited, others) = self.links.split_at_mut(place + 1);
             let link = &mut visited[place];
             visit(link);
-            if let Some(RootSide { place: Some(before), arm, .. }) = &link.root_side {
-                carry(link, &mut others[before - place - 1], arm);
+            if let Some(Parent { place: Some(parent), arm, .. }) = &link.parent {
+                carry(link, &mut others[parent - place - 1], arm);
             }
         }
     }
@@ -113,9 +113,12 @@ impl Tree {
         for place in (0..self.links.len()).rev() {
             let (links, others) = self.links.split_at_mut(place + 1);
             let link = &mut links[place];
-            let before = |side: &RootSide| Some(shifted_velocity(&others[side.place? - place - 1].velocity, &side.arm));
-            let before = link.root_side.as_ref().and_then(before);
-            link.find_velocity(before.unwrap_or_else(Vector6::zeros));
+            let carried = |parent: &Parent| {
+                let velocity = &others[parent.place? - place - 1].velocity;
+                Some(shifted_velocity(velocity, &parent.arm))
+            };
+            let carried = link.parent.as_ref().and_then(carried);
+            link.find_velocity(carried.unwrap_or_else(Vector6::zeros));
         }
     }
 
@@ -124,13 +127,13 @@ impl Tree {
         self.links.iter_mut().for_each(|link| link.impulse = Vector6::zeros());
         let visit = |link: &mut Link| {
             let body = &mut bodies[link.body];
-            let Some(side) = &link.root_side else {
+            let Some(parent) = &link.parent else {
                 body.joint_impulse = -link.impulse;
                 return;
             };
             body.joint_impulse = body.missing_impulse();
             link.impulse += body.joint_impulse;
-            joints[side.joint].set_impulse(&(shifted_impulse(&link.impulse, &side.lever) * side.sign));
+            joints[parent.joint].set_impulse(&(shifted_impulse(&link.impulse, &parent.lever) * parent.sign));
         };
         self.toward_root(visit, Link::carry_impulse);
     }
@@ -147,9 +150,9 @@ impl Tree {
                 impulses -= momentum * (along * *response).transpose();
                 shares.push(Share { axis: (place, number), impulses: along, response: *response });
             }
-            next = link.root_side.as_ref().and_then(|side| side.place);
+            next = link.parent.as_ref().and_then(|parent| parent.place);
             for column in (0..6).filter(|_| next.is_some()) {
-                let arm = link.root_side.as_ref().map_or_else(Vector3::zeros, |side| side.arm);
+                let arm = link.parent.as_ref().map_or_else(Vector3::zeros, |parent| parent.arm);
                 impulses.set_column(column, &shifted_impulse(&impulses.column(column).into_owned(), &arm));
             }
         }
@@ -167,7 +170,7 @@ impl System for Tree {
         for link in &mut self.links {
             link.place(joints, bodies);
         }
-        let carry = |link: &Link, before: &mut Link, arm: &Vector3<f64>| before.inertia.add_shifted(&link.inertia, arm);
+        let carry = |link: &Link, parent: &mut Link, arm: &Vector3<f64>| parent.inertia.add_shifted(&link.inertia, arm);
         self.toward_root(Link::eliminate_axes, carry);
         let can_respond = |axis: &Axis| axis.response >= 0.0 && axis.response.is_finite();
         self.is_factor = self.links.iter().all(|link| link.axes.iter().all(can_respond));
@@ -211,12 +214,12 @@ impl System for Tree {
 }
 
 impl Link {
-    pub(crate) fn new(body: usize, root_side: Option<RootSide>, axes: usize) -> Self {
+    pub(crate) fn new(body: usize, parent: Option<Parent>, axes: usize) -> Self {
         let none = Vector6::zeros();
         let axis = Axis { motion: none, momentum: none, response: 0.0, rate: 0.0 };
         Self {
             body,
-            root_side,
+            parent,
             axes: vec![axis; axes],
             is_imposed: false,
             inertia: SpatialInertia::zero(),
@@ -231,14 +234,14 @@ impl Link {
     /// Finds the axes for where the bodies are.
     fn place(&mut self, joints: &[Joint], bodies: &[LinkedBody]) {
         self.inertia = bodies[self.body].spatial_inertia();
-        let Some(side) = &mut self.root_side else {
+        let Some(parent) = &mut self.parent else {
             (0..6).for_each(|row| self.axes[row].motion = Vector6::ith(row, 1.0));
             return;
         };
-        let (joint, com) = (&joints[side.joint], bodies[self.body].com);
-        (side.arm, side.lever) = (com - bodies[side.body].com, com - joint.point);
+        let (joint, com) = (&joints[parent.joint], bodies[self.body].com);
+        (parent.arm, parent.lever) = (com - bodies[parent.body].com, com - joint.point);
         for (axis, motion) in self.axes.iter_mut().zip(joint.free_motions()) {
-            axis.motion = shifted_velocity(&motion, &side.lever) * side.sign;
+            axis.motion = shifted_velocity(&motion, &parent.lever) * parent.sign;
         }
         self.is_imposed = joint.imposes_velocity();
     }
@@ -258,24 +261,25 @@ impl Link {
     /// Sets what motors and limits do, and bodies that are moved.
     fn impose_velocity(&mut self, joints: &[Joint], bodies: &[LinkedBody]) {
         (self.offset, self.offset_momentum, self.effort) = (Vector6::zeros(), Vector6::zeros(), 0.0);
-        let Some(side) = &self.root_side else { return };
-        let joint = &joints[side.joint];
+        let Some(parent) = &self.parent else { return };
+        let joint = &joints[parent.joint];
         if self.is_imposed {
             let velocity = joint.imposed_velocity();
             (self.offset, self.offset_momentum) = (self.axes[0].motion * velocity, self.axes[0].momentum * velocity);
         } else {
             self.effort = joint.saturated_impulse();
         }
-        if side.place.is_none() {
-            self.offset += shifted_velocity(&bodies[side.body].free_velocity(), &side.arm);
+        if parent.place.is_none() {
+            self.offset += shifted_velocity(&bodies[parent.body].free_velocity(), &parent.arm);
         }
     }
 
     /// Lets the body move against the error of its joint.
     fn impose_displacement(&mut self, joints: &[Joint], errors: &[Segment]) {
         (self.impulse, self.effort) = (Vector6::zeros(), 0.0);
-        let Some(side) = &self.root_side else { return };
-        self.offset = shifted_velocity(&joints[side.joint].along_axes(&errors[side.joint]), &side.lever) * -side.sign;
+        let Some(parent) = &self.parent else { return };
+        self.offset =
+            shifted_velocity(&joints[parent.joint].along_axes(&errors[parent.joint]), &parent.lever) * -parent.sign;
         self.offset_momentum = self.inertia.times(&self.offset);
     }
 
@@ -288,11 +292,11 @@ impl Link {
         self.impulse -= self.offset_momentum;
     }
 
-    fn carry_impulse(&self, before: &mut Self, arm: &Vector3<f64>) {
-        before.impulse += shifted_impulse(&self.impulse, arm);
+    fn carry_impulse(&self, parent: &mut Self, arm: &Vector3<f64>) {
+        parent.impulse += shifted_impulse(&self.impulse, arm);
     }
 
-    /// Finds the velocity on a body that would carry this one along at `carried`.
+    /// Finds the velocity on a parent that carries the body along at `carried`.
     fn find_velocity(&mut self, carried: Vector6<f64>) {
         self.velocity = carried + self.offset;
         for axis in self.axes.iter().rev() {
@@ -301,7 +305,7 @@ impl Link {
     }
 }
 
-impl RootSide {
+impl Parent {
     pub(crate) fn new(joint: usize, body: usize, sign: f64) -> Self {
         Self { joint, body, place: None, sign, arm: Vector3::zeros(), lever: Vector3::zeros() }
     }

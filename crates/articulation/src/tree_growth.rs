@@ -2,7 +2,7 @@
 
 use crate::joint::Joint;
 use crate::linked_body::LinkedBody;
-use crate::tree::{Link, RootSide};
+use crate::tree::{Link, Parent};
 
 /// A tree that grows from its roots.
 struct Growth<'a> {
@@ -63,6 +63,6 @@ impl Growth<'_> {
     fn link(&self, body: usize, joint: usize, side: usize) -> Link {
         let sign = if side == 0 { 1.0 } else { -1.0 };
         let of_joint = &self.joints[joint];
-        Link::new(body, Some(RootSide::new(joint, of_joint.body(side), sign)), of_joint.free_motions().count())
+        Link::new(body, Some(Parent::new(joint, of_joint.body(side), sign)), of_joint.free_motions().count())
     }
 }
