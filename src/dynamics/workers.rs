@@ -4,8 +4,8 @@
 use std::num::NonZero;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// How often a thread looks for work before it sleeps: waking up takes as long as the work of some mechanisms.
-const LOOKS: usize = 200;
+/// How often a thread looks for work, or for its results, before it sleeps: waking up takes as long as the work of some mechanisms.
+const LOOKS: usize = 4000;
 
 type Job = Box<dyn FnOnce() + Send>;
 
@@ -38,7 +38,7 @@ impl Workers {
         }
         items.iter_mut().for_each(work);
         for results in pending {
-            items.extend(results.recv().expect("a thread ends after its work"));
+            items.extend(receive(&results).expect("a thread ends after its work"));
         }
         items
     }
@@ -63,11 +63,15 @@ impl Workers {
 
 /// Does what comes until nobody can send more.
 fn run(jobs: &Receiver<Job>) {
-    loop {
-        let ready = (0..LOOKS).find_map(|_| jobs.try_recv().inspect_err(|_| std::thread::yield_now()).ok());
-        let Some(job) = ready.or_else(|| jobs.recv().ok()) else { return };
+    while let Some(job) = receive(jobs) {
         job();
     }
+}
+
+/// Waits for a message; None when nobody can send one any more.
+fn receive<T>(messages: &Receiver<T>) -> Option<T> {
+    let ready = (0..LOOKS).find_map(|_| messages.try_recv().inspect_err(|_| std::thread::yield_now()).ok());
+    ready.or_else(|| messages.recv().ok())
 }
 
 #[cfg(test)]
