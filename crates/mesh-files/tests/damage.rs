@@ -81,3 +81,22 @@ fn three_ds() {
     let editor = [chunk(0xafff, &chunk(0xa000, b"red\0")), chunk(0x4000, &[&b"o\0"[..], &mesh].concat())].concat();
     damage(&chunk(0x4d4d, &chunk(0x3d3d, &editor)), Format::ThreeDs);
 }
+
+#[test]
+fn gltf_with_members_of_other_types() {
+    let file = |values: &str| {
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+            "buffers":[{{"uri":"data:;base64,AAAAAAAAgD8AAIA/AAAAAA=="}}],"bufferViews":[{{"buffer":0,"byteLength":16}}],
+            "accessors":[{{"componentType":5126,"type":"VEC3","count":3,
+            "sparse":{{"count":1,"indices":{{"bufferView":0,"componentType":5121}},"values":{values}}}}}]}}"#
+        )
+    };
+    assert!(try_to_read(file(r#"{"bufferView":0,"byteOffset":4}"#).as_bytes(), Format::Gltf));
+    let limits = Limits { vertices: 1000, triangles: 1000, parts: 100 };
+    for values in ["5", "\"a\"", "[1]", "true", "null"] {
+        let refused = read(file(values).as_bytes(), Format::Gltf, limits, &mut |_| Err("nothing".into()));
+        assert_eq!(refused.expect_err("no object").to_string(), "accessor 0: sparse without values", "{values}");
+    }
+}

@@ -115,8 +115,12 @@ impl Reader<'_, '_> {
         element: &str,
     ) -> Result<()> {
         let count = integer(sparse, "count", element)?.unwrap_or(0);
-        let mut whole = sparse["values"].clone();
-        whole["componentType"] = accessor["componentType"].clone();
+        // The values have the component type of the accessor.
+        let Value::Object(mut whole) = sparse["values"].clone() else {
+            return Err(refused(element, "sparse without values"));
+        };
+        whole.insert("componentType".into(), accessor["componentType"].clone());
+        let whole = Value::Object(whole);
         let (indices, changes) =
             (self.rows(&sparse["indices"], count, 1, element)?, self.rows(&whole, count, N, element)?);
         let Some((indices, changes)) = indices.zip(changes) else {
