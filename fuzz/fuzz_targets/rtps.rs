@@ -1,4 +1,6 @@
-//! Any datagrams for a participant of ROS 2: it stays within its limits and goes on.
+//! Any datagrams of two others for a participant of ROS 2: it stays within its limits and goes on.
+//!
+//! An input is a row of datagrams without their heads, each behind 16 bits: its sender, and its length.
 //!
 //! `cargo fuzz run rtps`
 #![no_main]
@@ -9,7 +11,18 @@ use std::time::Duration;
 use libfuzzer_sys::fuzz_target;
 use rtps::{Core, Limits, Qos, Settings, Time, Written};
 
-fuzz_target!(|datagrams: Vec<Vec<u8>>| {
+fn datagrams(mut input: &[u8]) -> impl Iterator<Item = Vec<u8>> {
+    std::iter::from_fn(move || {
+        let (word, rest) = input.split_first_chunk()?;
+        let word = u16::from_le_bytes(*word);
+        let (body, rest) = rest.split_at(usize::from(word & 0x7fff).min(rest.len()));
+        input = rest;
+        let sender = [2 + (word >> 15) as u8; 12];
+        Some([b"RTPS\x02\x03\x01\x10".as_slice(), &sender, body].concat())
+    })
+}
+
+fuzz_target!(|input: &[u8]| {
     let place = SocketAddrV4::new(Ipv4Addr::LOCALHOST, 7410);
     let mut core = Core::new(Settings {
         prefix: [1; 12],
@@ -23,10 +36,8 @@ fuzz_target!(|datagrams: Vec<Vec<u8>>| {
     });
     let writer = core.create_writer("rt/a", "T", Qos::default(), &[]);
     let reader = core.create_reader("rt/a", "T", Qos::default(), &[]);
-    for (number, bytes) in datagrams.iter().enumerate() {
-        // The head of the protocol, and of two senders.
-        let head = [b"RTPS\x02\x03\x01\x10".as_slice(), &[number as u8 % 2; 12]].concat();
-        core.receive(&[head, bytes.clone()].concat(), place, Duration::from_millis(number as u64));
+    for (number, datagram) in datagrams(input).enumerate() {
+        core.receive(&datagram, place, Duration::from_millis(number as u64));
         core.write(writer, &Written { payload: [0; 5].into(), call: None, time: Time::default() });
         core.tick(Duration::from_millis(number as u64 * 40));
         core.take_outgoing();

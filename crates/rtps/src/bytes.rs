@@ -1,5 +1,8 @@
 //! Reading and writing of numbers in bytes, in either order. Reading beyond the end is `None`.
 
+/// Larger sequence numbers are damage: so what is computed of them, such as the next one, fits into 64 bits.
+const LAST_SEQUENCE: i64 = i64::MAX / 2;
+
 /// Bytes that are read from the front.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Input<'a> {
@@ -36,10 +39,10 @@ impl<'a> Input<'a> {
         self.u32().map(u32::cast_signed)
     }
 
-    /// A sequence number: its high half first, whatever the order of bytes.
+    /// A sequence number: its high half first, whatever the order of bytes. `None` for one that no writer reaches.
     pub(crate) fn sequence(&mut self) -> Option<i64> {
         let (high, low) = (self.i32()?, self.u32()?);
-        Some(i64::from(high) << 32 | i64::from(low))
+        Some(i64::from(high) << 32 | i64::from(low)).filter(|sequence| *sequence <= LAST_SEQUENCE)
     }
 }
 

@@ -193,3 +193,36 @@ fn damaged_datagrams_do_no_harm() {
     while world.cores[1].take(reader).is_some() {}
     assert!(world.cores[1].waiting(reader) == 0);
 }
+
+/// A datagram of a participant with one submessage, numbers in little-endian order.
+fn datagram(from: u8, kind: u8, body: &[&[u8]]) -> Vec<u8> {
+    let mut prefix = [0; 12];
+    prefix[11] = from;
+    let body = body.concat();
+    [b"RTPS\x02\x03\0\0", &prefix[..], &[kind, 5], &(body.len() as u16).to_le_bytes(), &body].concat()
+}
+
+#[test]
+fn sequence_numbers_at_the_end_of_their_range_do_no_harm() {
+    let mut world = World::new(2, 0);
+    let writer = world.cores[0].create_writer("rt/a", TYPE, all(), &[]);
+    let reader = world.cores[1].create_reader("rt/a", TYPE, all(), &[]);
+    world.run(1000);
+    for last in [i64::MAX, i64::MAX - 1, i64::MAX - 256, i64::MAX / 2] {
+        let number = [((last >> 32) as u32).to_le_bytes(), (last as u32).to_le_bytes()].concat();
+        let ends = [reader.0, writer.0].concat();
+        let count = [1, 0, 0, 0];
+        let messages = [
+            datagram(1, 0x07, &[&ends, &number, &number, &count]),
+            datagram(1, 0x08, &[&ends, &number, &number, &[0; 4]]),
+            datagram(1, 0x15, &[&[0, 0, 16, 0], &ends, &number, &[0, 1, 0, 0]]),
+            datagram(1, 0x15, &[&[0, 0, 16, 0], &ends, &number, &[0, 1, 0, 0]]),
+            datagram(1, 0x07, &[&ends, &number, &number, &count]),
+        ];
+        for message in messages {
+            world.cores[1].receive(&message, address(0), world.now);
+        }
+        world.run(20);
+    }
+    assert_eq!(world.cores[1].matched(reader), 1);
+}
