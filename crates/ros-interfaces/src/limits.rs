@@ -12,7 +12,7 @@ pub const NESTING: usize = 32;
 /// The most values that the fixed arrays of a type have together, nested ones included: a value of the type has all of them.
 pub const FIXED_VALUES: usize = 1 << 22;
 
-/// The most nested records that one message has: each takes far more memory than bytes of the message.
+/// The most nested records and arrays of fixed length 0 that one message has: each takes far more memory than bytes of the message.
 pub const RECORDS: usize = 1 << 20;
 
 /// How deep folders with packages are searched.

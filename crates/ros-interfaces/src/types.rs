@@ -93,13 +93,54 @@ pub struct Layout {
     pub constants: Vec<Constant>,
     /// In the order of the text and of the bytes.
     pub fields: Vec<Field<Arc<Layout>>>,
+    /// How many values a record has at least, those of nested records included.
+    pub(crate) fixed_values: usize,
+    /// How many bytes a record has at least in ROS 1.
+    pub(crate) least_size: usize,
 }
 
 impl Layout {
+    /// Sums over nested types are taken once for each type: a type may be nested in others in very many ways.
+    pub(crate) fn new(name: TypeName, constants: Vec<Constant>, fields: Vec<Field<Arc<Layout>>>) -> Self {
+        let sum = |of_field: fn(&FieldType<Arc<Layout>>) -> usize, first: usize| {
+            fields.iter().map(|field| of_field(&field.field_type)).fold(first, usize::saturating_add)
+        };
+        let (fixed_values, least_size) = (sum(FieldType::fixed_values, 1), sum(FieldType::least_size, 0));
+        Self { name, constants, fields, fixed_values, least_size }
+    }
+
     /// The field with this name, and its place among the fields.
     #[must_use]
     pub fn field(&self, name: &str) -> Option<(usize, &Field<Arc<Layout>>)> {
         self.fields.iter().enumerate().find(|(_, field)| field.name == name)
+    }
+}
+
+impl FieldType<Arc<Layout>> {
+    fn fixed_values(&self) -> usize {
+        let each = match &self.element {
+            Element::Nested(nested) => nested.fixed_values,
+            _ => 1,
+        };
+        match self.shape {
+            Shape::Single => each,
+            Shape::Array(length) => each.saturating_mul(length).max(1),
+            Shape::Sequence(_) => 1,
+        }
+    }
+
+    fn least_size(&self) -> usize {
+        let each = match &self.element {
+            Element::Number(number) => number.size(),
+            Element::String(_) | Element::WString(_) => 4,
+            Element::Time | Element::Duration => 8,
+            Element::Nested(nested) => nested.least_size,
+        };
+        match self.shape {
+            Shape::Single => each,
+            Shape::Array(length) => each.saturating_mul(length),
+            Shape::Sequence(_) => 4,
+        }
     }
 }
 

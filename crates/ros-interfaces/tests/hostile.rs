@@ -2,7 +2,7 @@
 
 use ros_interfaces::parse::parse;
 use ros_interfaces::{
-    Catalogue, DecodeError, Generation, InterfaceError, InterfaceKind, Record, TypeName, Value, limits, ros1,
+    Catalogue, DecodeError, Generation, InterfaceError, InterfaceKind, Record, TypeName, Value, cdr, limits, ros1,
 };
 
 fn message(name: &str) -> TypeName {
@@ -62,6 +62,42 @@ fn types_that_contain_themselves_or_too_much_are_refused() {
     let deep = catalogue.layout("p/D25").expect("nested 25 levels deep");
     assert_eq!(ros1::md5(&deep).len(), 32);
     assert!(ros1::definition(&deep).len() < 5000);
+}
+
+#[test]
+fn types_that_are_nested_in_very_many_ways_cost_no_time() {
+    let mut catalogue = Catalogue::new(Generation::Ros1);
+    let mut add = |name: &str, text: &str| catalogue.add_text(&message(name), text).expect("a text");
+    add("p/D0", "bool x");
+    add("p/E0", "bool x");
+    for n in 1..31 {
+        let fields = |name: char, shape: &str| -> String {
+            (0..8).map(|field| format!("{name}{}{shape} f{field}\n", n - 1)).collect()
+        };
+        add(&format!("p/D{n}"), &fields('D', "[]"));
+        add(&format!("p/E{n}"), &fields('E', "[0]"));
+    }
+    // 8^30 ways lead to the innermost types.
+    let deep = catalogue.layout("p/D30").expect("30 levels");
+    assert!(ros1::decode(&deep, &[0; 32]).is_ok());
+    assert!(ros1::decode(&deep, &[1; 32]).is_err());
+    let empty = catalogue.layout("p/E30").expect("30 levels");
+    assert!(ros1::decode(&empty, &[]).is_ok());
+}
+
+#[test]
+fn arrays_of_no_elements_do_not_exhaust_memory() {
+    for generation in [Generation::Ros1, Generation::Ros2] {
+        let mut catalogue = Catalogue::new(generation);
+        let arrays: String = (0..4000).map(|n| format!("uint8[0] f{n}\n")).collect();
+        catalogue.add_text(&message("p/Empty"), &format!("uint8 x\n{arrays}")).expect("a text");
+        catalogue.add_text(&message("p/Many"), "Empty[] all").expect("a text");
+        let many = catalogue.layout("p/Many").expect("a type");
+        // Each record has one byte, and 4001 values.
+        let bytes = [&100_000_u32.to_le_bytes()[..], &[7; 100_000]].concat();
+        assert_eq!(ros1::decode(&many, &bytes), Err(DecodeError::Records));
+        assert_eq!(cdr::decode(&many, &[&[0, 1, 0, 0], &bytes[..]].concat()), Err(DecodeError::Records));
+    }
 }
 
 #[test]

@@ -13,8 +13,7 @@ use folders::Folders;
 
 use crate::types::Structure;
 use crate::{
-    Element, Field, FieldType, Generation, Interface, InterfaceError, InterfaceKind, Layout, Shape, TypeName, limits,
-    parse,
+    Element, Field, FieldType, Generation, Interface, InterfaceError, InterfaceKind, Layout, TypeName, limits, parse,
 };
 
 /// All types of one generation of ROS. Files are read when a type is first asked for.
@@ -132,8 +131,8 @@ impl Catalogue {
         let fields = structure.fields.iter().map(|field| self.resolve_field(name, field, outer));
         let fields = fields.collect::<Result<Vec<_>, _>>();
         outer.pop();
-        let layout = Arc::new(Layout { name: name.clone(), constants: structure.constants.clone(), fields: fields? });
-        if fixed_values(&layout) > limits::FIXED_VALUES {
+        let layout = Arc::new(Layout::new(name.clone(), structure.constants, fields?));
+        if layout.fixed_values > limits::FIXED_VALUES {
             return Err(InterfaceError::TooLarge(name.to_string()));
         }
         self.layouts.insert(name.clone(), layout.clone());
@@ -177,20 +176,4 @@ impl Catalogue {
         let field_type = FieldType { element, shape: field.field_type.shape };
         Ok(Field { name: field.name.clone(), field_type, default: field.default.clone() })
     }
-}
-
-/// How many values a record has at least.
-fn fixed_values(layout: &Layout) -> usize {
-    let of_field = |field: &Field<Arc<Layout>>| {
-        let each = match &field.field_type.element {
-            Element::Nested(nested) => fixed_values(nested),
-            _ => 1,
-        };
-        match field.field_type.shape {
-            Shape::Single => each,
-            Shape::Array(length) => each.saturating_mul(length).max(1),
-            Shape::Sequence(_) => 1,
-        }
-    };
-    layout.fields.iter().map(of_field).fold(1, usize::saturating_add)
 }

@@ -34,16 +34,13 @@ struct Reader<'a> {
     body: &'a [u8],
     position: usize,
     order: ByteOrder,
-    /// Read so far.
+    /// Read so far, with arrays of no elements.
     records: usize,
 }
 
 impl<'a> Reader<'a> {
     fn record(&mut self, layout: &Arc<Layout>) -> Result<Record> {
-        self.records += 1;
-        if self.records > limits::RECORDS {
-            return Err(DecodeError::Records);
-        }
+        self.count_record()?;
         let values = layout.fields.iter().map(|field| self.value(&field.field_type));
         let values = values.collect::<Result<_>>()?;
         // A structure of DDS has at least one member, so ROS 2 adds one.
@@ -53,11 +50,22 @@ impl<'a> Reader<'a> {
         Ok(Record::of_codec(layout, values))
     }
 
+    fn count_record(&mut self) -> Result<()> {
+        self.records += 1;
+        if self.records > limits::RECORDS { Err(DecodeError::Records) } else { Ok(()) }
+    }
+
     fn value(&mut self, field_type: &FieldType<Arc<Layout>>) -> Result<Value> {
         let element = &field_type.element;
         match field_type.shape {
             Shape::Single => self.element(element),
-            Shape::Array(length) => self.array(element, length).map(Value::Array),
+            Shape::Array(length) => {
+                // Takes memory without any bytes, as an empty record does.
+                if length == 0 {
+                    self.count_record()?;
+                }
+                self.array(element, length).map(Value::Array)
+            }
             Shape::Sequence(bound) => {
                 let length = self.count()?;
                 match bound {

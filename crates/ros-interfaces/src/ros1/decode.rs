@@ -25,25 +25,33 @@ struct Reader<'a> {
     rest: &'a [u8],
     /// Of the whole message.
     length: usize,
-    /// Read so far.
+    /// Read so far, with arrays of no elements.
     records: usize,
 }
 
 impl<'a> Reader<'a> {
     fn record(&mut self, layout: &Arc<Layout>) -> Result<Record> {
-        self.records += 1;
-        if self.records > limits::RECORDS {
-            return Err(DecodeError::Records);
-        }
+        self.count_record()?;
         let values = layout.fields.iter().map(|field| self.value(&field.field_type));
         Ok(Record::of_codec(layout, values.collect::<Result<_>>()?))
+    }
+
+    fn count_record(&mut self) -> Result<()> {
+        self.records += 1;
+        if self.records > limits::RECORDS { Err(DecodeError::Records) } else { Ok(()) }
     }
 
     fn value(&mut self, field_type: &FieldType<Arc<Layout>>) -> Result<Value> {
         let element = &field_type.element;
         match field_type.shape {
             Shape::Single => self.element(element),
-            Shape::Array(length) => self.array(element, length).map(Value::Array),
+            Shape::Array(length) => {
+                // Takes memory without any bytes, as an empty record does.
+                if length == 0 {
+                    self.count_record()?;
+                }
+                self.array(element, length).map(Value::Array)
+            }
             Shape::Sequence(bound) => {
                 let length = self.count()?;
                 match bound {
@@ -77,7 +85,7 @@ impl<'a> Reader<'a> {
                 if length > limits::RECORDS - self.records {
                     return Err(DecodeError::Records);
                 }
-                Array::Records(self.several(length, least_size(layout), |reader| reader.record(layout))?)
+                Array::Records(self.several(length, layout.least_size, |reader| reader.record(layout))?)
             }
         })
     }
@@ -127,22 +135,4 @@ impl<'a> Reader<'a> {
     fn short(&self) -> DecodeError {
         DecodeError::Short { length: self.length }
     }
-}
-
-/// How many bytes a record has at least.
-fn least_size(layout: &Layout) -> usize {
-    let of_field = |field_type: &FieldType<Arc<Layout>>| {
-        let each = match &field_type.element {
-            Element::Number(number) => number.size(),
-            Element::String(_) | Element::WString(_) => 4,
-            Element::Time | Element::Duration => 8,
-            Element::Nested(nested) => least_size(nested),
-        };
-        match field_type.shape {
-            Shape::Single => each,
-            Shape::Array(length) => each.saturating_mul(length),
-            Shape::Sequence(_) => 4,
-        }
-    };
-    layout.fields.iter().map(|field| of_field(&field.field_type)).fold(0, usize::saturating_add)
 }
