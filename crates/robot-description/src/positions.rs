@@ -3,7 +3,7 @@
 use nalgebra::{Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 
 use crate::limits;
-use crate::model::{Joint, JointKind, Pose, Robot};
+use crate::model::{Joint, JointKind, Mimic, Pose, Robot};
 
 /// Positions that do not belong to the robot.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -72,15 +72,24 @@ impl Robot {
 
     /// The position that a chain of joints that mimic each other leads to.
     fn mimicked(&self, index: usize, positions: &[f64], starts: &[usize]) -> f64 {
-        let (mut factor, mut sum, mut at) = (1.0, 0.0, index);
+        let Ok(Mimic { joint, multiplier, offset }) = self.whole_mimic(index) else { return 0.0 };
+        let master = if self.joints[joint].kind.numbers() == 1 { positions[starts[joint]] } else { 0.0 };
+        multiplier * master + offset
+    }
+
+    /// How a joint mimics the first of a chain of joints that mimic each other; one that mimics none, itself. An error says why there is no such relation.
+    pub(crate) fn whole_mimic(&self, index: usize) -> Result<Mimic, &'static str> {
+        let mut whole = Mimic { joint: index, multiplier: 1.0, offset: 0.0 };
         for _ in 0..=limits::MIMIC_CHAIN {
-            let Some(mimic) = self.joints[at].mimic else { break };
-            sum += factor * mimic.offset;
-            factor *= mimic.multiplier;
-            at = mimic.joint;
+            let Some(mimic) = self.joints[whole.joint].mimic else {
+                let is_finite = whole.multiplier.is_finite() && whole.offset.is_finite();
+                return is_finite.then_some(whole).ok_or("mimics joints by numbers that are too large");
+            };
+            whole.offset += whole.multiplier * mimic.offset;
+            whole.multiplier *= mimic.multiplier;
+            whole.joint = mimic.joint;
         }
-        let master = if self.joints[at].kind.numbers() == 1 { positions[starts[at]] } else { 0.0 };
-        factor * master + sum
+        Err("mimics joints without end")
     }
 }
 

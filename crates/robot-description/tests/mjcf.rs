@@ -220,6 +220,18 @@ fn files_are_included_within_limits() {
 }
 
 #[test]
+fn a_mass_that_cannot_be_scaled_stays() {
+    let text = "<mujoco>\n<compiler settotalmass='1e30'/><worldbody><body><inertial mass='1e-300'/></body></worldbody></mujoco>";
+    let parsed = read(text);
+    let inertial = parsed.value.robot.links[1].inertial.as_ref().expect("an inertial");
+    assert_eq!((inertial.mass, inertial.inertia), (1e-300, [0.0; 6]));
+    assert_eq!(
+        messages(&parsed),
+        ["line 1, <mujoco>: the bodies weigh 1e-300 kg, too little to be scaled to the total mass"]
+    );
+}
+
+#[test]
 fn what_is_not_understood_has_a_line() {
     let text = world(
         "\n<camera/>\n<body euler='1 2'>\n<joint axis='0 0 0'/>\n<joint type='odd' class='none'/>\n<geom type='hfield'/>\n<geom mesh='m'/>\n<geom size='1e400'/></body>",

@@ -132,6 +132,22 @@ fn frames_that_are_defined_in_themselves_or_in_nothing_are_reported() {
 }
 
 #[test]
+fn joints_that_mimic_each_other_are_reported() {
+    let joint = |name: &str, child: &str, master: &str| {
+        format!(
+            "<link name='{child}'/><joint name='{name}' type='revolute'><parent>a</parent><child>{child}</child>\
+             <axis><mimic joint='{master}'><multiplier>2</multiplier></mimic></axis></joint>"
+        )
+    };
+    let parsed = read(&model(&format!("<link name='a'/>{}{}", joint("j", "b", "k"), joint("k", "c", "j"))));
+    let message = "joint 'j' (line 1) mimics joints without end; it moves by itself";
+    assert_eq!(parsed.warnings.iter().map(|warning| warning.message.as_str()).collect::<Vec<_>>(), [message]);
+    let joints = &parsed.value.models[0].robot.joints;
+    assert!(joints[0].mimic.is_none());
+    assert_eq!(joints[1].mimic.map(|mimic| mimic.joint), Some(0));
+}
+
+#[test]
 fn a_joint_may_hold_a_link_to_the_world() {
     let robot = read(&model(
         "<pose>0 0 3 0 0 0</pose><link name='a'/><joint name='j' type='fixed'><parent>world</parent><child>a</child></joint>",

@@ -178,6 +178,14 @@ fn joints_without_links_loops_and_circles_of_mimics_are_reported() {
         joint("j", "a", "b", "<mimic joint='k'/>") + "<link name='c'/>" + &joint("k", "b", "c", "<mimic joint='j'/>");
     assert_eq!(warnings(&mimics), ["line 2, <joint>: mimics joints without end; it moves by itself"]);
     assert_eq!(warnings(&joint("j", "a", "b", "<mimic joint='j'/>")).len(), 1);
+    let chain: String = (1..6)
+        .map(|n| {
+            let mimic = if n > 1 { format!("<mimic joint='j{}' multiplier='1e90'/>", n - 1) } else { String::new() };
+            let parent = if n > 1 { format!("l{}", n - 1) } else { "a".to_owned() };
+            format!("<link name='l{n}'/>{}", joint(&format!("j{n}"), &parent, &format!("l{n}"), &mimic))
+        })
+        .collect();
+    assert_eq!(warnings(&chain), ["line 6, <joint>: mimics joints by numbers that are too large; it moves by itself"]);
 }
 
 #[test]

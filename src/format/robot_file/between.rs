@@ -17,7 +17,7 @@ const UNIT: (f64, f64) = (1.0, 1.0);
 
 impl Import<'_> {
     pub(super) fn is_fixed(&self, link: usize) -> bool {
-        self.model.fixed.contains(&link)
+        self.model.fixed.binary_search(&link).is_ok()
     }
 
     /// Whether a link carries joints that move.

@@ -72,7 +72,7 @@ struct Description {
     robot: Robot,
     /// In the world.
     pose: Pose,
-    /// Links that never move.
+    /// Links that never move, in increasing order.
     fixed: Vec<usize>,
     /// None: joints have the motors that simURDF makes.
     actuators: Option<Vec<Actuator>>,

@@ -145,14 +145,13 @@ fn of_sdf(model: sdf::Model) -> Description {
     let sdf::Model { robot, pose, is_static } = model;
     let is_world = |link: usize| robot.links[link].line == 0 && robot.links[link].name == "world";
     let parents = robot.parent_joints();
-    let mut fixed = Vec::new();
+    let mut is_fixed = vec![false; robot.links.len()];
     for link in robot.links_from_the_roots() {
         let parent = parents[link].map(|joint| &robot.joints[joint]);
-        let is_held = parent.is_some_and(|joint| joint.kind == JointKind::Fixed && fixed.contains(&joint.parent));
-        if is_static || is_world(link) || is_held {
-            fixed.push(link);
-        }
+        let is_held = parent.is_some_and(|joint| joint.kind == JointKind::Fixed && is_fixed[joint.parent]);
+        is_fixed[link] = is_static || is_world(link) || is_held;
     }
+    let fixed = (0..is_fixed.len()).filter(|link| is_fixed[*link]).collect();
     Description { robot, pose, fixed, ..Description::default() }
 }
 

@@ -143,7 +143,7 @@ impl<'a> Builder<'a> {
             let joint = fixed(format!("{}_fixed", link.name), line);
             let is_mocap = element.attribute("mocap") == Some("true");
             let index = self.add_link(link);
-            if is_mocap || self.model.fixed.contains(&parent) {
+            if is_mocap || self.model.fixed.binary_search(&parent).is_ok() {
                 self.model.fixed.push(index);
             }
             self.model.robot.joints.push(Joint { parent, child: index, origin: pose, ..joint });

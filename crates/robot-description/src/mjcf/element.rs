@@ -15,7 +15,7 @@ const DEEPEST: usize = 128;
 const DEEPEST_FILE: usize = 8;
 const MOST_FILES: usize = 500;
 /// Numbers beyond are taken for errors: what is computed from them would not be finite.
-const LARGEST: f64 = 1e30;
+pub const LARGEST: f64 = 1e30;
 
 /// An element, wherever it was written.
 #[derive(Debug, Clone, Default)]

@@ -8,7 +8,7 @@ use super::Files;
 use super::attributes::Attributes;
 use super::body::Builder;
 use super::document::FromGeoms;
-use super::element::Element;
+use super::element::{Element, LARGEST};
 use super::mesh_solid::{self, Solid, Volume};
 use crate::model::{Geometry, Inertial, Pose};
 use crate::xml::short;
@@ -84,11 +84,14 @@ impl Builder<'_> {
     }
 
     /// Applies what the settings say about the masses of all bodies.
-    pub fn finish_masses(&mut self) {
+    pub fn finish_masses(&mut self, root: &Element) {
         let settings = &self.document.settings;
-        let inertials = || self.model.robot.links.iter().filter_map(|link| link.inertial.as_ref());
-        let total: f64 = inertials().map(|inertial| inertial.mass).sum();
-        let factor = settings.total_mass.filter(|_| total > 0.0).map_or(1.0, |wanted| wanted / total);
+        let total = self.model.robot.mass();
+        let mut factor = settings.total_mass.filter(|_| total > 0.0).map_or(1.0, |wanted| wanted / total);
+        if factor > LARGEST {
+            self.report.warn(root, format!("the bodies weigh {total:e} kg, too little to be scaled to the total mass"));
+            factor = 1.0;
+        }
         let (least_mass, least_inertia, balances) =
             (settings.least_mass, settings.least_inertia, settings.balances_inertia);
         for inertial in self.model.robot.links.iter_mut().filter_map(|link| link.inertial.as_mut()) {

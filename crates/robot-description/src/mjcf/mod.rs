@@ -27,7 +27,7 @@ pub struct Model {
     pub robot: Robot,
     /// m/s², if the file says it.
     pub gravity: Option<[f64; 3]>,
-    /// The links that never move: the world, and what is fixed to it.
+    /// The links that never move, in increasing order: the world, and what is fixed to it.
     pub fixed: Vec<usize>,
     pub actuators: Vec<Actuator>,
     pub sites: Vec<Site>,
@@ -134,7 +134,7 @@ pub fn read(bytes: &[u8], files: &mut dyn Files) -> Result<Parsed<Model>, ReadEr
     for world in root.named("worldbody") {
         builder.add_world(world);
     }
-    builder.finish_masses();
+    builder.finish_masses(&root);
     let (mut model, mut report) = builder.into_parts();
     model.robot.name = root.attribute("model").unwrap_or("mujoco").to_owned();
     model.gravity = document.gravity;

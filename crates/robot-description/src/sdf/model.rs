@@ -273,7 +273,7 @@ impl Draft {
                 );
             }
         }
-        Model { robot: assembly.finish(), pose, is_static: self.is_static }
+        Model { robot: assembly.finish(source, node), pose, is_static: self.is_static }
     }
 }
 
@@ -381,10 +381,20 @@ impl Assembly<'_> {
         self.index.get(&link).copied().ok_or_else(missing)
     }
 
-    fn finish(mut self) -> Robot {
+    fn finish(mut self, source: &mut Source, node: Node) -> Robot {
         for (index, master, multiplier, offset) in &self.mimics {
             if let Some(joint) = self.first_axes.get(master).copied().filter(|joint| joint != index) {
                 self.robot.joints[*index].mimic = Some(Mimic { joint, multiplier: *multiplier, offset: *offset });
+            }
+        }
+        for (index, ..) in self.mimics {
+            if let Err(reason) = self.robot.whole_mimic(index) {
+                let joint = &mut self.robot.joints[index];
+                joint.mimic = None;
+                source.warn(
+                    node,
+                    format!("joint '{}' (line {}) {reason}; it moves by itself", short(&joint.name), joint.line),
+                );
             }
         }
         self.robot

@@ -6,7 +6,6 @@ use roxmltree::Node;
 
 use super::joint::{JointText, MimicText, read_joint};
 use super::link::{read_link, read_material, read_sensor};
-use crate::limits;
 use crate::model::{Joint, Mimic, Robot};
 use crate::report::{Parsed, ReadError};
 use crate::xml::{self, Source, elements, short};
@@ -150,22 +149,11 @@ fn report_structure(source: &mut Source, nodes: &[Node], robot: &mut Robot) {
             .warn(nodes[index], format!("closes a loop: link '{child}' is connected already; the joint moves nothing"));
     }
     for (index, node) in nodes.iter().enumerate() {
-        if !mimics_within_limits(robot, index) {
+        if let Err(reason) = robot.whole_mimic(index) {
             robot.joints[index].mimic = None;
-            source.warn(*node, "mimics joints without end; it moves by itself");
+            source.warn(*node, format!("{reason}; it moves by itself"));
         }
     }
-}
-
-fn mimics_within_limits(robot: &Robot, index: usize) -> bool {
-    let mut at = index;
-    for _ in 0..=limits::MIMIC_CHAIN {
-        match robot.joints[at].mimic {
-            Some(mimic) => at = mimic.joint,
-            None => return true,
-        }
-    }
-    false
 }
 
 /// Sensors of Gazebo are another format, and the rest of it is for Gazebo only.
