@@ -120,7 +120,9 @@ impl<'a> Reader<'a> {
                 return Err(MarshalError::Digit);
             }
             exact = exact.filter(|_| place < DIGITS_OF_I64).map(|sum| sum | i128::from(digit) << (DIGIT_BITS * place));
-            rough += f64::from(digit) * power_of_two(DIGIT_BITS.saturating_mul(place));
+            if digit != 0 {
+                rough += f64::from(digit) * power_of_two(DIGIT_BITS.saturating_mul(place));
+            }
         }
         let exact = exact.map(|sum| if negative { -sum } else { sum });
         let whole = exact.and_then(|sum| i64::try_from(sum).ok()).map(Data::Int);
@@ -325,6 +327,9 @@ mod tests {
         // marshal.dumps(1 << 64, 2), marshal.dumps(-(1 << 63) - 1, 2)
         assert_eq!(decode(b"l\x05\0\0\0\0\0\0\0\0\0\0\0\x10\0"), Ok(Data::Float(2_f64.powi(64))));
         assert_eq!(decode(b"l\xfb\xff\xff\xff\x01\0\0\0\0\0\0\0\x08\0"), Ok(Data::Float(-2_f64.powi(63))));
+        // 1 << 1500: the digits below the last one are zeros, some of them of places that are no finite numbers.
+        let huge = [&b"l\x65\0\0\0"[..], &[0; 200], &[1, 0]].concat();
+        assert_eq!(decode(&huge), Ok(Data::Float(f64::INFINITY)));
     }
 
     #[test]
