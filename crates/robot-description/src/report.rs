@@ -45,6 +45,10 @@ pub enum ReadError {
     TooLong(usize),
     #[error("the file has more than {max} elements, attributes and texts", max = crate::limits::NODES)]
     TooManyNodes,
+    #[error("line {line}: an element has more than {max} attributes", max = crate::limits::ATTRIBUTES)]
+    TooManyAttributes { line: u32 },
+    #[error("the file declares more than {max} namespaces", max = crate::limits::NAMESPACES)]
+    TooManyNamespaces,
     #[error("no valid XML: {0}")]
     Xml(String),
     #[error("the file declares entities (line {line}), which are not expanded")]

@@ -26,6 +26,12 @@ pub fn lines_before(bytes: &[u8]) -> u32 {
 
 /// The tree of elements. A document type is accepted, entities of its own are not.
 pub fn document(text: &str, lines_before: u32) -> Result<Document<'_>, ReadError> {
+    if let Some(at) = crowded(text) {
+        return Err(ReadError::TooManyAttributes { line: line_at(text, at) + lines_before });
+    }
+    if text.matches("xmlns").nth(limits::NAMESPACES).is_some() {
+        return Err(ReadError::TooManyNamespaces);
+    }
     let options = |allow_dtd| ParsingOptions { allow_dtd, nodes_limit: limits::NODES, ..ParsingOptions::default() };
     let parsed = match Document::parse_with_options(text, options(false)) {
         Err(roxmltree::Error::DtdDetected) => match text.find("<!ENTITY") {
@@ -38,6 +44,42 @@ pub fn document(text: &str, lines_before: u32) -> Result<Document<'_>, ReadError
         roxmltree::Error::NodesLimitReached => ReadError::TooManyNodes,
         error => ReadError::Xml(with_line(&error, lines_before)),
     })
+}
+
+/// Where an element begins that has more attributes than are read.
+fn crowded(text: &str) -> Option<usize> {
+    const OTHERS: [(&str, &str); 3] = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
+    let mut at = 0;
+    loop {
+        let start = at + text[at..].find('<')?;
+        let rest = &text[start..];
+        let length = match OTHERS.iter().find(|(open, _)| rest.starts_with(open)) {
+            Some((open, close)) => rest[open.len()..].find(close)? + open.len(),
+            None => tag_length(rest)?,
+        };
+        at = start + length;
+        if length == 0 {
+            return Some(start);
+        }
+    }
+}
+
+/// How long a tag is, up to its end; 0 if it has too many attributes. `None` without an end.
+fn tag_length(text: &str) -> Option<usize> {
+    let (mut quote, mut attributes) = (None, 0);
+    for (length, byte) in text.bytes().enumerate() {
+        match (quote, byte) {
+            (None, b'>') => return Some(length),
+            (None, b'"' | b'\'') => quote = Some(byte),
+            (None, b'=') => attributes += 1,
+            (Some(open), _) if open == byte => quote = None,
+            _ => {}
+        }
+        if attributes > limits::ATTRIBUTES {
+            return Some(0);
+        }
+    }
+    None
 }
 
 /// What the library says, with the line of the file as it was before its first lines were skipped.
@@ -183,9 +225,8 @@ pub fn named<'a, 'input: 'a>(node: Node<'a, 'input>, name: &'a str) -> impl Iter
 /// A text that fits into a message.
 pub fn short(text: &str) -> String {
     const LENGTH: usize = 60;
-    if text.chars().count() <= LENGTH {
-        text.to_owned()
-    } else {
-        text.chars().take(LENGTH).chain("...".chars()).collect()
+    match text.char_indices().nth(LENGTH) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_owned(),
     }
 }

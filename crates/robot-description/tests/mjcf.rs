@@ -219,6 +219,41 @@ fn files_are_included_within_limits() {
     assert!(messages(&parsed)[0].contains("no valid XML"));
 }
 
+/// Names that are taken over by very many parts would take memory that grows with the square of the file.
+#[test]
+fn very_long_attributes_are_left_out() {
+    let long = "x".repeat(300_000);
+    let text = format!(
+        "<mujoco>\n<asset><mesh name='m' file='{long}'/></asset>\n<worldbody>\n<body name='{long}'>{}</body></worldbody></mujoco>",
+        "<joint/><geom mesh='m'/>".repeat(3000)
+    );
+    let parsed = read(&text);
+    assert_eq!(parsed.value.robot.links[3000].name, "body_1");
+    let expected = [
+        "line 2, <mesh>: file has 300000 bytes, more than the 2000 that are read",
+        "line 4, <body>: name has 300000 bytes, more than the 2000 that are read",
+        "line 2, <mesh>: a mesh without a file is not read",
+    ];
+    assert_eq!(messages(&parsed)[..3], expected);
+}
+
+/// What is named and what names it are found in time that does not grow with the square of their number.
+#[test]
+fn very_many_parts_are_read() {
+    const COUNT: usize = 40_000;
+    let all = |part: &dyn Fn(usize) -> String| (0..COUNT).map(part).collect::<String>();
+    let defaults = all(&|n| format!("<geom a{n}='1'/>"));
+    let bodies = all(&|n| format!("<body name='b{n}'><joint name='j{n}'/><body/><geom size='1'/></body>"));
+    let motors = all(&|n| format!("<motor joint='j{n}'/>"));
+    let welds = all(&|n| format!("<weld body1='b{n}'/>"));
+    let parsed = read(&format!(
+        "<mujoco><default>{defaults}</default><worldbody>{bodies}</worldbody><actuator>{motors}</actuator><equality>{welds}</equality></mujoco>"
+    ));
+    let model = &parsed.value;
+    assert_eq!((model.robot.links.len(), model.actuators.len()), (2 * COUNT + 1, COUNT));
+    assert_eq!(model.equalities.len(), COUNT);
+}
+
 #[test]
 fn a_mass_that_cannot_be_scaled_stays() {
     let text = "<mujoco>\n<compiler settotalmass='1e30'/><worldbody><body><inertial mass='1e-300'/></body></worldbody></mujoco>";

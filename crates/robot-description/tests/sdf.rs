@@ -132,6 +132,36 @@ fn frames_that_are_defined_in_themselves_or_in_nothing_are_reported() {
 }
 
 #[test]
+fn models_with_very_long_names_are_left_out() {
+    let links = "<link name='a'/>".repeat(10_000);
+    let long = "x".repeat(300_000);
+    let parsed = read(&format!("<sdf version='1.9'>\n<model name='{long}'>{links}</model>\n<model name='m'/></sdf>"));
+    assert_eq!(parsed.value.models.iter().map(|model| model.robot.name.as_str()).collect::<Vec<_>>(), ["m"]);
+    assert_eq!(parsed.warnings[0].line, 2);
+    assert!(parsed.warnings[0].message.contains("name is too long"), "{}", parsed.warnings[0]);
+}
+
+#[test]
+fn very_many_models_are_read_in_time_that_grows_with_their_number() {
+    let models = |place: &str| -> String {
+        (0..50_000).map(|n| format!("<model name='m{n}'><link name='a'/>{place}</model>")).collect()
+    };
+    let worlds = read(&format!("<sdf version='1.9'>{}</sdf>", models("")));
+    assert_eq!(worlds.value.models.len(), 50_000);
+    let nested = read(&model(&models("<frame name='f'/>")));
+    assert_eq!(nested.value.models[0].robot.links.len(), 50_000);
+}
+
+#[test]
+fn a_nested_model_of_the_same_name_changes_nothing_of_the_first() {
+    let inner = |link: &str| format!("<model name='n'><link name='{link}'/></model>");
+    let joint = "<joint name='j' type='fixed'><parent>a</parent><child>n</child></joint>";
+    let parsed = read(&model(&format!("<link name='a'/>{}{}{joint}", inner("b"), inner("c"))));
+    let robot = &parsed.value.models[0].robot;
+    assert_eq!(robot.links[robot.joints[0].child].name, "n::b");
+}
+
+#[test]
 fn joints_that_mimic_each_other_are_reported() {
     let joint = |name: &str, child: &str, master: &str| {
         format!(

@@ -276,6 +276,28 @@ fn changed_files_are_robots_or_errors() {
     assert!(read_ones > 100, "{read_ones}");
 }
 
+/// The parser of XML compares each attribute of an element with all others, and namespaces with those around them.
+#[test]
+fn elements_with_very_many_attributes_or_namespaces_are_refused() {
+    let attributes = |from: usize, count: usize| -> String {
+        (from..from + count).map(|number| format!(" a{number}='a=\"b\">'")).collect()
+    };
+    let robot = |link: &str| {
+        format!(
+            "<?xml version='1.0'?><?p a='<'?>\n<!-- <a{0}/> --><robot name='r'>\n<link name='a'{link}/></robot>",
+            attributes(0, 300)
+        )
+    };
+    assert!(urdf::read(robot(&attributes(0, 199)).as_bytes()).is_ok());
+    for count in [200, 200_000] {
+        let error = urdf::read(robot(&attributes(0, count)).as_bytes()).expect_err("too many");
+        assert_eq!(error, ReadError::TooManyAttributes { line: 3 });
+    }
+    let many: String = (0..60_000).map(|n| format!("<link name='l{n}' xmlns:x{n}='x'>")).collect();
+    let error = urdf::read(format!("<robot name='r'>{many}").as_bytes()).expect_err("too many");
+    assert_eq!(error, ReadError::TooManyNamespaces);
+}
+
 #[test]
 fn warnings_are_bounded() {
     let parsed = read(&format!("<robot name='r'><link name='a'/>{}</robot>", "<odd/>".repeat(10_000)));

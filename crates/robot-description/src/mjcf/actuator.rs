@@ -4,14 +4,15 @@ use super::attributes::{Attributes, MAIN};
 use super::document::Document;
 use super::element::{Element, Report};
 use super::{Actuator, Drive};
-use crate::model::Robot;
+use crate::model::{Names, Robot};
 use crate::xml::short;
 
 pub fn read(root: &Element, document: &Document, robot: &Robot, report: &mut Report) -> Vec<Actuator> {
+    let joints = Names::new(robot.joints.iter().map(|joint| joint.name.as_str()));
     let mut actuators = Vec::new();
     for element in root.named("actuator").flat_map(|part| &part.children) {
         let attributes = document.defaults.of(element, MAIN, report);
-        match actuator(&attributes, document, robot, report) {
+        match actuator(&attributes, document, (robot, &joints), report) {
             Ok(actuator) => actuators.push(actuator),
             Err(reason) => report.leave_out(element, reason),
         }
@@ -22,12 +23,12 @@ pub fn read(root: &Element, document: &Document, robot: &Robot, report: &mut Rep
 fn actuator(
     attributes: &Attributes,
     document: &Document,
-    robot: &Robot,
+    (robot, joints): (&Robot, &Names),
     report: &mut Report,
 ) -> Result<Actuator, String> {
     let target = attributes.first_of(&["joint", "jointinparent"]);
     let (_, name) = target.ok_or("an actuator that moves no joint is not read")?;
-    let joint = robot.joint(name).ok_or_else(|| format!("there is no joint '{}'", short(name)))?;
+    let joint = joints.get(name).ok_or_else(|| format!("there is no joint '{}'", short(name)))?;
     let kind = attributes.element.name.as_str();
     let (drive, gain) = drive(kind, attributes, report)?;
     let gear = attributes.numbers(report, "gear", [1.0]).map(f64::abs)[0];

@@ -22,7 +22,7 @@ struct Class {
     /// The class that it is inside of.
     parent: Option<usize>,
     /// Attributes by the kind of the element.
-    kinds: BTreeMap<String, Vec<(String, String)>>,
+    kinds: BTreeMap<String, BTreeMap<String, String>>,
 }
 
 impl Defaults {
@@ -95,20 +95,16 @@ impl<'a> Attributes<'a> {
 
     /// The attribute of several that is said in the nearest place.
     pub fn first_of<'n>(&self, names: &[&'n str]) -> Option<(&'n str, &'a str)> {
-        let find = |attributes: &'a [(String, String)]| {
-            let value = |name: &&'n str| {
-                attributes.iter().rev().find(|(key, _)| key == name).map(|(_, value)| (*name, value.as_str()))
-            };
-            names.iter().find_map(value)
-        };
-        if let Some(found) = find(&self.element.attributes) {
+        let own = |name: &&'n str| self.element.attribute(name).map(|value| (*name, value));
+        if let Some(found) = names.iter().find_map(own) {
             return Some(found);
         }
         let mut class = Some(self.class);
         while let Some(index) = class {
             let class_here = &self.defaults.classes[index];
             let kind = class_here.kinds.get(kind(&self.element.name));
-            if let Some(found) = kind.and_then(|attributes| find(attributes)) {
+            let here = |name: &&'n str| kind?.get(*name).map(|value| (*name, value.as_str()));
+            if let Some(found) = names.iter().find_map(here) {
                 return Some(found);
             }
             class = class_here.parent;

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use roxmltree::Node;
+use roxmltree::{Attribute, Node};
 
 use super::Files;
 use crate::limits;
@@ -11,6 +11,8 @@ use crate::xml::{self, Source, short};
 
 /// Elements inside of each other; bodies are.
 const DEEPEST: usize = 128;
+/// Bytes of an attribute: names and numbers are taken over by very many parts.
+const LONGEST: usize = 2000;
 /// Files inside of each other, and all together.
 const DEEPEST_FILE: usize = 8;
 const MOST_FILES: usize = 500;
@@ -141,15 +143,21 @@ impl Reader<'_> {
         if self.nodes > limits::NODES as usize {
             return Err(ReadError::TooManyNodes);
         }
-        let attributes =
-            node.attributes().map(|attribute| (attribute.name().to_owned(), attribute.value().trim().to_owned()));
+        let (attributes, long): (Vec<_>, Vec<_>) =
+            node.attributes().partition(|attribute| attribute.value().len() <= LONGEST);
+        let owned = |attribute: Attribute| (attribute.name().to_owned(), attribute.value().trim().to_owned());
         let mut element = Element {
             name: node.tag_name().name().to_owned(),
-            attributes: attributes.collect(),
+            attributes: attributes.into_iter().map(owned).collect(),
             children: Vec::new(),
             line: source.line(node),
             file: file.clone(),
         };
+        for attribute in long {
+            let (name, length) = (short(attribute.name()), attribute.value().len());
+            self.report
+                .leave_out(&element, format!("{name} has {length} bytes, more than the {LONGEST} that are read"));
+        }
         if depth >= DEEPEST && node.first_element_child().is_some() {
             self.report.leave_out(&element, format!("more than {DEEPEST} elements inside of each other are not read"));
             return Ok(element);

@@ -2,9 +2,11 @@
 
 mod joint;
 mod link;
+mod names;
 
 pub use joint::{Dynamics, Joint, JointKind, Limits, Mimic};
 pub use link::{Collision, Geometry, Inertial, Link, Material, Sensor, SensorKind, Visual};
+pub(crate) use names::Names;
 
 /// A frame in another frame, metres.
 pub type Pose = nalgebra::Isometry3<f64>;

@@ -1,6 +1,7 @@
 //! Frames that are defined in each other.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use crate::model::Pose;
 
@@ -30,9 +31,15 @@ pub struct Frame {
 }
 
 impl Frames {
-    /// Adds a frame; the first of a name counts.
-    pub fn add(&mut self, name: String, frame: Frame) {
-        self.0.entry(name).or_insert(frame);
+    /// Adds a frame; the first of a name counts. False if there is one already.
+    pub fn add(&mut self, name: String, frame: Frame) -> bool {
+        match self.0.entry(name) {
+            Entry::Vacant(place) => {
+                place.insert(frame);
+                true
+            }
+            Entry::Occupied(_) => false,
+        }
     }
 
     /// Replaces the names that the file says by full ones. The results are those that mean nothing: the usual frame is taken for them.

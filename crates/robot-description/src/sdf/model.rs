@@ -1,6 +1,6 @@
 //! Models of an SDF file: collected with all that is inside of them, then placed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::Node;
 
@@ -15,6 +15,8 @@ use crate::xml::{self, Source, elements, named, short};
 
 /// Models inside of models.
 const DEEPEST: usize = 32;
+/// Bytes of the names of models inside of each other: all their parts have them.
+const LONGEST_SCOPE: usize = 1000;
 
 /// Reads the models, and the files, inside of a world or a file.
 pub fn read_models(reader: &mut Reader, source: &mut Source, node: Node, version: f64) -> Vec<Model> {
@@ -22,12 +24,12 @@ pub fn read_models(reader: &mut Reader, source: &mut Source, node: Node, version
     for frame in named(node, "frame") {
         collection.add_frame(source, frame, "", WORLD);
     }
-    let mut drafts: Vec<Draft> = Vec::new();
+    let (mut drafts, mut names) = (Vec::<Draft>::new(), BTreeSet::new());
     for child in elements(node) {
         let mut draft = Draft::default();
         let read =
             collection.add_any_model(source, child, Place { scope: "", folder: "", depth: 0, version }, &mut draft);
-        if read && drafts.iter().any(|other| other.name == draft.name) {
+        if read && !names.insert(draft.name.clone()) {
             source.warn(child, format!("there is a model '{}' before it; this one is left out", short(&draft.name)));
         } else if read {
             drafts.push(draft);
@@ -145,20 +147,28 @@ impl Collection<'_, '_> {
         }
         let name = overrides.name.unwrap_or_else(|| source.required(node, "name"));
         let scope = format!("{}{name}::", place.scope);
+        if scope.len() > LONGEST_SCOPE {
+            let problem = format!(
+                "its name is too long: models whose names have more than {LONGEST_SCOPE} bytes, together with those that they are in, are not read"
+            );
+            source.leave_out(node, problem);
+            return false;
+        }
         let frame = format!("{scope}{MODEL}");
         let outer = if place.scope.is_empty() { WORLD.to_owned() } else { format!("{}{MODEL}", place.scope) };
         let own_pose = overrides.pose.or_else(|| pose(source, node)).unwrap_or_else(no_pose);
-        self.add_placed(frame.clone(), place.scope, own_pose, outer, None);
+        let is_new = self.add_placed(frame.clone(), place.scope, own_pose, outer, None);
         let placement = overrides.placement.or_else(|| node.attribute("placement_frame").map(str::to_owned));
         self.placements.extend(placement.filter(|name| !name.is_empty()).map(|name| (scope.clone(), name)));
         if place.depth == 0 {
             draft.is_static = overrides.is_static || is_true(source, node, "static");
             draft.name = name;
         }
+        let links_before = draft.links.len();
         self.add_parts(source, node, Place { scope: &scope, depth: place.depth + 1, ..place }, draft);
-        let first = draft.links.iter().find(|(full, _)| full.starts_with(&scope)).map(|(full, _)| full.clone());
+        let first = draft.links.get(links_before).map(|(full, _)| full.clone());
         let canonical = node.attribute("canonical_link").map(|link| format!("{scope}{link}"));
-        if let Some(link) = canonical.or(first) {
+        if let Some(link) = canonical.or(first).filter(|_| is_new) {
             self.frames.attach(&frame, link);
         }
         true
@@ -211,8 +221,15 @@ impl Collection<'_, '_> {
         self.frames.add(name, frame);
     }
 
-    /// Adds the frame of a part. `attached_to` is its own name, or what it is in.
-    fn add_placed(&mut self, name: String, scope: &str, pose: PoseText, inside: String, attached_to: Option<String>) {
+    /// Adds the frame of a part. `attached_to` is its own name, or what it is in. False if there is one of that name.
+    fn add_placed(
+        &mut self,
+        name: String,
+        scope: &str,
+        pose: PoseText,
+        inside: String,
+        attached_to: Option<String>,
+    ) -> bool {
         let attached_to = attached_to.unwrap_or_else(|| inside.clone());
         let frame = Frame {
             inside,
@@ -222,7 +239,7 @@ impl Collection<'_, '_> {
             said_inside: pose.relative_to,
             said_attached_to: String::new(),
         };
-        self.frames.add(name, frame);
+        self.frames.add(name, frame)
     }
 
     fn finish(mut self, source: &mut Source, node: Node) -> Frames {

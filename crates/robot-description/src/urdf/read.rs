@@ -1,12 +1,10 @@
 //! Robots from URDF.
 
-use std::collections::BTreeMap;
-
 use roxmltree::Node;
 
 use super::joint::{JointText, MimicText, read_joint};
 use super::link::{read_link, read_material, read_sensor};
-use crate::model::{Joint, Mimic, Robot};
+use crate::model::{Joint, Mimic, Names, Robot};
 use crate::report::{Parsed, ReadError};
 use crate::xml::{self, Source, elements, short};
 
@@ -62,7 +60,7 @@ fn read_robot(source: &mut Source, root: Node) -> Robot {
             _ => {}
         }
     }
-    let links = Names::new(robot.links.iter().map(|link| &link.name));
+    let links = Names::new(robot.links.iter().map(|link| link.name.as_str()));
     report_equal_names(source, root, &links);
     add_joints(source, joints, &links, &mut robot);
     for node in elements(root) {
@@ -85,23 +83,6 @@ fn report_equal_names(source: &mut Source, root: Node, links: &Names) {
         if links.get(name) != Some(index) {
             source.warn(node, format!("there is a link '{}' before it, which joints mean", short(name)));
         }
-    }
-}
-
-/// The first thing of each name.
-struct Names(BTreeMap<String, usize>);
-
-impl Names {
-    fn new<'a>(names: impl Iterator<Item = &'a String>) -> Self {
-        let mut first = BTreeMap::new();
-        for (index, name) in names.enumerate() {
-            first.entry(name.clone()).or_insert(index);
-        }
-        Self(first)
-    }
-
-    fn get(&self, name: &str) -> Option<usize> {
-        self.0.get(name).copied()
     }
 }
 
@@ -128,7 +109,7 @@ fn add_joints(source: &mut Source, joints: Vec<(Node, JointText)>, links: &Names
         nodes.push(node);
         mimics.push(text.mimic);
     }
-    let names = Names::new(robot.joints.iter().map(|joint| &joint.name));
+    let names = Names::new(robot.joints.iter().map(|joint| joint.name.as_str()));
     for (index, mimic) in mimics.iter().enumerate() {
         let Some(MimicText { master, multiplier, offset }) = mimic else { continue };
         match names.get(master) {
