@@ -11,7 +11,7 @@ use crate::{InterfaceError, InterfaceKind, TypeName, limits};
 const SEARCHED: usize = 20_000;
 
 /// Where types are searched.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Folders {
     roots: Vec<PathBuf>,
 }

@@ -21,6 +21,7 @@ use crate::{
 /// Structures within services and actions have names of their own: `std_srvs/srv/SetBool_Request`, `..._Response`,
 /// `example_interfaces/action/Fibonacci_Goal`, `..._Result`, `..._Feedback`; in ROS 2 also what its actions exchange:
 /// `..._SendGoal_Request`, `..._SendGoal_Response`, `..._GetResult_Request`, `..._GetResult_Response`, `..._FeedbackMessage`.
+#[derive(Clone)]
 pub struct Catalogue {
     generation: Generation,
     folders: Folders,
