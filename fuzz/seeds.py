@@ -1,16 +1,23 @@
-"""Seeds for the fuzz targets scene_file, unpacked_scene and mesh_*.
+"""Seeds for the fuzz targets that find little without them; of one target: `seeds.py NAME`, as the functions at the end are named.
 
 Of scene_file: the scenes of tests/data, as they are and uncompressed. What is changed in compressed data changes all that follows; only
 uncompressed files let single changes reach the chunks.
 
 Of unpacked_scene: the files of a model of tests/data, which is unpacked into fuzz/unpacked.
 
-Of mesh_*: a square in each format.
+Of mesh_* and gltf_asset: a square in each format.
+
+Of urdf, sdf and mjcf: the files in the tests. Of ros_message and ros2_message: the built-in types, with messages that fit some of them. Of rtps:
+how a participant introduces itself, and what its writers and readers send. Of python_message: values. Of view_request: the requests in the tests.
 """
 
+import json
+import marshal
 import pathlib
+import re
 import struct
 import subprocess
+import sys
 
 HEADER = 1021
 METHOD = 12  # 1: compressed, 0: not
@@ -101,6 +108,35 @@ DXF = (
 )
 
 
+def write(name, content):
+    path = ROOT / "corpus" / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(content)
+
+
+SPOT = {"type": "spot", "color": [1, 0, 0], "intensity": 2, "spot": {"outerConeAngle": 0.5}}
+NODES = {
+    "asset": {"version": "2.0"},
+    "extensions": {"KHR_lights_punctual": {"lights": [SPOT, {"type": "point"}, {"type": "directional"}]}},
+    "cameras": [
+        {"type": "perspective", "perspective": {"yfov": 1, "aspectRatio": 1.5, "znear": 0.1, "zfar": 10}},
+        {"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 2, "znear": 0, "zfar": 9}},
+    ],
+    "nodes": [
+        {"mesh": 0, "children": [1, 2], "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]},
+        {"camera": 0, "rotation": [0, 0, 0.6, 0.8]},
+        {"camera": 1, "translation": [1, 2, 3], "extensions": {"KHR_lights_punctual": {"light": 0}}},
+    ],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "accessors": [
+        {"bufferView": 0, "componentType": 5121, "type": "VEC3", "count": 3},
+        {"bufferView": 0, "componentType": 5121, "type": "SCALAR", "count": 3},
+    ],
+    "bufferViews": [{"buffer": 0, "byteLength": 9}],
+    "buffers": [{"byteLength": 9, "uri": "data:;base64,AAECAAEAAAAB"}],
+}
+
+
 def meshes():
     corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
     points = b"".join(struct.pack("<3f", *corner) for corner in corners)
@@ -120,11 +156,105 @@ def meshes():
         "dxf/text": DXF.replace(" ", "\n").encode(),
     }
     for name, content in seeds.items():
-        path = ROOT / "corpus" / f"mesh_{name}"
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content)
+        write(f"mesh_{name}", content)
+    write("gltf_asset/binary", gltf(points))
+    write("gltf_asset/nodes", json.dumps(NODES).encode())
 
 
-scene_file()
-unpacked_scene()
-meshes()
+def robots():
+    tests = ROOT.parent / "crates" / "robot-description" / "tests"
+    for path in sorted(tests.glob("*.rs")):
+        found = re.findall(r'r#"(.*?)"#|"(\s*<(?:[^"\\]|\\.)*)"', path.read_text(), re.S)
+        for number, text in enumerate(raw or plain.replace('\\"', '"').replace("\\n", "\n") for raw, plain in found):
+            roots = {"<mujoco": "mjcf", "<sdf": "sdf", "<robot": "urdf"}
+            target = next((roots[root] for root in roots if root in text), path.stem)
+            if target in roots.values():
+                write(f"{target}/{path.stem}_{number}", text.encode())
+
+
+MESSAGES = [bytes(64), struct.pack("<I", 3) + b"abc" + bytes(40), struct.pack("<4I8d", 1, 2, 3, 1, *range(8)), b"\1\0\0\0" * 40]
+
+
+def ros_input(text, message):
+    """As the crate `arbitrary` takes a text and bytes: the length of the text is at the end, in two bytes where one is too few."""
+    body = text.encode() + message
+    return body + struct.pack("B" if len(body) < 256 else ">H", len(text.encode()))
+
+
+def ros():
+    for generation in (0, 1):
+        folder = ROOT.parent / "crates" / "ros-interfaces" / "descriptions" / f"ros{generation + 1}"
+        for path in sorted(folder.glob("*.txt")):
+            for name, lines in re.findall(r"^msg (\w+)\n((?: .*\n?)*)", path.read_text(), re.M):
+                members = [member.strip() for member in re.split("[;\n]", lines) if member.strip()]
+                # Types of the same package are of another one for the fuzzed type.
+                text = "\n".join(re.sub(r"^(?!Header)(?=[A-Z]\w*(\[.*?\])? )", f"{path.stem}/", member) for member in members)
+                message = MESSAGES[len(text) % len(MESSAGES)]
+                write(f"ros_message/{generation}_{path.stem}_{name}", bytes([generation]) + ros_input(text, message))
+                if generation:
+                    write(f"ros2_message/{path.stem}_{name}", ros_input(text, message))
+
+
+def parameters(*entries):
+    """A list of parameters, each an identifier and its value."""
+    return b"\0\3\0\0" + b"".join(struct.pack("<HH", key, len(value)) + value for key, value in entries) + b"\1\0\0\0"
+
+
+def cdr_text(text):
+    value = struct.pack("<I", len(text) + 1) + text + b"\0"
+    return value + bytes(-len(value) % 4)
+
+
+def submessage(kind, flags, *parts):
+    body = b"".join(parts)
+    return struct.pack("<BBH", kind, flags | 1, len(body)) + body
+
+
+def data(reader, writer, sequence, payload):
+    return submessage(0x15, 4, struct.pack("<HH4s4siI", 0, 16, reader, writer, 0, sequence), payload)
+
+
+def rtps():
+    own, place = bytes([2] * 12), struct.pack("<II12x4B", 1, 7412, 127, 0, 0, 1)
+    participant = parameters(
+        (0x50, own + b"\0\0\1\xc1"), (0x16, b"\1\x10\0\0"), (0x58, struct.pack("<I", 0xC3F)), (0x32, place), (0x31, place), (2, bytes([20] + [0] * 7))
+    )
+    submessages = [data(b"\0\1\0\xc7", b"\0\1\0\xc2", 1, participant)]
+    for topic, entity in ((3, b"\0\0\1\3"), (4, b"\0\0\2\4")):
+        reader, writer = bytes([0, 0, topic, 0xC7]), bytes([0, 0, topic, 0xC2])
+        endpoint = parameters((0x5A, own + entity), (5, cdr_text(b"rt/a")), (7, cdr_text(b"T")), (0x1A, struct.pack("<IQ", 2, 0)))
+        submessages += [submessage(7, 0, reader, writer, struct.pack("<iIiII", 0, 1, 0, 1, 1)), data(reader, writer, 1, endpoint)]
+    reader, writer = b"\0\0\2\4", b"\0\0\1\3"
+    numbers = struct.pack("<iIII", 0, 1, 2, 3 << 30)
+    fragment = struct.pack("<HH4s4siIIHHI", 0, 28, reader, writer, 0, 2, 1, 1, 8, 16)
+    submessages += [
+        data(reader, writer, 1, b"\0\1\0\0abcd"),
+        submessage(0x16, 0, fragment, b"\0\1\0\0abcd"),
+        submessage(7, 0, reader, writer, struct.pack("<iIiII", 0, 1, 0, 3, 2)),
+        submessage(6, 0, reader, writer, numbers, struct.pack("<I", 1)),
+        submessage(8, 0, reader, writer, struct.pack("<iI", 0, 2), numbers),
+        submessage(0x12, 0, reader, writer, struct.pack("<iIIIII", 0, 2, 1, 2, 3 << 30, 1)),
+    ]
+    write("rtps/conversation", b"".join(struct.pack("<H", len(one)) + one for one in submessages))
+    for number in range(1, len(submessages) + 1):
+        whole = b"".join(submessages[:number])
+        write(f"rtps/datagram_{number}", struct.pack("<H", len(whole)) + whole)
+
+
+def python_message():
+    messages = [("c", "sim.x", [1, "a", {}]), ("r", [1, None]), ("e", "x"), ("n",), ("p", "x"), ("w", 2, "x")]
+    values = [True, -5, 1.5, "\u20ac", b"xy", [1, [2, (3,)]], {"a": 1, 2: "b", 1.5: {}}, 2**70, -(2**63), 2**2000]
+    for number, value in enumerate(messages + values):
+        write(f"python_message/{number}", marshal.dumps(value, 2))
+
+
+def view_request():
+    text = (ROOT.parent / "src" / "view" / "request.rs").read_text()
+    for number, request in enumerate(re.findall(r"\{\\?\"[^`\n]*?\}", text)):
+        write(f"view_request/{number}", request.replace('\\"', '"').encode())
+
+
+TARGETS = [scene_file, unpacked_scene, meshes, robots, ros, rtps, python_message, view_request]
+for make in TARGETS:
+    if not sys.argv[1:] or make.__name__ in sys.argv[1:]:
+        make()

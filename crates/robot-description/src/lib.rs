@@ -47,7 +47,7 @@ pub mod limits {
     /// Attributes of an element: each is compared with all others.
     pub const ATTRIBUTES: usize = 200;
     /// Declarations of namespaces in a file: each is compared with those of all elements around it.
-    pub const NAMESPACES: usize = 200;
+    pub const NAMESPACES: usize = 1000;
     /// Warnings that are told apart; of others only the number is known.
     pub const WARNINGS: usize = 500;
     /// Joints that mimic one that mimics another one.
