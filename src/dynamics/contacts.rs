@@ -1,7 +1,7 @@
 //! Contacts: collision filters, callbacks of scripts, and the contact impulses that the links need.
 
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
@@ -45,36 +45,42 @@ pub(super) fn pair_of(colliders: [ColliderHandle; 2]) -> ColliderPair {
 /// What scripts have decided about pairs of shapes for a sub-step.
 #[derive(Default)]
 pub(crate) struct Verdicts {
-    all: Vec<((Handle, Handle), ContactResponse)>,
+    /// The pairs they were asked about, which all differ.
+    asked: Vec<(Handle, Handle)>,
     /// Whether the pairs rise: few sub-steps look one up.
     is_sorted: bool,
-    /// Whether there are pairs for which scripts change anything.
-    is_special: bool,
+    /// The pairs for which scripts change something.
+    special: BTreeMap<(Handle, Handle), ContactResponse>,
 }
 
 impl Verdicts {
-    /// Asks `callback` about pairs of shapes, which all differ.
-    pub(crate) fn ask(pairs: Vec<(Handle, Handle)>, callback: ContactCallback<'_>) -> Self {
-        let ask = |pair: (Handle, Handle)| (pair, callback(pair.0, pair.1));
-        let all: Vec<_> = pairs.into_iter().map(ask).collect();
-        let is_special = all.iter().any(|(_, response)| *response != ContactResponse::Default);
-        let mut verdicts = Self { all, is_sorted: false, is_special };
-        if is_special {
-            verdicts.sort();
-        }
-        verdicts
+    /// What scripts have answered about pairs of shapes, which all differ.
+    pub(crate) fn new(asked: Vec<(Handle, Handle)>, responses: Vec<ContactResponse>) -> Self {
+        let all = asked.iter().copied().zip(responses);
+        let special = all.filter(|(_, response)| *response != ContactResponse::Default).collect();
+        Self { asked, is_sorted: false, special }
     }
 
-    fn sort(&mut self) {
+    /// The verdict about a pair; None when scripts were not asked.
+    fn find(&mut self, pair: (Handle, Handle)) -> Option<ContactResponse> {
         if !self.is_sorted {
-            self.all.sort_unstable_by_key(|&(pair, _)| pair);
+            self.asked.sort_unstable_by_key(rank);
             self.is_sorted = true;
         }
+        self.asked.binary_search_by_key(&rank(&pair), rank).is_ok().then(|| self.special_or_default(pair))
     }
 
-    /// The verdict about a pair, or the place for it.
-    fn find(&self, pair: (Handle, Handle)) -> Result<ContactResponse, usize> {
-        self.all.binary_search_by_key(&pair, |&(pair, _)| pair).map(|place| self.all[place].1)
+    /// Adds the verdict about a pair that was looked for.
+    fn insert(&mut self, pair: (Handle, Handle), response: ContactResponse) {
+        let place = self.asked.partition_point(|known| rank(known) < rank(&pair));
+        self.asked.insert(place, pair);
+        if response != ContactResponse::Default {
+            self.special.insert(pair, response);
+        }
+    }
+
+    fn special_or_default(&self, pair: (Handle, Handle)) -> ContactResponse {
+        self.special.get(&pair).copied().unwrap_or(ContactResponse::Default)
     }
 
     /// How a pair responds: masks first, then scripts.
@@ -82,11 +88,13 @@ impl Verdicts {
         if !masks_overlap(a, b) {
             return ContactResponse::NoCollision;
         }
-        if !self.is_special {
-            return ContactResponse::Default;
-        }
-        self.find((a.shape, b.shape)).unwrap_or(ContactResponse::Default)
+        self.special_or_default((a.shape, b.shape))
     }
+}
+
+/// The place of a pair in the order of handles, as one number: hundreds are sorted.
+fn rank(&(first, second): &(Handle, Handle)) -> u64 {
+    u64::from(first.0) << 32 | u64::from(second.0)
 }
 
 /// The rules of one sub-step.
@@ -108,11 +116,10 @@ impl<'a> Rules<'a> {
             return self.verdicts.borrow().response(a, b);
         };
         let pair = (a.shape, b.shape);
-        self.verdicts.borrow_mut().sort();
-        let known = self.verdicts.borrow().find(pair);
-        known.unwrap_or_else(|place| {
+        let known = self.verdicts.borrow_mut().find(pair);
+        known.unwrap_or_else(|| {
             let response = callback(a.shape, b.shape);
-            self.verdicts.borrow_mut().all.insert(place, (pair, response));
+            self.verdicts.borrow_mut().insert(pair, response);
             response
         })
     }
@@ -209,7 +216,7 @@ fn asked_about(world: &World, verdicts: &Verdicts, apart: &[ColliderPair]) -> Ve
         }
     };
     apart.iter().copied().for_each(&mut ask);
-    if !world.known.is_special && !verdicts.is_special {
+    if !world.known.is_special && verdicts.special.is_empty() {
         return asked;
     }
     for pair in world.narrow_phase.contact_pairs() {

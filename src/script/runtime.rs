@@ -10,7 +10,7 @@ use super::coverage::LineCounts;
 use super::error::ApiError;
 use super::lifecycle::env::{Env, Hook};
 use super::sim::Sim;
-use crate::scene::Data;
+use crate::scene::{Data, Key};
 
 /// A language scripts can be written in.
 pub(crate) trait Language {
@@ -46,6 +46,14 @@ pub(crate) trait Interpreter {
     /// # Errors
     /// The script's.
     fn call_callback(&self, call: SysCall, args: &[Data]) -> Result<CallbackResult, ScriptError>;
+
+    /// Calls a callback with a table of integers, if the script defines it.
+    ///
+    /// # Errors
+    /// The script's.
+    fn call_with_integers(&self, call: SysCall, table: Integers<'_>) -> Result<CallbackResult, ScriptError> {
+        self.call_callback(call, &[table.to_data()])
+    }
 
     /// Calls a hook of the script; false when there is no such function.
     ///
@@ -140,6 +148,21 @@ pub(crate) enum Callee<'a> {
     Function(FunctionRef),
 }
 
+/// The argument of a callback that is called very often: a table of integers.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Integers<'a> {
+    pub names: &'static [&'static str],
+    /// As many as names.
+    pub values: &'a [i64],
+}
+
+impl Integers<'_> {
+    pub(crate) fn to_data(self) -> Data {
+        let fields = self.names.iter().zip(self.values);
+        Data::Map(fields.map(|(name, &value)| (Key::Text(name.as_bytes().to_vec()), Data::Int(value))).collect())
+    }
+}
+
 /// The outcome of a callback.
 #[derive(Debug, PartialEq)]
 pub(crate) enum CallbackResult {
@@ -178,9 +201,12 @@ impl ScriptError {
 
     /// Several errors of one callback as one; None when there are none.
     pub(crate) fn joined(errors: &[Self]) -> Option<Self> {
+        if errors.is_empty() {
+            return None;
+        }
         let texts: Vec<&str> = errors.iter().map(|error| error.text.as_str()).collect();
         let is_silent = errors.iter().any(|error| error.is_silent);
-        (!errors.is_empty()).then(|| Self { text: texts.join("\n\n"), is_silent })
+        Some(Self { text: texts.join("\n\n"), is_silent })
     }
 }
 

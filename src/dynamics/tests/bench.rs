@@ -67,8 +67,7 @@ impl Bench {
             let Some(call) = self.dynamics.begin(&mut self.scene, STEP).expect("not busy") else { continue };
             for number in 1..=call.sub_steps {
                 self.dynamics.prepare(&self.scene, number);
-                let verdicts =
-                    callback.map_or_else(Verdicts::default, |asked| Verdicts::ask(self.dynamics.pairs_near(), asked));
+                let verdicts = callback.map_or_else(Verdicts::default, |asked| ask(self.dynamics.pairs_near(), asked));
                 let attention = Attention { watched: callback.is_some() };
                 let started = self.dynamics.start_sub_step(&self.scene, number, attention, verdicts);
                 let mut sub_step = started.expect("there is a world");
@@ -126,4 +125,10 @@ pub(super) fn along_y(at: [f64; 3]) -> Pose {
 
 pub(super) fn near(value: f64, expected: f64, tolerance: f64) {
     assert!((value - expected).abs() <= tolerance, "{value} is not {expected}");
+}
+
+/// Asks about pairs of shapes, in their order.
+pub(super) fn ask(pairs: Vec<(Handle, Handle)>, callback: ContactCallback<'_>) -> Verdicts {
+    let responses = pairs.iter().map(|&(first, second)| callback(first, second)).collect();
+    Verdicts::new(pairs, responses)
 }

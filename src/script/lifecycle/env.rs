@@ -31,6 +31,8 @@ pub(crate) struct Env {
     /// Callbacks that have or had hooks: most have none, which is all that a call needs to know.
     pub hooked: Cell<u64>,
     pub hooks: RefCell<Hooks>,
+    /// How often code of the state has looked into local variables of functions.
+    pub looks_at_locals: Cell<u64>,
     /// Calls of this state in progress.
     pub depth: Cell<usize>,
     pub yields: Yields,
@@ -78,6 +80,7 @@ impl Env {
             defined: Cell::new(0),
             hooked: Cell::new(0),
             hooks: RefCell::default(),
+            looks_at_locals: Cell::new(0),
             depth: Cell::new(0),
             yields: Yields { delay_ms: Cell::new(2), ..Yields::default() },
             random: RefCell::new(Random::new(sim.options.seed)),
@@ -158,6 +161,11 @@ impl Env {
     /// Whether the callback has a function or a hook to run.
     pub(crate) fn responds_to(&self, call: SysCall) -> bool {
         self.defined.get() & call.bit() != 0 || self.has_hooks(call)
+    }
+
+    /// The callbacks that have or had a function or hooks, as bits.
+    pub(crate) fn may_respond(&self) -> u64 {
+        self.defined.get() | self.hooked.get()
     }
 
     pub(crate) fn has_hooks(&self, call: SysCall) -> bool {

@@ -130,6 +130,17 @@ impl Script {
         self.state.get() == state::INITIALIZED
     }
 
+    /// Whether none of these callbacks does anything in it. They do not start scripts.
+    pub(crate) fn ignores(&self, callbacks: u64) -> bool {
+        match self.state.get() {
+            state::UNINITIALIZED => false,
+            state::INITIALIZED => {
+                self.runtime.borrow().as_ref().is_none_or(|runtime| runtime.env.may_respond() & callbacks == 0)
+            }
+            _ => true,
+        }
+    }
+
     pub(crate) fn current_runtime(&self) -> Option<Rc<Runtime>> {
         self.runtime.borrow().clone()
     }

@@ -26,12 +26,18 @@ impl<'a> Level<'a> {
         let depth = env.depth.get();
         env.depth.set(depth + 1);
         if depth == 0 {
-            env.yields.overall.set(0);
-            env.yields.used.set(0);
+            env.yields.begin_slice();
         } else {
             env.yields.overall.set(env.yields.overall.get() + 1);
         }
         Self { scripts, env, too_deep }
+    }
+}
+
+impl Level<'_> {
+    /// Another call of the host into the same state begins.
+    pub(crate) fn begin_slice(&self) {
+        self.env.yields.begin_slice();
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub(in crate::script) mod attached;
 pub(in crate::script) mod budget;
+pub(in crate::script) mod contacts;
 pub(in crate::script) mod env;
 pub(in crate::script) mod instance;
 pub(in crate::script) mod level;

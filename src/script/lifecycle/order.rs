@@ -72,9 +72,15 @@ impl Sim {
         self.scripts.order.borrow().everyone_reversed.clone()
     }
 
+    /// Whether all scripts that are called about contacts are so.
+    pub(super) fn are_active_reversed(&self, test: impl FnMut(&Rc<Script>) -> bool) -> bool {
+        self.refresh_order();
+        self.scripts.order.borrow().everyone_reversed.iter().all(test)
+    }
+
     fn refresh_order(&self) {
         let mut order = self.scripts.order.borrow_mut();
-        if !self.scene.borrow().journal().changed_since(order.known.get_or_insert(Mark::new(ORDER))) {
+        if !self.scene.borrow().journal().changed_since(order.known.get_or_insert_with(|| Mark::new(ORDER))) {
             return;
         }
         drop(order);

@@ -17,6 +17,14 @@ pub(crate) struct Yields {
     pub hastened: Cell<bool>,
 }
 
+impl Yields {
+    /// A call from outside begins: it has a time slice of its own, and no locks.
+    pub(super) fn begin_slice(&self) {
+        self.overall.set(0);
+        self.used.set(0);
+    }
+}
+
 /// The level after `change`: false raises it, true lowers it (not below 0), a number sets it.
 pub(crate) fn changed_level(level: i64, change: LevelChange) -> i64 {
     match change {

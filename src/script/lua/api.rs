@@ -240,6 +240,28 @@ impl<'a> Stack<'a> {
         (items.len() == len).then_some(items)
     }
 
+    /// Pushes `table[key]`, where the table and the key are in slots.
+    pub(crate) fn push_entry(self, table: c_int, key: c_int) -> Type {
+        let (table, key) = (self.table(table), self.slot(key));
+        assert!(lua_type(self, key) != ffi::LUA_TNONE, "only what is there can be copied");
+        lua_pushvalue(self.room(), key);
+        Type::from_raw(lua_rawget(Top(self), table))
+    }
+
+    /// Pushes the table in a slot, with new values of fields, whose names are in slots too.
+    pub(crate) fn push_with_fields(self, table: c_int, fields: impl Iterator<Item = (c_int, i64)>) {
+        let table = self.table(table);
+        lua_pushvalue(self.room_for(3), Slot(table.0));
+        for (name, value) in fields {
+            let name = self.slot(name);
+            assert_eq!(lua_type(self, name), ffi::LUA_TSTRING, "fields have names");
+            // There is room: key and value are popped before the next ones are pushed.
+            lua_pushvalue(Room(self), name);
+            lua_pushinteger(Room(self), value);
+            lua_rawset(Pair(self), Table(table.0));
+        }
+    }
+
     /// The number in a slot; a string is none.
     fn number_in(self, slot: Slot) -> Option<Scalar> {
         if lua_type(self, slot) != ffi::LUA_TNUMBER {

@@ -8,6 +8,7 @@ mod implicit;
 mod library_globals;
 mod old_calls;
 pub(in crate::script) mod reference_modules;
+mod reused;
 mod shared_process;
 mod stand_ins;
 mod startup;
@@ -23,7 +24,7 @@ use super::coverage::LineCounts;
 use super::lifecycle::env::{Env, Hook};
 use super::lua::{LuaError, MULTIPLE, Stack, State, Type};
 use super::runtime::{
-    CallError, CallbackResult, Callee, FunctionRef, Interpreter, Language, Runtime, ScriptError, SourceText,
+    CallError, CallbackResult, Callee, FunctionRef, Integers, Interpreter, Language, Runtime, ScriptError, SourceText,
 };
 use super::sim::Sim;
 use crate::scene::Data;
@@ -130,15 +131,31 @@ impl Interpreter for LuaInterpreter {
         // This is the hot path: what lies below the function stays there until the end, and from call to call where it can.
         let stack = self.stack();
         if let Some(kind) = self.bottom.push_function(stack, call) {
-            let result = run_callback(stack, bottom::HANDLER, kind, args);
+            let result = run_callback(stack, bottom::HANDLER, kind, || push_args(stack, args));
             stack.set_top(self.bottom.count().min(stack.top()));
             return result;
         }
         self.on_stack(|stack| {
             let handler = stack.push_message_handler();
             let kind = stack.push_global(call.name());
-            run_callback(stack, handler, kind, args)
+            run_callback(stack, handler, kind, || push_args(stack, args))
         })
+    }
+
+    fn call_with_integers(&self, call: SysCall, table: Integers<'_>) -> Result<CallbackResult, ScriptError> {
+        let stack = self.stack();
+        let Some(kind) = self.bottom.push_function(stack, call) else {
+            return self.call_callback(call, &[table.to_data()]);
+        };
+        let push = || {
+            self.bottom.push_integers(stack, table);
+            Ok(1)
+        };
+        let result = run_callback(stack, bottom::HANDLER, kind, push);
+        if stack.top() > self.bottom.count() {
+            stack.set_top(self.bottom.count());
+        }
+        result
     }
 
     fn call_hook(&self, hook: &Hook, args: &[Data]) -> Result<bool, ScriptError> {
@@ -214,13 +231,19 @@ impl From<LuaError> for ScriptError {
     }
 }
 
-/// Calls what is on top, which is of that kind, if it is a function.
-fn run_callback(stack: Stack<'_>, handler: i32, kind: Type, args: &[Data]) -> Result<CallbackResult, ScriptError> {
+/// Calls what is on top, which is of that kind, if it is a function, with the arguments that `push` pushes.
+fn run_callback(
+    stack: Stack<'_>,
+    handler: i32,
+    kind: Type,
+    push: impl FnOnce() -> Result<i32, LuaError>,
+) -> Result<CallbackResult, ScriptError> {
     if kind != Type::Function {
         return Ok(CallbackResult::NotDefined);
     }
-    let base = stack.top() - 1;
-    stack.call_above(handler, push_args(stack, args)?, MULTIPLE)?;
+    let count = push()?;
+    let base = stack.top() - count - 1;
+    stack.call_above(handler, count, MULTIPLE)?;
     let value = (stack.top() > base).then(|| data::read_data(stack, -1)).transpose()?;
     Ok(CallbackResult::Returned(value))
 }

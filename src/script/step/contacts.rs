@@ -1,52 +1,57 @@
 //! The callbacks that decide about contacts. They are called for every pair of shapes that may touch, hundreds of times per sub-step.
 
-use std::cell::Cell;
 use std::rc::Rc;
 
 use crate::dynamics::ContactResponse;
 use crate::scene::parameters::engine::Engine;
 use crate::scene::{Data, Handle};
-use crate::script::calls::callback::SysCall;
+use crate::script::lifecycle::contacts::{CONTACT, SoleJudge};
+use crate::script::runtime::Integers;
 use crate::script::sim::Sim;
 
-/// The callbacks that filter contacts: the old name first.
-pub(super) const CONTACT: [SysCall; 2] = [SysCall::ContactCallback, SysCall::Contact];
-
-/// The table that scripts get, of the pair before. Making a new one would take as long as the call.
-#[derive(Default)]
-pub(super) struct Question(Cell<Vec<Data>>);
-
-impl Question {
-    /// The arguments of the callbacks.
-    fn about(&self, first: Handle, second: Handle, engine: Engine) -> Vec<Data> {
-        let mut arguments = self.0.take();
-        if arguments.is_empty() {
-            arguments = vec![Data::map(["handle1", "handle2", "engine"].map(|key| (key, Data::Nil)))];
-        }
-        if let [Data::Map(entries)] = &mut arguments[..] {
-            for ((_, known), value) in entries.iter_mut().zip([first.raw(), second.raw(), engine.number()]) {
-                *known = Data::Int(value);
-            }
-        }
-        arguments
-    }
-}
+/// The fields of the table that scripts get.
+const FIELDS: [&str; 3] = ["handle1", "handle2", "engine"];
 
 impl Sim {
+    /// The answers about pairs of shapes, one after the other.
+    pub(super) fn ask_about_contacts(self: &Rc<Self>, pairs: &[(Handle, Handle)]) -> Vec<ContactResponse> {
+        let mut responses = Vec::with_capacity(pairs.len());
+        while let Some(&(first, second)) = pairs.get(responses.len()) {
+            match self.sole_judge() {
+                Some(judge) => self.ask_judge(&judge, pairs, &mut responses),
+                None => responses.push(self.ask_about_contact(first, second)),
+            }
+        }
+        responses
+    }
+
+    /// Asks the only script with an opinion about the next pairs, until it has one.
+    fn ask_judge(self: &Rc<Self>, judge: &SoleJudge, pairs: &[(Handle, Handle)], responses: &mut Vec<ContactResponse>) {
+        let (known, mut engine) = (responses.len(), Engine::default());
+        let (count, answer) = self.ask_in_turn(judge, &FIELDS, |number| {
+            let &(first, second) = pairs.get(known + number)?;
+            engine = self.engine();
+            Some([first.raw(), second.raw(), engine.number()])
+        });
+        responses.resize(known + count, ContactResponse::Default);
+        if let (Some(answer), Some(last)) = (answer, responses.last_mut()) {
+            *last = response(&answer, engine);
+        }
+    }
+
     /// The answer of the first script that has one.
-    pub(super) fn ask_about_contact(
-        self: &Rc<Self>,
-        question: &Question,
-        first: Handle,
-        second: Handle,
-    ) -> ContactResponse {
-        let engine = self.scene.borrow().settings().dynamics.engine.engine;
-        let arguments = question.about(first, second, engine);
+    pub(super) fn ask_about_contact(self: &Rc<Self>, first: Handle, second: Handle) -> ContactResponse {
+        let engine = self.engine();
+        let table = Integers { names: &FIELDS, values: &[first.raw(), second.raw(), engine.number()] };
+        let arguments = [table.to_data()];
         let mut callbacks = CONTACT.into_iter().filter(|&callback| self.scripts.may_respond(callback));
         let answer =
             callbacks.find_map(|callback| self.first_answer(&self.active_scripts_reversed(), callback, &arguments));
-        question.0.set(arguments);
         answer.map_or(ContactResponse::Default, |answer| response(&answer, engine))
+    }
+
+    fn engine(&self) -> Engine {
+        self.scene.borrow().settings().dynamics.engine.engine
     }
 }
 

@@ -3,12 +3,12 @@
 
 use std::rc::Rc;
 
-use super::contacts::{CONTACT, Question};
 use crate::dynamics::{Attention, Call, Dynamics, JointRequest, Trigger, Verdicts};
 use crate::scene::joint::Joint;
 use crate::scene::{Data, Handle, Scene};
 use crate::script::calls::callback::SysCall;
 use crate::script::error::{ApiError, ApiResult};
+use crate::script::lifecycle::contacts::CONTACT;
 use crate::script::log::verbosity;
 use crate::script::sim::Sim;
 
@@ -91,11 +91,11 @@ impl Sim {
     fn run_sub_step(self: &Rc<Self>, number: u32, driven: bool) {
         let contact_callbacks = self.scripts.may_respond_to_any(&CONTACT);
         let attention = Attention { watched: driven || contact_callbacks || self.scripts.may_respond_to_any(&DYN) };
-        let question = Question::default();
-        let filter = |first: Handle, second: Handle| self.ask_about_contact(&question, first, second);
+        let filter = |first: Handle, second: Handle| self.ask_about_contact(first, second);
         let pairs = |dynamics: &mut Dynamics, _: &mut Scene| dynamics.pairs_near();
         let near = if contact_callbacks { self.with_dynamics(pairs).unwrap_or_default() } else { Vec::new() };
-        let verdicts = Verdicts::ask(near, &filter);
+        let responses = self.ask_about_contacts(&near);
+        let verdicts = Verdicts::new(near, responses);
         let started = self.with_dynamics(|dynamics, scene| dynamics.start_sub_step(scene, number, attention, verdicts));
         let Some(mut sub_step) = started.flatten() else { return };
         sub_step.run(contact_callbacks.then_some(&filter));

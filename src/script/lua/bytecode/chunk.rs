@@ -33,7 +33,7 @@ pub(crate) struct Prototype<'a> {
     /// Its first line; 0 for the main function.
     pub line: usize,
     pub(super) last_line: usize,
-    parameters: u8,
+    pub(super) parameters: u8,
     pub is_vararg: bool,
     pub registers: u8,
     pub code: Vec<u32>,
@@ -101,6 +101,11 @@ impl Prototype<'_> {
         write_text(&mut bytes, name.as_bytes());
         self.upvalue_names.push(Cow::Owned(bytes));
         Some(number)
+    }
+
+    /// Whether it uses the variable in a register of the enclosing function.
+    pub(super) fn captures(&self, register: u8) -> bool {
+        self.upvalues.iter().any(|&[is_local, index, _]| is_local != 0 && index == register)
     }
 
     /// Whether it, or a function inside it, has a local variable of that name.

@@ -3,6 +3,7 @@
 //! Lua does not check bytecode: wrong bytes corrupt memory. So [`Bytecode`] can only be made by Lua's compiler and by the rewriting in
 //! this module, and only a `Bytecode` can be loaded without a check.
 
+mod argument;
 mod chunk;
 mod probes;
 mod stubs;
@@ -98,6 +99,13 @@ impl Stack<'_> {
         self.pop(1);
         // The dump of a native function is empty.
         function.ok().map(|function| function.dump(false)).filter(|bytes| !bytes.is_empty()).map(Bytecode)
+    }
+
+    /// Whether the function on top cannot have kept its argument when it has returned.
+    pub(crate) fn forgets_its_argument(self) -> bool {
+        self.push_value(-1);
+        let code = self.dump();
+        code.is_some_and(|code| code.main_function().is_some_and(|function| function.forgets_its_argument()))
     }
 
     /// The name of the text of the function on top; None when that is no Lua function.

@@ -69,6 +69,8 @@ fn set_metatable(stack: Stack<'_>) -> Next {
 }
 
 fn get_local(stack: Stack<'_>) -> Next {
+    let looks = &stack.owner().looks_at_locals;
+    looks.set(looks.get() + 1);
     nil_if(stack, Local::from_arguments(stack).is_some_and(|local| local.is_native))
 }
 

@@ -1,0 +1,90 @@
+//! Calls of one script about many contacts: what is the same for all of them is done once.
+
+use std::rc::Rc;
+
+use super::instance::Script;
+use super::level::Level;
+use super::script_set::MAX_DEPTH;
+use crate::scene::Data;
+use crate::script::calls::callback::SysCall;
+use crate::script::runtime::{CallbackResult, Integers, Runtime, ScriptError};
+use crate::script::sim::Sim;
+
+/// The callbacks that filter contacts: the old name first.
+pub(in crate::script) const CONTACT: [SysCall; 2] = [SysCall::ContactCallback, SysCall::Contact];
+const CONTACT_BITS: u64 = SysCall::ContactCallback.bit() | SysCall::Contact.bit();
+
+/// The only script that is to be asked about contacts.
+pub(in crate::script) struct SoleJudge {
+    script: Rc<Script>,
+    runtime: Rc<Runtime>,
+    call: SysCall,
+}
+
+impl Sim {
+    /// The only script that has functions for contacts, if it has one, no hooks, and no call of it is in progress.
+    pub(in crate::script) fn sole_judge(&self) -> Option<SoleJudge> {
+        let scripts = self.active_scripts_reversed();
+        let script = scripts.iter().find(|script| !script.ignores(CONTACT_BITS))?;
+        let runtime = script.current_runtime()?;
+        let call = CONTACT.into_iter().find(|call| runtime.env.may_respond() & CONTACT_BITS == call.bit())?;
+        let judge = SoleJudge { script: Rc::clone(script), runtime, call };
+        let may_call = judge.runtime.env.depth.get() == 0 && self.scripts.depth() < MAX_DEPTH;
+        (may_call && self.is_sole(&judge)).then_some(judge)
+    }
+
+    /// Whether nothing has changed that matters for the calls of scripts about contacts.
+    fn is_sole(&self, judge: &SoleJudge) -> bool {
+        let SoleJudge { script, runtime, call } = judge;
+        let is_same = |other: &Rc<Script>| Rc::ptr_eq(other, script);
+        let env = &runtime.env;
+        script.is_running()
+            && script.runtime.borrow().as_ref().is_some_and(|current| Rc::ptr_eq(current, runtime))
+            && env.defined.get() & CONTACT_BITS == call.bit()
+            && env.hooked.get() & CONTACT_BITS == 0
+            && !script.removed.get()
+            && !self.is_disabled(script)
+            && self.are_active_reversed(|other| is_same(other) || other.ignores(CONTACT_BITS))
+    }
+
+    /// Calls the function of the script for one table after the other, as long as it returns nothing. Returns how often it was called, and
+    /// what the last call returned. `next` makes the tables from their number.
+    pub(in crate::script) fn ask_in_turn(
+        self: &Rc<Self>,
+        judge: &SoleJudge,
+        names: &'static [&'static str; 3],
+        mut next: impl FnMut(usize) -> Option<[i64; 3]>,
+    ) -> (usize, Option<Data>) {
+        let SoleJudge { runtime, call, .. } = judge;
+        let mut count = 0;
+        let level = Level::enter(&self.scripts, &runtime.env);
+        let result = loop {
+            let Some(values) = next(count) else { break Ok(None) };
+            count += 1;
+            level.begin_slice();
+            match runtime.interpreter.call_with_integers(*call, Integers { names, values: &values }) {
+                Ok(CallbackResult::Returned(Some(value))) => break Ok(Some(value)),
+                Err(error) => break Err(error),
+                Ok(_) if self.is_sole(judge) => {}
+                Ok(_) => break Ok(None),
+            }
+        };
+        drop(level);
+        (count, self.complete_answer(judge, result))
+    }
+
+    fn complete_answer(
+        self: &Rc<Self>,
+        SoleJudge { script, runtime, call }: &SoleJudge,
+        result: Result<Option<Data>, ScriptError>,
+    ) -> Option<Data> {
+        let value = result.unwrap_or_else(|error| {
+            self.fail(script, &error);
+            None
+        });
+        if runtime.env.depth.get() == 0 {
+            self.complete_call(script, *call, value.as_ref());
+        }
+        value
+    }
+}
