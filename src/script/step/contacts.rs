@@ -6,7 +6,6 @@ use crate::dynamics::ContactResponse;
 use crate::scene::parameters::engine::Engine;
 use crate::scene::{Data, Handle};
 use crate::script::lifecycle::contacts::{CONTACT, SoleJudge};
-use crate::script::runtime::Integers;
 use crate::script::sim::Sim;
 
 /// The fields of the table that scripts get.
@@ -42,8 +41,8 @@ impl Sim {
     /// The answer of the first script that has one.
     pub(super) fn ask_about_contact(self: &Rc<Self>, first: Handle, second: Handle) -> ContactResponse {
         let engine = self.engine();
-        let table = Integers { names: &FIELDS, values: &[first.raw(), second.raw(), engine.number()] };
-        let arguments = [table.to_data()];
+        let values = [first.raw(), second.raw(), engine.number()];
+        let arguments = [Data::map([0, 1, 2].map(|field| (FIELDS[field], values[field].into())))];
         let mut callbacks = CONTACT.into_iter().filter(|&callback| self.scripts.may_respond(callback));
         let answer =
             callbacks.find_map(|callback| self.first_answer(&self.active_scripts_reversed(), callback, &arguments));

@@ -54,7 +54,7 @@ fn only_reads_fields(instruction: u32) -> bool {
     let [a, b, c] = [7, 16, 24].map(|place| instruction >> place & 0xff == ARGUMENT);
     let c_is_register = instruction >> 15 & 1 == 0;
     !match instruction & 0x7f {
-        op::JMP | op::RETURN0 => false,
+        op::JMP | op::RETURN0 | op::EXTRAARG => false,
         op::GETI | op::GETFIELD => a,
         op::GETTABLE => a || c,
         op::SETTABUP => c && c_is_register,
@@ -65,7 +65,7 @@ fn only_reads_fields(instruction: u32) -> bool {
             a || b
         }
         // All others have one register at most, or count up from it.
-        ..=op::EXTRAARG => a,
+        ..op::EXTRAARG => a,
         _ => true,
     }
 }
