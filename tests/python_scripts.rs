@@ -179,14 +179,21 @@ def sysCall_nonSimulation():
         let mut child = command.env(name, value).stdout(Stdio::piped()).spawn().expect("it starts");
         let mut lines = BufReader::new(child.stdout.take().expect("it is piped")).lines();
         while lines.next().expect("it says so").expect("it is text") != "ready" {}
-        assert!(processes_with(&word) >= 4, "simulator, guardian, script, and what the script started");
+        // Simulator, guardian, script, and what the script started; the last one may still be starting.
+        wait_until(|| processes_with(&word) >= 4, "four processes");
         Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().expect("there is a kill");
         wait_within(&mut child, LIMIT).expect("it ends");
-        let deadline = Instant::now() + Duration::from_secs(20);
-        while processes_with(&word) > 0 {
-            assert!(Instant::now() < deadline, "after SIG{signal} {} processes are left", processes_with(&word));
-            std::thread::sleep(Duration::from_millis(20));
-        }
+        wait_until(|| processes_with(&word) == 0, &format!("no process is left after SIG{signal}"));
+    }
+}
+
+/// Waits for at most 20 seconds.
+#[cfg(target_os = "linux")]
+fn wait_until(is_so: impl Fn() -> bool, what: &str) {
+    let deadline = Instant::now() + Duration::from_secs(20);
+    while !is_so() {
+        assert!(Instant::now() < deadline, "not within 20 seconds: {what}");
+        std::thread::sleep(Duration::from_millis(20));
     }
 }
 
