@@ -21,7 +21,7 @@ const LARGEST_RATIO: f64 = 3.0;
 /// The geometric stiffness of a body under tension.
 #[derive(Default)]
 pub(crate) struct GeometricStiffness {
-    /// The levers of the forces times the forces, times the square of the step: `a` about an axis, the stiffness is the trace less `a M a`.
+    /// The sum `M` of levers times forces, `l f^T`, times the square of the step: about a unit vector `a` the stiffness is `tr M - a^T M a`.
     tension: Matrix3<f64>,
     /// The contribution of the body's mass to its inertia, if it is attached to a fixed point.
     pendulum_inertia: Matrix3<f64>,

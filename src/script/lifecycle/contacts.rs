@@ -15,7 +15,7 @@ pub(in crate::script) const CONTACT: [SysCall; 2] = [SysCall::ContactCallback, S
 const CONTACT_BITS: u64 = SysCall::ContactCallback.bit() | SysCall::Contact.bit();
 
 /// The only script that is to be asked about contacts.
-pub(in crate::script) struct SoleJudge {
+pub(in crate::script) struct SoleResponder {
     script: Rc<Script>,
     runtime: Rc<Runtime>,
     call: SysCall,
@@ -23,19 +23,19 @@ pub(in crate::script) struct SoleJudge {
 
 impl Sim {
     /// The only script that has functions for contacts, if it has one, no hooks, and no call of it is in progress.
-    pub(in crate::script) fn sole_judge(&self) -> Option<SoleJudge> {
+    pub(in crate::script) fn sole_responder(&self) -> Option<SoleResponder> {
         let scripts = self.active_scripts_reversed();
         let script = scripts.iter().find(|script| !script.ignores(CONTACT_BITS))?;
         let runtime = script.current_runtime()?;
         let call = CONTACT.into_iter().find(|call| runtime.env.may_respond() & CONTACT_BITS == call.bit())?;
-        let judge = SoleJudge { script: Rc::clone(script), runtime, call };
-        let may_call = judge.runtime.env.depth.get() == 0 && self.scripts.depth() < MAX_DEPTH;
-        (may_call && self.is_sole(&judge)).then_some(judge)
+        let responder = SoleResponder { script: Rc::clone(script), runtime, call };
+        let may_call = responder.runtime.env.depth.get() == 0 && self.scripts.depth() < MAX_DEPTH;
+        (may_call && self.is_sole(&responder)).then_some(responder)
     }
 
     /// Whether nothing has changed that matters for the calls of scripts about contacts.
-    fn is_sole(&self, judge: &SoleJudge) -> bool {
-        let SoleJudge { script, runtime, call } = judge;
+    fn is_sole(&self, responder: &SoleResponder) -> bool {
+        let SoleResponder { script, runtime, call } = responder;
         let is_same = |other: &Rc<Script>| Rc::ptr_eq(other, script);
         let env = &runtime.env;
         script.is_running()
@@ -51,11 +51,11 @@ impl Sim {
     /// what the last call returned. `next` makes the tables from their number.
     pub(in crate::script) fn ask_in_turn(
         self: &Rc<Self>,
-        judge: &SoleJudge,
+        responder: &SoleResponder,
         names: &'static [&'static str; 3],
         mut next: impl FnMut(usize) -> Option<[i64; 3]>,
     ) -> (usize, Option<Data>) {
-        let SoleJudge { runtime, call, .. } = judge;
+        let SoleResponder { runtime, call, .. } = responder;
         let mut count = 0;
         let level = Level::enter(&self.scripts, &runtime.env);
         let result = loop {
@@ -65,17 +65,17 @@ impl Sim {
             match runtime.interpreter.call_with_integers(*call, Integers { names, values: &values }) {
                 Ok(CallbackResult::Returned(Some(value))) => break Ok(Some(value)),
                 Err(error) => break Err(error),
-                Ok(_) if self.is_sole(judge) => {}
+                Ok(_) if self.is_sole(responder) => {}
                 Ok(_) => break Ok(None),
             }
         };
         drop(level);
-        (count, self.complete_answer(judge, result))
+        (count, self.complete_answer(responder, result))
     }
 
     fn complete_answer(
         self: &Rc<Self>,
-        SoleJudge { script, runtime, call }: &SoleJudge,
+        SoleResponder { script, runtime, call }: &SoleResponder,
         result: Result<Option<Data>, ScriptError>,
     ) -> Option<Data> {
         let value = result.unwrap_or_else(|error| {

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use crate::dynamics::ContactResponse;
 use crate::scene::parameters::engine::Engine;
 use crate::scene::{Data, Handle};
-use crate::script::lifecycle::contacts::{CONTACT, SoleJudge};
+use crate::script::lifecycle::contacts::{CONTACT, SoleResponder};
 use crate::script::sim::Sim;
 
 /// The fields of the table that scripts get.
@@ -16,8 +16,8 @@ impl Sim {
     pub(super) fn ask_about_contacts(self: &Rc<Self>, pairs: &[(Handle, Handle)]) -> Vec<ContactResponse> {
         let mut responses = Vec::with_capacity(pairs.len());
         while let Some(&(first, second)) = pairs.get(responses.len()) {
-            match self.sole_judge() {
-                Some(judge) => self.ask_judge(&judge, pairs, &mut responses),
+            match self.sole_responder() {
+                Some(responder) => self.ask_sole_responder(&responder, pairs, &mut responses),
                 None => responses.push(self.ask_about_contact(first, second)),
             }
         }
@@ -25,9 +25,14 @@ impl Sim {
     }
 
     /// Asks the only script with an opinion about the next pairs, until it has one.
-    fn ask_judge(self: &Rc<Self>, judge: &SoleJudge, pairs: &[(Handle, Handle)], responses: &mut Vec<ContactResponse>) {
+    fn ask_sole_responder(
+        self: &Rc<Self>,
+        responder: &SoleResponder,
+        pairs: &[(Handle, Handle)],
+        responses: &mut Vec<ContactResponse>,
+    ) {
         let (known, mut engine) = (responses.len(), Engine::default());
-        let (count, answer) = self.ask_in_turn(judge, &FIELDS, |number| {
+        let (count, answer) = self.ask_in_turn(responder, &FIELDS, |number| {
             let &(first, second) = pairs.get(known + number)?;
             engine = self.engine();
             Some([first.raw(), second.raw(), engine.number()])

@@ -1,4 +1,4 @@
-//! Whether a function may keep its argument after it has returned.
+//! Whether a function may keep its argument after it has returned: an escape analysis of one register.
 //!
 //! It does not where it only reads fields of it, as most callbacks do: then the next call can get the same table. Everything else
 //! counts as keeping: copies in other variables, calls with it, functions that capture it, assignments to its fields.
