@@ -44,7 +44,7 @@ impl Sim {
             && env.hooked.get() & CONTACT_BITS == 0
             && !script.removed.get()
             && !self.is_disabled(script)
-            && self.are_active_reversed(|other| is_same(other) || other.ignores(CONTACT_BITS))
+            && self.all_active_reversed(|other| is_same(other) || other.ignores(CONTACT_BITS))
     }
 
     /// Calls the function of the script for one table after the other, as long as it returns nothing. Returns how often it was called, and

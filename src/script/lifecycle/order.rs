@@ -72,8 +72,8 @@ impl Sim {
         self.scripts.order.borrow().everyone_reversed.clone()
     }
 
-    /// Whether all scripts that are called about contacts are so.
-    pub(super) fn are_active_reversed(&self, test: impl FnMut(&Rc<Script>) -> bool) -> bool {
+    /// Whether the test holds for all scripts that are called about contacts.
+    pub(super) fn all_active_reversed(&self, test: impl FnMut(&Rc<Script>) -> bool) -> bool {
         self.refresh_order();
         self.scripts.order.borrow().everyone_reversed.iter().all(test)
     }
