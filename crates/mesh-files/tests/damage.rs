@@ -100,3 +100,12 @@ fn gltf_with_members_of_other_types() {
         assert_eq!(refused.expect_err("no object").to_string(), "accessor 0: sparse without values", "{values}");
     }
 }
+
+#[test]
+fn collada_with_very_many_attributes_is_refused_at_once() {
+    let many: String = (0..100_000).map(|number| format!(" a{number}=''")).collect();
+    let limits = Limits { vertices: 1000, triangles: 1000, parts: 100 };
+    let file = format!("<COLLADA>\n<asset{many}/></COLLADA>");
+    let refused = read(file.as_bytes(), Format::Collada, limits, &mut |_| Err("nothing".into()));
+    assert_eq!(refused.expect_err("too many").to_string(), "line 2: XML: an element has more than 200 attributes");
+}

@@ -44,10 +44,10 @@ pub mod limits {
     pub const BYTES: usize = 64 << 20;
     /// Elements, attributes and texts of a file.
     pub const NODES: u32 = 1_000_000;
-    /// Attributes of an element: each is compared with all others.
-    pub const ATTRIBUTES: usize = 200;
-    /// Declarations of namespaces in a file: each is compared with those of all elements around it.
-    pub const NAMESPACES: usize = 1000;
+    /// Attributes of an element.
+    pub const ATTRIBUTES: usize = bounded_xml::MAX_ATTRIBUTES;
+    /// Declarations of namespaces in a file.
+    pub const NAMESPACES: usize = bounded_xml::MAX_NAMESPACES;
     /// Warnings that are told apart; of others only the number is known.
     pub const WARNINGS: usize = 500;
     /// Joints that mimic one that mimics another one.

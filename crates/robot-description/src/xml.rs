@@ -1,6 +1,6 @@
 //! Elements with lines, numbers that are written in odd ways, and the warnings about them.
 
-use roxmltree::{Document, Node, ParsingOptions};
+use bounded_xml::{Document, DocumentType, Error, Node};
 
 use crate::limits;
 use crate::report::{Parsed, ReadError, Warning, WarningKind};
@@ -26,72 +26,13 @@ pub fn lines_before(bytes: &[u8]) -> u32 {
 
 /// The tree of elements. A document type is accepted, entities of its own are not.
 pub fn document(text: &str, lines_before: u32) -> Result<Document<'_>, ReadError> {
-    if let Some(at) = crowded(text) {
-        return Err(ReadError::TooManyAttributes { line: line_at(text, at) + lines_before });
-    }
-    if text.matches("xmlns").nth(limits::NAMESPACES).is_some() {
-        return Err(ReadError::TooManyNamespaces);
-    }
-    let options = |allow_dtd| ParsingOptions { allow_dtd, nodes_limit: limits::NODES, ..ParsingOptions::default() };
-    let parsed = match Document::parse_with_options(text, options(false)) {
-        Err(roxmltree::Error::DtdDetected) => match text.find("<!ENTITY") {
-            Some(at) => return Err(ReadError::Entities { line: line_at(text, at) + lines_before }),
-            None => Document::parse_with_options(text, options(true)),
-        },
-        parsed => parsed,
-    };
-    parsed.map_err(|error| match error {
-        roxmltree::Error::NodesLimitReached => ReadError::TooManyNodes,
-        error => ReadError::Xml(with_line(&error, lines_before)),
+    bounded_xml::parse(text, limits::NODES, DocumentType::WithoutEntities).map_err(|error| match error {
+        Error::TooManyAttributes { line } => ReadError::TooManyAttributes { line: line + lines_before },
+        Error::TooManyNamespaces => ReadError::TooManyNamespaces,
+        Error::TooManyNodes => ReadError::TooManyNodes,
+        Error::Entities { line } | Error::DocumentType { line } => ReadError::Entities { line: line + lines_before },
+        Error::Syntax { line, message } => ReadError::Xml(format!("line {}: {message}", line + lines_before)),
     })
-}
-
-/// Where an element begins that has more attributes than are read.
-fn crowded(text: &str) -> Option<usize> {
-    const OTHERS: [(&str, &str); 3] = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
-    let mut at = 0;
-    loop {
-        let start = at + text[at..].find('<')?;
-        let rest = &text[start..];
-        let length = match OTHERS.iter().find(|(open, _)| rest.starts_with(open)) {
-            Some((open, close)) => rest[open.len()..].find(close)? + open.len(),
-            None => tag_length(rest)?,
-        };
-        at = start + length;
-        if length == 0 {
-            return Some(start);
-        }
-    }
-}
-
-/// How long a tag is, up to its end; 0 if it has too many attributes. `None` without an end.
-fn tag_length(text: &str) -> Option<usize> {
-    let (mut quote, mut attributes) = (None, 0);
-    for (length, byte) in text.bytes().enumerate() {
-        match (quote, byte) {
-            (None, b'>') => return Some(length),
-            (None, b'"' | b'\'') => quote = Some(byte),
-            (None, b'=') => attributes += 1,
-            (Some(open), _) if open == byte => quote = None,
-            _ => {}
-        }
-        if attributes > limits::ATTRIBUTES {
-            return Some(0);
-        }
-    }
-    None
-}
-
-/// What the library says, with the line of the file as it was before its first lines were skipped.
-fn with_line(error: &roxmltree::Error, lines_before: u32) -> String {
-    let position = error.pos();
-    let text = error.to_string();
-    let place = format!(" at {}:{}", position.row, position.col);
-    format!("line {}: {}", position.row + lines_before, text.replace(&place, ""))
-}
-
-fn line_at(text: &str, at: usize) -> u32 {
-    text.as_bytes()[..at].iter().filter(|byte| **byte == b'\n').count() as u32 + 1
 }
 
 /// Reads elements and collects warnings.

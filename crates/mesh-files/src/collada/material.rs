@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use roxmltree::Node;
+use bounded_xml::Node;
 
 use super::{Elements, Reader};
 use crate::error::Result;
@@ -12,7 +12,7 @@ use crate::text::{file_name, number, percent_decoded};
 /// What was looked up already. Never iterated.
 #[derive(Default)]
 pub(super) struct Materials {
-    known: HashMap<roxmltree::NodeId, Material>,
+    known: HashMap<bounded_xml::NodeId, Material>,
     textures: HashMap<String, Option<usize>>,
 }
 

@@ -10,7 +10,7 @@ mod write;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use roxmltree::{Document, Node};
+use bounded_xml::{Document, DocumentType, Error, Node};
 pub(crate) use write::write;
 
 use crate::Resolve;
@@ -26,8 +26,8 @@ struct Reader<'a, 'r> {
     document: &'a Document<'a>,
     /// Elements by their `id`. Only looked up, never iterated.
     ids: HashMap<&'a str, Node<'a, 'a>>,
-    sources: HashMap<roxmltree::NodeId, Rc<Source>>,
-    geometries: HashMap<roxmltree::NodeId, Rc<Vec<Primitive>>>,
+    sources: HashMap<bounded_xml::NodeId, Rc<Source>>,
+    geometries: HashMap<bounded_xml::NodeId, Rc<Vec<Primitive>>>,
     materials: material::Materials,
     limits: Limits,
     file: MeshFile,
@@ -36,7 +36,7 @@ struct Reader<'a, 'r> {
 
 pub(crate) fn read(bytes: &[u8], limits: Limits, resolve: Resolve) -> Result<MeshFile> {
     let text = String::from_utf8_lossy(bytes);
-    let document = Document::parse(&text).map_err(refused)?;
+    let document = bounded_xml::parse(&text, u32::MAX, DocumentType::Refused).map_err(refused)?;
     let root = document.root_element();
     if !root.has_tag_name_of("COLLADA") {
         return Err(at(&document, root, "the first element is not COLLADA"));
@@ -86,12 +86,9 @@ impl<'a> Elements<'a> for Node<'a, 'a> {
     }
 }
 
-/// A damaged text. Document types are refused, since their entities may grow without end.
-fn refused(error: roxmltree::Error) -> ReadError {
-    let place = match error.pos() {
-        position if position.row > 0 => Place::Line(position.row as usize),
-        _ => Place::File,
-    };
+/// A damaged text.
+fn refused(error: Error) -> ReadError {
+    let place = error.line().map_or(Place::File, |line| Place::Line(line as usize));
     ReadError::new(place, "XML", error.to_string())
 }
 

@@ -1,6 +1,6 @@
 //! The visual scene: nodes with their transforms, and what they contain.
 
-use roxmltree::Node;
+use bounded_xml::Node;
 
 use super::{Elements, Reader};
 use crate::error::Result;

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use roxmltree::Node;
+use bounded_xml::Node;
 
 use super::{Elements, Reader};
 use crate::error::Result;

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use roxmltree::{Attribute, Node};
+use bounded_xml::{Attribute, Node};
 
 use super::Files;
 use crate::limits;

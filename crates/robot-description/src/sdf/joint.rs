@@ -1,6 +1,6 @@
 //! Joints of an SDF model.
 
-use roxmltree::Node;
+use bounded_xml::Node;
 
 use super::value::{PoseText, child_numbers, is_true, limit, number, pose, text};
 use crate::model::{Dynamics, JointKind, Limits, Pose};

@@ -1,6 +1,6 @@
 //! Links of an SDF model.
 
-use roxmltree::Node;
+use bounded_xml::Node;
 
 use super::value::{child_numbers, number, pose, text};
 use crate::model::{Collision, Geometry, Inertial, Link, Material, Pose, Sensor, SensorKind, Visual};

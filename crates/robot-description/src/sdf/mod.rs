@@ -11,7 +11,7 @@ mod value;
 
 pub use include::Included;
 
-use roxmltree::Node;
+use bounded_xml::Node;
 
 use crate::model::{Pose, Robot};
 use crate::report::{Parsed, ReadError, Warning};

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use roxmltree::Node;
+use bounded_xml::Node;
 
 use super::Model;
 use super::frames::{Frame, Frames, MODEL, WORLD};

@@ -1,7 +1,7 @@
 //! Values that stand as text inside of elements.
 
+use bounded_xml::Node;
 use nalgebra::{Quaternion, Translation3, UnitQuaternion};
-use roxmltree::Node;
 
 use crate::model::Pose;
 use crate::positions::from_rpy;

@@ -1,6 +1,6 @@
 //! Joints of a URDF file.
 
-use roxmltree::Node;
+use bounded_xml::Node;
 
 use super::link::read_origin;
 use crate::model::{Dynamics, Joint, JointKind, Limits, Pose};

@@ -1,7 +1,7 @@
 //! Links of a URDF file, and what is on them.
 
+use bounded_xml::Node;
 use nalgebra::Translation3;
-use roxmltree::Node;
 
 use crate::model::{Collision, Geometry, Inertial, Link, Material, Pose, Sensor, SensorKind, Visual};
 use crate::positions::from_rpy;

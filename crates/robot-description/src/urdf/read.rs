@@ -1,6 +1,6 @@
 //! Robots from URDF.
 
-use roxmltree::Node;
+use bounded_xml::Node;
 
 use super::joint::{JointText, MimicText, read_joint};
 use super::link::{read_link, read_material, read_sensor};

@@ -2,7 +2,7 @@
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use roxmltree::{Document, Node, ParsingOptions};
+use bounded_xml::{Document, DocumentType, Node};
 
 use super::Parameter;
 use crate::{Error, Result, limits};
@@ -51,9 +51,7 @@ fn text_of(bytes: &[u8]) -> Result<&str> {
 }
 
 fn parse(text: &str) -> Result<Document<'_>> {
-    // No document type, so that entities cannot multiply.
-    let options = ParsingOptions { allow_dtd: false, nodes_limit: NODES, ..ParsingOptions::default() };
-    Document::parse_with_options(text, options).map_err(|error| Error::protocol(format!("XML: {error}")))
+    bounded_xml::parse(text, NODES, DocumentType::Refused).map_err(|error| Error::protocol(format!("XML: {error}")))
 }
 
 fn child<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
