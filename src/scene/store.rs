@@ -70,7 +70,7 @@ impl Scene {
     /// Adds `object` as the last root, under a new handle and identifier and without family.
     pub(super) fn insert(&mut self, mut object: Object) -> SceneResult<Handle> {
         let handle = self.objects.free_handle()?;
-        object.old_name = self.old_names.claim(&object.old_name, handle);
+        object.old_name = self.old_names.claim(std::mem::take(&mut object.old_name), handle);
         self.enlist(handle, object);
         Ok(handle)
     }

@@ -77,39 +77,39 @@ impl Scene {
         originals: &[Handle],
         options: CopyOptions,
     ) -> SceneResult<BTreeMap<Handle, Handle>> {
-        let mut copies = BTreeMap::new();
+        let (mut copies, mut names) = (BTreeMap::new(), Vec::new());
         let all = originals.iter().try_for_each(|&original| {
-            let copy = self.copy_object(original, &copies, options)?;
+            let (copy, name) = self.copy_object(original, &copies, options)?;
             copies.insert(original, copy);
+            names.push((copy, name));
             Ok(())
         });
         for &copy in copies.values() {
             self.modify(copy, crate::scene::Field::Other, |object| redirect(object, &copies))?;
         }
-        let name = |(&original, &copy): (&Handle, &Handle)| Ok((copy, self.object(original)?.old_name().to_owned()));
-        let names = copies.iter().map(name).collect::<SceneResult<Vec<_>>>()?;
         self.number_names(&names)?;
         all.map(|()| copies)
     }
 
+    /// The copy, without a name from before aliases, and that name of the original.
     fn copy_object(
         &mut self,
         original: Handle,
         copies: &BTreeMap<Handle, Handle>,
         options: CopyOptions,
-    ) -> SceneResult<Handle> {
+    ) -> SceneResult<(Handle, String)> {
         let world = self.world_pose(original)?;
         let parent = self.ancestors(original).find_map(|above| copies.get(&above).copied());
         let direct = self.object(original)?.parent().is_some_and(|above| copies.contains_key(&above));
         let mut object = self.object(original)?.clone();
         start_anew(&mut object, options);
-        let local = object.pose;
+        let (local, name) = (object.pose, std::mem::take(&mut object.old_name));
         let copy = self.insert_unnumbered(object)?;
         self.set_parent(copy, parent, false)?;
         let pose = if direct { local } else { self.parent_frame(copy)?.inverse() * world };
         self.object_mut(copy)?.pose = normalized(pose);
         self.store_state_of_copy(copy)?;
-        Ok(copy)
+        Ok((copy, name))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Names from before aliases (spec: vrep-era 1): unique in a scene; a number after `#`, the suffix, distinguishes the copies of a model.
 
 use std::collections::BTreeMap;
+use std::fmt::Write;
 
 use crate::scene::{Field, Handle, Scene, SceneError, SceneResult};
 
@@ -19,8 +20,8 @@ pub(in crate::scene) struct OldNames {
 
 impl OldNames {
     /// Reserves a name for an object: the wished one, or the next free number at its end.
-    pub(in crate::scene) fn claim(&mut self, wished: &str, handle: Handle) -> String {
-        let name = if self.handles.contains_key(wished) { self.next_free(wished) } else { wished.to_owned() };
+    pub(in crate::scene) fn claim(&mut self, wished: String, handle: Handle) -> String {
+        let name = if self.handles.contains_key(&wished) { self.next_free(&wished) } else { wished };
         if self.handles.insert(name.clone(), handle).is_none() {
             *self.suffixes.entry(suffix(&name).0).or_default() += 1;
         }
@@ -59,6 +60,36 @@ impl OldNames {
         format!("{stem}{number}")
     }
 
+    /// The first suffix with which a stem is free.
+    fn first_free_suffix(&mut self, stem: &str) -> i64 {
+        let mut name = with_suffix(stem, 0);
+        let length = stem.len() + 1;
+        let known = self.first_free.get(&name[..length]).copied().unwrap_or(0);
+        let is_free = |number: &u64| {
+            name.truncate(length);
+            push_number(&mut name, *number);
+            !self.handles.contains_key(&name)
+        };
+        let first = (known..).find(is_free).expect("there are fewer objects than numbers");
+        if first > known {
+            name.truncate(length);
+            self.first_free.insert(name, first);
+        }
+        first as i64
+    }
+
+    /// The smallest suffix with which all stems are free, up to `limit`, with which they are.
+    fn free_suffix(&mut self, stems: &[&str], limit: i64) -> i64 {
+        if stems.iter().all(|stem| !self.handles.contains_key(*stem)) {
+            return -1;
+        }
+        let first = stems.iter().map(|stem| self.first_free_suffix(stem)).max().unwrap_or(0);
+        let is_free = |number: &i64| {
+            stems.len() == 1 || stems.iter().all(|stem| !self.handles.contains_key(&with_suffix(stem, *number)))
+        };
+        (first..limit).find(is_free).unwrap_or(limit)
+    }
+
     /// The largest suffix in use; -1 if there is none.
     fn highest_suffix(&self) -> i64 {
         self.suffixes.last_key_value().map_or(-1, |(&suffix, _)| suffix)
@@ -91,9 +122,18 @@ pub fn suffix(name: &str) -> (i64, &str) {
     }
 }
 
-fn with_suffix(name: &str, number: i64) -> String {
-    let stem = suffix(name).1;
-    if number < 0 { stem.to_owned() } else { format!("{stem}#{number}") }
+fn push_number(name: &mut String, number: u64) {
+    write!(name, "{number}").expect("a string takes all");
+}
+
+fn with_suffix(stem: &str, number: i64) -> String {
+    let mut name = String::with_capacity(stem.len() + "#00000".len());
+    name.push_str(stem);
+    if let Ok(number) = u64::try_from(number) {
+        name.push('#');
+        push_number(&mut name, number);
+    }
+    name
 }
 
 /// Whether a script may choose this name.
@@ -131,7 +171,7 @@ impl Scene {
     pub(super) fn claim_old_name(&mut self, handle: Handle, name: &str) -> SceneResult<String> {
         let previous = self.object(handle)?.old_name().to_owned();
         self.old_names.release(&previous);
-        Ok(self.old_names.claim(name, handle))
+        Ok(self.old_names.claim(name.to_owned(), handle))
     }
 
     /// The same for a name that must be legal and unused.
@@ -179,20 +219,16 @@ impl Scene {
                 self.old_names.release(name);
             }
         }
-        let mut by_suffix: BTreeMap<i64, Vec<(Handle, &str)>> = BTreeMap::new();
-        for (handle, name) in group {
-            by_suffix.entry(suffix(name).0).or_default().push((*handle, name));
-        }
-        let lowest = by_suffix.keys().next().copied().unwrap_or(-1);
+        let mut members: Vec<_> = group.iter().map(|(handle, name)| (suffix(name), *handle)).collect();
+        members.sort_by_key(|((own, _), _)| *own);
+        let lowest = members.first().map_or(-1, |((own, _), _)| *own);
         let offset = self.old_names.highest_suffix() - lowest + 1;
-        for (own, members) in by_suffix {
-            let is_free = |number: i64| {
-                members.iter().all(|(_, name)| !self.old_names.handles.contains_key(&with_suffix(name, number)))
-            };
-            let number = (-1..own + offset).find(|&number| is_free(number)).unwrap_or(own + offset);
-            for (handle, name) in members {
-                let name = self.old_names.claim(&with_suffix(name, number), handle);
-                self.modify(handle, Field::Other, |object| object.old_name = name)?;
+        for same in members.chunk_by(|a, b| a.0.0 == b.0.0) {
+            let stems: Vec<&str> = same.iter().map(|((_, stem), _)| *stem).collect();
+            let number = self.old_names.free_suffix(&stems, same[0].0.0 + offset);
+            for ((_, stem), handle) in same {
+                let name = self.old_names.claim(with_suffix(stem, number), *handle);
+                self.modify(*handle, Field::Other, |object| object.old_name = name)?;
             }
         }
         Ok(())
@@ -237,6 +273,25 @@ mod tests {
             assert_eq!([0, 1].map(|at| name(&scene, group[at].0)), expected);
         }
         assert!(scene.find_old_name("bot_motor#1").is_ok());
+    }
+
+    #[test]
+    fn copies_of_a_model_get_the_smallest_number_with_which_all_names_are_free() {
+        let mut scene = Scene::new();
+        let copy = |scene: &mut Scene| {
+            let group: Vec<_> = ["bot", "motor"].map(|name| (add(scene, "copy"), name.to_owned())).into();
+            scene.number_names(&group).expect("they exist");
+            group.into_iter().map(|(handle, _)| handle).collect::<Vec<_>>()
+        };
+        let copies: Vec<_> = (0..5).map(|_| copy(&mut scene)).collect();
+        assert_eq!(name(&scene, copies[4][1]), "motor#3");
+        scene.remove(&copies[2]).expect("they exist");
+        scene.remove(&copies[3][..1]).expect("it exists");
+        let next = [copy(&mut scene), copy(&mut scene)].map(|copy| name(&scene, copy[0]));
+        assert_eq!(next, ["bot#1", "bot#4"]);
+        let alone = add(&mut scene, "copy");
+        scene.number_names(&[(alone, "bot#7".to_owned())]).expect("it exists");
+        assert_eq!(name(&scene, alone), "bot#2");
     }
 
     #[test]
