@@ -55,6 +55,12 @@ pub(crate) trait Interpreter {
         self.call_callback(call, &[table.to_data()])
     }
 
+    /// How often code of the script has called functions of the host: without them it changes nothing but its own variables. None when
+    /// they are not counted.
+    fn host_calls(&self) -> Option<u64> {
+        None
+    }
+
     /// Calls a hook of the script; false when there is no such function.
     ///
     /// # Errors

@@ -56,7 +56,11 @@ impl Sim {
         mut next: impl FnMut(usize) -> Option<[i64; 3]>,
     ) -> (usize, Option<Data>) {
         let SoleResponder { runtime, call, .. } = responder;
-        let mut count = 0;
+        let (mut count, mut host_calls) = (0, runtime.interpreter.host_calls());
+        let mut only_lua_ran = || {
+            let before = std::mem::replace(&mut host_calls, runtime.interpreter.host_calls());
+            before.is_some() && before == host_calls
+        };
         let level = Level::enter(&self.scripts, &runtime.env);
         let result = loop {
             let Some(values) = next(count) else { break Ok(None) };
@@ -65,7 +69,7 @@ impl Sim {
             match runtime.interpreter.call_with_integers(*call, Integers { names, values: &values }) {
                 Ok(CallbackResult::Returned(Some(value))) => break Ok(Some(value)),
                 Err(error) => break Err(error),
-                Ok(_) if self.is_sole(responder) => {}
+                Ok(_) if only_lua_ran() || self.is_sole(responder) => {}
                 Ok(_) => break Ok(None),
             }
         };

@@ -33,6 +33,8 @@ pub(crate) struct Env {
     pub hooks: RefCell<Hooks>,
     /// How often code of the state has looked into local variables of functions.
     pub looks_at_locals: Cell<u64>,
+    /// How often code of the state has called functions of the host.
+    pub host_calls: Cell<u64>,
     /// Calls of this state in progress.
     pub depth: Cell<usize>,
     pub yields: Yields,
@@ -81,6 +83,7 @@ impl Env {
             hooked: Cell::new(0),
             hooks: RefCell::default(),
             looks_at_locals: Cell::new(0),
+            host_calls: Cell::new(0),
             depth: Cell::new(0),
             yields: Yields { delay_ms: Cell::new(2), ..Yields::default() },
             random: RefCell::new(Random::new(sim.options.seed)),

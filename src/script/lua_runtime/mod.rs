@@ -131,9 +131,8 @@ impl Interpreter for LuaInterpreter {
         // This is the hot path: what lies below the function stays there until the end, and from call to call where it can.
         let stack = self.stack();
         if let Some(kind) = self.bottom.push_function(stack, call) {
-            let result = run_callback(stack, bottom::HANDLER, kind, || push_args(stack, args));
-            stack.set_top(self.bottom.count().min(stack.top()));
-            return result;
+            let _clears = Clears(stack, &self.bottom);
+            return run_callback(stack, bottom::HANDLER, kind, || push_args(stack, args));
         }
         self.on_stack(|stack| {
             let handler = stack.push_message_handler();
@@ -147,15 +146,15 @@ impl Interpreter for LuaInterpreter {
         let Some(kind) = self.bottom.push_function(stack, call) else {
             return self.call_callback(call, &[table.to_data()]);
         };
-        let push = || {
+        let _clears = Clears(stack, &self.bottom);
+        run_callback(stack, bottom::HANDLER, kind, || {
             self.bottom.push_integers(stack, table);
             Ok(1)
-        };
-        let result = run_callback(stack, bottom::HANDLER, kind, push);
-        if stack.top() > self.bottom.count() {
-            stack.set_top(self.bottom.count());
-        }
-        result
+        })
+    }
+
+    fn host_calls(&self) -> Option<u64> {
+        Some(self.stack().owner().host_calls.get())
     }
 
     fn call_hook(&self, hook: &Hook, args: &[Data]) -> Result<bool, ScriptError> {
@@ -244,8 +243,23 @@ fn run_callback(
     let count = push()?;
     let base = stack.top() - count - 1;
     stack.call_above(handler, count, MULTIPLE)?;
-    let value = (stack.top() > base).then(|| data::read_data(stack, -1)).transpose()?;
-    Ok(CallbackResult::Returned(value))
+    // Most return nothing. A value that is moved right after it was written in parts takes as long as the rest of the call.
+    if stack.top() <= base {
+        return Ok(CallbackResult::Returned(None));
+    }
+    Ok(CallbackResult::Returned(Some(data::read_data(stack, -1)?)))
+}
+
+/// Lowers the stack to its bottom when a callback has ended.
+struct Clears<'a>(Stack<'a>, &'a Bottom);
+
+impl Drop for Clears<'_> {
+    fn drop(&mut self) {
+        let Self(stack, bottom) = self;
+        if stack.top() > bottom.count() {
+            stack.set_top(bottom.count());
+        }
+    }
 }
 
 /// Pushes arguments for a call; returns their number.

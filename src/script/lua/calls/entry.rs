@@ -104,6 +104,8 @@ unsafe extern "C-unwind" fn after_yield(raw: *mut ffi::lua_State, _: c_int, _: f
 
 /// Runs host code. After a panic, which is an error of the script, its text is on top.
 fn run<T>(stack: Stack<'_>, code: impl FnOnce(Stack<'_>) -> T) -> Option<T> {
+    let host_calls = &stack.owner().host_calls;
+    host_calls.set(host_calls.get() + 1);
     let budget = stack.budget();
     let before = budget.enter(true);
     let outcome = catch_unwind(AssertUnwindSafe(|| code(stack))).map_err(|panic| {
