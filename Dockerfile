@@ -6,12 +6,12 @@ FROM rust:1.89-slim-bookworm AS build
 RUN apt-get update -qq && apt-get install -y -qq --no-install-recommends g++ make pkg-config && rm -rf /var/lib/apt/lists/*
 WORKDIR /source
 COPY . .
-RUN cargo build --release --locked --bin swanilda && strip target/release/swanilda
+RUN cargo build --profile dist --locked --bin swanilda
 
 FROM debian:bookworm-slim
 RUN apt-get update -qq && apt-get install -y -qq --no-install-recommends ca-certificates libstdc++6 && rm -rf /var/lib/apt/lists/* \
     && useradd --create-home --uid 1000 swanilda
-COPY --from=build /source/target/release/swanilda /usr/local/bin/swanilda
+COPY --from=build /source/target/dist/swanilda /usr/local/bin/swanilda
 COPY LICENSE-MIT LICENSE-APACHE /usr/share/doc/swanilda/
 USER swanilda
 WORKDIR /work
