@@ -243,7 +243,7 @@ fn run_callback(
     let count = push()?;
     let base = stack.top() - count - 1;
     stack.call_above(handler, count, MULTIPLE)?;
-    // Most return nothing. A value that is moved right after it was written in parts takes as long as the rest of the call.
+    // Results are made where the caller expects them: to move one right after its parts were written stalls the processor.
     if stack.top() <= base {
         return Ok(CallbackResult::Returned(None));
     }
