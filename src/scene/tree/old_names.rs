@@ -52,30 +52,33 @@ impl OldNames {
         let (stem, own) = split_number(taken);
         let known = self.first_free.get(stem).copied().unwrap_or(0);
         let begin = own.map_or(0, |own| own.saturating_add(1)).max(known);
-        let is_free = |number: &u64| !self.handles.contains_key(&format!("{stem}{number}"));
-        let number = (begin..).find(is_free).expect("there are fewer objects than numbers");
+        let number = self.free_number(stem, begin);
         if begin == known {
             self.first_free.insert(stem.to_owned(), number + 1);
         }
         format!("{stem}{number}")
     }
 
-    /// The first suffix with which a stem is free.
-    fn first_free_suffix(&mut self, stem: &str) -> i64 {
-        let mut name = with_suffix(stem, 0);
-        let length = stem.len() + 1;
-        let known = self.first_free.get(&name[..length]).copied().unwrap_or(0);
+    /// The first number from `begin` on that makes a free name of a stem.
+    fn free_number(&self, stem: &str, begin: u64) -> u64 {
+        let mut name = stem.to_owned();
         let is_free = |number: &u64| {
-            name.truncate(length);
-            push_number(&mut name, *number);
+            name.truncate(stem.len());
+            write!(name, "{number}").expect("a string takes all");
             !self.handles.contains_key(&name)
         };
-        let first = (known..).find(is_free).expect("there are fewer objects than numbers");
-        if first > known {
-            name.truncate(length);
-            self.first_free.insert(name, first);
+        (begin..).find(is_free).expect("there are fewer objects than numbers")
+    }
+
+    /// The first suffix with which a stem is free.
+    fn first_free_suffix(&mut self, stem: &str) -> i64 {
+        let stem = [stem, "#"].concat();
+        let known = self.first_free.get(&stem).copied().unwrap_or(0);
+        let number = self.free_number(&stem, known);
+        if number > known {
+            self.first_free.insert(stem, number);
         }
-        first as i64
+        number as i64
     }
 
     /// The smallest suffix with which all stems are free, up to `limit`, with which they are.
@@ -122,18 +125,8 @@ pub fn suffix(name: &str) -> (i64, &str) {
     }
 }
 
-fn push_number(name: &mut String, number: u64) {
-    write!(name, "{number}").expect("a string takes all");
-}
-
 fn with_suffix(stem: &str, number: i64) -> String {
-    let mut name = String::with_capacity(stem.len() + "#00000".len());
-    name.push_str(stem);
-    if let Ok(number) = u64::try_from(number) {
-        name.push('#');
-        push_number(&mut name, number);
-    }
-    name
+    if number < 0 { stem.to_owned() } else { format!("{stem}#{number}") }
 }
 
 /// Whether a script may choose this name.

@@ -131,7 +131,7 @@ impl Interpreter for LuaInterpreter {
         // This is the hot path: what lies below the function stays there until the end, and from call to call where it can.
         let stack = self.stack();
         if let Some(kind) = self.bottom.push_function(stack, call) {
-            let _clears = Clears(stack, &self.bottom);
+            let _guard = StackGuard(stack, &self.bottom);
             return run_callback(stack, bottom::HANDLER, kind, || push_args(stack, args));
         }
         self.on_stack(|stack| {
@@ -146,7 +146,7 @@ impl Interpreter for LuaInterpreter {
         let Some(kind) = self.bottom.push_function(stack, call) else {
             return self.call_callback(call, &[table.to_data()]);
         };
-        let _clears = Clears(stack, &self.bottom);
+        let _guard = StackGuard(stack, &self.bottom);
         run_callback(stack, bottom::HANDLER, kind, || {
             self.bottom.push_integers(stack, table);
             Ok(1)
@@ -251,9 +251,9 @@ fn run_callback(
 }
 
 /// Lowers the stack to its bottom when a callback has ended.
-struct Clears<'a>(Stack<'a>, &'a Bottom);
+struct StackGuard<'a>(Stack<'a>, &'a Bottom);
 
-impl Drop for Clears<'_> {
+impl Drop for StackGuard<'_> {
     fn drop(&mut self) {
         let Self(stack, bottom) = self;
         if stack.top() > bottom.count() {
